@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6223c11f5aff5378
+ * FNV-1a of the lines after this comment, without the license: 4c2772f8bb45db14
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,71 +8,71 @@
  *    148 config.h     macros that a user may define before the include, the version, and the integer types
  *    227 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    373 options.h    options of all calls, threads, and the allocator
- *    502 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    644 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    816 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    942 factor.h     the numerical factorization P A P' = L D L'
- *   1145 solve.h      full solves, and the workspace of all solves
- *   1255 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1349 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1461 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1570 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1706 batch.h      many independent solves by one call, distributed over threads
- *   1756 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1934 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2053 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2156 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2295 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2413 change.h     a factor that follows small changes of its matrix
- *   2500 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2590 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *    506 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    648 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    820 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    946 factor.h     the numerical factorization P A P' = L D L'
+ *   1161 solve.h      full solves, and the workspace of all solves
+ *   1271 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1365 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1478 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1588 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1724 batch.h      many independent solves by one call, distributed over threads
+ *   1774 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1952 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2071 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2175 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2314 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2432 change.h     a factor that follows small changes of its matrix
+ *   2519 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2609 complex.h    complex Hermitian systems, solved as real ones of twice the size
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2725 base.h   2950 status.h   3011 options.h   3068 alloc.h   3178 hash.h   3308 file_map.h
- *   3404 sort.h   3468 parallel.h
+ *   2744 base.h   2969 status.h   3030 options.h   3087 alloc.h   3197 hash.h   3327 file_map.h
+ *   3423 sort.h   3487 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3501 panel.h   3523 step.h   3559 pivot_rule.h   3626 front.h   3670 pairs.h
- *   3877 inverse_front.h   3949 table.h   3974 simd.h   4015 simd_scalar.h   4133 simd_avx2.h
- *   4317 simd_avx512.h   4419 simd_neon.h   4597 dispatch.h
+ *   3520 panel.h   3542 step.h   3578 pivot_rule.h   3645 front.h   3689 pairs.h
+ *   3896 inverse_front.h   3968 table.h   3993 simd.h   4034 simd_scalar.h   4152 simd_avx2.h
+ *   4336 simd_avx512.h   4438 simd_neon.h   4616 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4677 csc.h   4791 csc_build.h   4925 csc64.h   4996 csc_triangle.h   5062 csc_products.h
- *   5179 permute.h   5245 sum.h   5327 output_file.h   5536 matrix_market.h
+ *   4696 csc.h   4810 csc_build.h   4944 csc64.h   5015 csc_triangle.h   5081 csc_products.h
+ *   5198 permute.h   5264 sum.h   5346 output_file.h   5555 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   5982 graph.h   6131 coarsen.h   6380 labels.h   6574 subgraph.h   6769 heap.h   6829 bisect.h
- *   7059 separator.h   7321 mindeg.h   7504 dissect.h   7818 levelset.h   7933 geometric.h
- *   8123 septree.h   8183 metis.h   8332 metis_refined.h   8446 nd.h   8638 compress.h
- *   8759 quotient.h   9173 order.h
+ *   6001 graph.h   6150 coarsen.h   6399 labels.h   6593 subgraph.h   6788 heap.h   6848 bisect.h
+ *   7078 separator.h   7340 mindeg.h   7523 dissect.h   7837 levelset.h   7952 geometric.h
+ *   8142 septree.h   8202 metis.h   8351 metis_refined.h   8465 nd.h   8657 compress.h
+ *   8778 quotient.h   9192 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9421 symbolic_types.h   9457 etree.h   9530 counts.h   9587 supernodes.h   9809 structure.h
- *   9930 schedule.h  10119 symbolic.h  10482 reach.h
+ *   9440 symbolic_types.h   9476 etree.h   9549 counts.h   9606 supernodes.h   9828 structure.h
+ *   9949 schedule.h  10138 symbolic.h  10501 reach.h
  * (factor: the numbers of L and D)
- *  10753 factor_types.h  11067 pivot_search.h  11413 pivoted.h  11481 scatter.h  11639 uplooking.h
- *  11711 null_vectors.h  12035 multifrontal.h  12270 nullspace.h  12456 growth.h
- *  12530 factor_setup.h  12782 factor.h  12982 leftlooking.h  13157 factor_query.h
- *  13290 combination.h
+ *  10772 factor_types.h  11091 pivot_search.h  11437 pivoted.h  11505 scatter.h  11663 uplooking.h
+ *  11735 null_product.h  11939 null_dense.h  12016 null_basis.h  12338 null_vectors.h
+ *  12473 multifrontal.h  12708 nullspace.h  12909 growth.h  12983 factor_setup.h  13250 factor.h
+ *  13450 leftlooking.h  13625 factor_query.h  13758 combination.h
  * (solve: full and local solves)
- *  13351 region_types.h  13455 work.h  13552 query.h  13726 singular.h  13941 backward.h
- *  13971 sweep.h  14146 compile.h  14339 plan.h  14446 local.h  14596 parts.h  14883 refine.h
- *  15058 refine_local.h  15273 rcond.h  15430 defects.h
+ *  13819 region_types.h  13923 work.h  14020 query.h  14194 singular.h  14461 backward.h
+ *  14491 sweep.h  14677 compile.h  14870 plan.h  14977 local.h  15127 parts.h  15414 refine.h
+ *  15589 refine_local.h  15804 rcond.h  15961 defects.h
  * (inverse: entries of the inverse, regions)
- *  15484 traversal.h  15726 traversal_run.h  15889 row_sets.h  15916 unit_vectors.h
- *  16142 bilinear.h  16319 entries.h  16600 block.h  16840 reserve.h  17030 selected.h
- *  17237 selected_query.h  17339 region_choose.h  17566 region.h
+ *  16038 traversal.h  16280 traversal_run.h  16443 row_sets.h  16470 unit_vectors.h
+ *  16696 bilinear.h  16873 entries.h  17154 block.h  17394 reserve.h  17584 selected.h
+ *  17791 selected_query.h  17893 region_choose.h  18120 region.h
  * (change: a factor that follows changes of its matrix)
- *  17814 update.h  18163 rank.h  18488 edges.h  18642 choose.h  18829 pins.h
+ *  18368 update.h  18717 rank.h  19042 edges.h  19196 choose.h  19383 pins.h
  * (save: factors in files)
- *  19401 format.h  19688 decode.h  19830 check.h  20162 write.h  20459 load.h  20724 load_inverse.h
- *  21060 load_calls.h
+ *  19955 format.h  20244 decode.h  20388 check.h  20720 write.h  21018 load.h  21283 load_inverse.h
+ *  21619 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  21259 batch_solve.h  21468 batch_factor.h  21669 batch_diagonal.h
+ *  21818 batch_solve.h  22027 batch_factor.h  22228 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  21809 hermitian.h  21954 complex_rows.h
+ *  22368 hermitian.h  22513 complex_rows.h
  * (last: undefine every internal macro)
- *  22122 undef.h
+ *  22681 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22260 multi_rhs.inl.h  22616 kernel_set.inl.h  22618 unit_triangle.inl.h  22651 two_rhs.inl.h
- *  22817 product.inl.h  22945 front.inl.h  23159 inverse_front.inl.h  23444 small_supernode.inl.h
- *  23601 single_rhs.inl.h  23850 change.inl.h
+ *  22819 multi_rhs.inl.h  23175 kernel_set.inl.h  23177 unit_triangle.inl.h  23210 two_rhs.inl.h
+ *  23376 product.inl.h  23504 front.inl.h  23718 inverse_front.inl.h  24003 small_supernode.inl.h
+ *  24160 single_rhs.inl.h  24409 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -405,7 +405,7 @@ typedef struct sl_allocator {
  *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
- *  |   sl_batch_factor                          | null_vector .. error_limit               |
+ *  |   sl_batch_factor                          | null_vector .. null_vector_count         |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
@@ -476,9 +476,9 @@ typedef struct sl_options {
     /* upper bound on the bytes of a region that has a boundary; 0: no bound */
     size_t region_bytes;
 
-    /* with SL_NULL_PIVOT_SKIP: n numbers, copied: a vector that is a null vector of each connected
-     * component that has one; 0 in all rows of a component: its null vectors are unknown; NULL: all
-     * 1 */
+    /* with SL_NULL_PIVOT_SKIP: n x null_vector_count numbers, copied. One column: a vector that is
+     * a null vector of each connected component that has one; 0 in all rows of a component: its
+     * null vectors are unknown; NULL: all 1 */
     const double *null_vector;
 
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
@@ -488,8 +488,12 @@ typedef struct sl_options {
      * backward error; 0: 1e-8; negative: never */
     double error_limit;
 
+    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
+     * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
+    size_t null_vector_count;
+
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[4];
+    const void *reserved[3];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.
@@ -971,8 +975,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
  *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
  *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
- *    stats.factor.weak. If such a component has a second null vector, as an elastic body has, its
+ *    stats.factor.weak. If such a component has a second null vector that is not given, its
  *    solutions are arbitrary in that direction; set z = 0 there.
+ *  - Components with several null vectors, as elastic bodies without supports, need all of them:
+ *    options.null_vector is then a matrix of options.null_vector_count columns, such as the 3 rigid
+ *    motions in 2D or the 6 in 3D. Each component keeps those combinations of the columns that
+ *    A Z = 0 holds for, by the bound above: a body that hangs on one hinge keeps the rotation about
+ *    it. As many of its pivots are skipped, in rows that are far from each other, and no other one
+ *    is null. The directions of translations and the center of rotations may be any; a center far
+ *    from a body costs digits. In each tree of the elimination forest, the null vectors of all
+ *    components with more than one row must not be more than the columns.
  *  - In other components, and where z is 0, null_tolerance decides. It misses null pivots whose
  *    rounding errors come from rows much heavier than their own, and takes regular pivots for null
  *    that are smaller than it.
@@ -981,12 +993,13 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *    0.
  *  - An indefinite matrix is refused: a diagonal entry or a pivot of the wrong sign beyond
  *    rounding, or a null pivot by the tolerance without a null vector.
- *  - With options.mass, weights m, every solve, full or local, computes in each component with a
- *    null pivot the x with sum m x = 0 that solves A x = b - c m. Here z is the null vector of the
- *    component, as above or computed from L, and c = z' b / z' m makes the right-hand side
- *    consistent. For a Laplacian z is constant, and x is the zero-mean solution of the Poisson
- *    problem. If all weights of a component are 0, as for a vertex without faces, all count as 1. A
- *    row of zeros is a component by itself, whatever the pattern; its x is 0.
+ *  - With options.mass, weights m, and one null vector a component, every solve, full or local,
+ *    computes in each component with a null pivot the x with sum m x = 0 that solves A x = b - c m.
+ *    Here z is the null vector of the component, as above or computed from L, and c = z' b / z' m
+ *    makes the right-hand side consistent. For a Laplacian z is constant, and x is the zero-mean
+ *    solution of the Poisson problem. If all weights of a component are 0, as for a vertex without
+ *    faces, all count as 1. A row of zeros is a component by itself, whatever the pattern; its x is
+ *    0.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -1005,8 +1018,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector, growth_limit,
- *                error_limit; may be NULL.
+ *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
+ *                growth_limit, error_limit; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
@@ -1015,13 +1028,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
  *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
  *           limit, caused by the pivot error.value of error.row; SL_ERR_UNSUPPORTED: the isa, or
- *           SL_NULL_PIVOT_SKIP with a pivoted analysis;
+ *           SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with several null vectors, or more of
+ *           them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
- *           a forward sweep, 24 bytes per row, and as many operations again.
+ *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
+ *           take k + 1 products, k more if a component has fewer, O(n k^2) operations, 24 (k + 1)
+ *           bytes per row, and 2 k operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
  *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
@@ -1372,7 +1388,8 @@ typedef enum sl_part {
  *  Parts applied one after the other give the bits of sl_factor_solve. Skipped null pivots count as
  *  0, and dividing by them gives 0: D^-1 is the pseudo-inverse. Consistency is not checked, and
  *  options.mass is not used, so that with null pivots all parts together need not give the solution
- *  of sl_factor_solve.
+ *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
+ *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
  *  F      [in]   factor of A, n x n.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
@@ -1548,7 +1565,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
 /** How inconsistent right-hand sides of a singular A are: Y = Z' B for the null vectors Z of A.
  *
  *  Column k of Z belongs to row k of sl_factor_null_rows; it is 1 there and 0 in the other null
- *  rows. Known null vectors are used as they are, others are computed from L (sl_factor_create).
+ *  rows. Known null vectors are used as they are, combinations of them where a component has
+ *  several, and others are computed from L (sl_factor_create).
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
  *  Laplacian, Y contains the sums of B over the components.
  *
@@ -2061,7 +2079,8 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_se
  * and the backward sweep continues in T. The region keeps (A^-1)_SS, so that a solve reads L in T
  * only and gives the answer of the full solve to rounding. If null pivots were skipped, A^-1 is the
  * generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency of b
- * is then checked only for null rows inside the region.
+ * is then checked only for null rows inside the region, and where components have several null
+ * vectors (options.null_vector_count), only in rows of zeros.
  */
 
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
@@ -2505,7 +2524,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and a known null vector (sl_factor_create), one pin
  *  makes a component regular, if the null vector is not 0 there. In components without pins x is 0
- *  in the null row, and b has to be consistent, which is not checked. Weights (options.mass) are
+ *  in the null rows, and b has to be consistent, which is not checked. Weights (options.mass) are
  *  not used.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
@@ -3036,7 +3055,7 @@ static int sli_options_set(const sl_options *opt) {
              opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
              opt->regularization != 0.0 || opt->signs != NULL ||
              opt->null_vector != NULL || opt->growth_limit != 0.0 ||
-             opt->error_limit != 0.0;
+             opt->error_limit != 0.0 || opt->null_vector_count != 0;
   return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
        (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
        (opt->region != NULL ? SLI_READS_REGION : 0) |
@@ -10767,6 +10786,8 @@ typedef struct sli_failure {
   double value;
 } sli_failure;
 
+#define SLI_NULL_VECTORS_MAX 32
+
 typedef struct sli_null_row {
   double z;
   double product;
@@ -10815,12 +10836,15 @@ struct sl_factor {
   sl_int n_anchors;
   sl_int *anchors;
   double *mass;
+  sl_int null_vectors;
   double *z;
   double *g;
   int has_duplicates;
   sli_null_row *rows;
   sl_int *last;
   double *rounding;
+  sl_int *chain, *row_entries;
+  double *products;
   double *center;
   double *squares;
   double *ratios;
@@ -11708,7 +11732,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
   return status;
 }
 
-/* src/impl/factor/null_vectors.h: before a factorization: components of A, and which of them have a null vector */
+/* src/impl/factor/null_product.h: A z for a candidate z of the null space of A, and the components of A */
 
 typedef struct sli_null_walk {
   sli_null_row *rows;
@@ -11912,6 +11936,407 @@ static void sli_null_components(const sli_null_walk *w, const sl_symbolic *S, co
   }
 }
 
+/* src/impl/factor/null_dense.h: dense operations on as many numbers as there are null vectors */
+
+static double sli_null_project(const double *q, sl_int vectors, sl_int count, double *x) {
+  double sum = 0.0;
+  sl_int v, j;
+  int pass;
+  for (pass = 0; pass < 2; pass++) {
+    for (v = 0; v < vectors; v++) {
+      double dot = 0.0;
+      for (j = 0; j < count; j++) {
+        dot += q[v * count + j] * x[j];
+      }
+      for (j = 0; j < count; j++) {
+        x[j] -= dot * q[v * count + j];
+      }
+    }
+  }
+  for (j = 0; j < count; j++) {
+    sum += x[j] * x[j];
+  }
+  return sqrt(sum);
+}
+
+static void sli_null_complement(const double *q, sl_int vectors, sl_int count, double *c) {
+  double all[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
+  sl_int v, i, j;
+  memcpy(all, q, (size_t)(vectors * count) * sizeof(double));
+  for (v = vectors; v < count; v++) {
+    double most = -1.0;
+    for (i = 0; i < count; i++) {
+      double norm;
+      memset(x, 0, sizeof x);
+      x[i] = 1.0;
+      norm = sli_null_project(all, v, count, x);
+      if (norm > most) {
+        most = norm;
+        for (j = 0; j < count; j++) {
+          all[v * count + j] = x[j] / norm;
+        }
+      }
+    }
+  }
+  memcpy(c, all + vectors * count, (size_t)((count - vectors) * count) * sizeof(double));
+}
+
+static void sli_null_invert(double *a, sl_int m) {
+  double b[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  sl_int i, j, k;
+  memset(b, 0, sizeof b);
+  for (k = 0; k < m; k++) {
+    b[k * m + k] = 1.0;
+  }
+  for (k = 0; k < m; k++) {
+    sl_int at = k;
+    double inverse;
+    for (i = k + 1; i < m; i++) {
+      at = fabs(a[i * m + k]) > fabs(a[at * m + k]) ? i : at;
+    }
+    inverse = 1.0 / a[at * m + k];
+    for (j = 0; j < m; j++) {
+      const double x = a[at * m + j] * inverse, y = b[at * m + j] * inverse;
+      a[at * m + j] = a[k * m + j];
+      b[at * m + j] = b[k * m + j];
+      a[k * m + j] = x;
+      b[k * m + j] = y;
+    }
+    for (i = 0; i < m; i++) {
+      const double c = a[i * m + k];
+      for (j = 0; j < m && i != k; j++) {
+        a[i * m + j] -= c * a[k * m + j];
+        b[i * m + j] -= c * b[k * m + j];
+      }
+    }
+  }
+  memcpy(a, b, (size_t)(m * m) * sizeof(double));
+}
+
+/* src/impl/factor/null_basis.h: several null vectors in each component: which of them hold, and their anchors */
+
+#define SLI_NULL_DEPENDENT 1e-11
+#define SLI_NULL_ANCHOR 0.3
+enum { SLI_NULL_IS_ANCHOR = -2  };
+
+typedef struct sli_null_part {
+  sl_factor *F;
+  double *z;
+  size_t n;
+  sl_int last, count;
+  sl_int rank;
+} sli_null_part;
+
+SLI_INLINE sli_null_part sli_null_part_of(sl_factor *F, sl_int last) {
+  sli_null_part p;
+  p.F = F;
+  p.z = F->g;
+  p.n = (size_t)F->S->n;
+  p.last = last;
+  p.count = p.rank = F->null_vectors;
+  return p;
+}
+
+static void sli_null_chain(sl_factor *F) {
+  sli_null_row *tails = F->rows;
+  sl_int k;
+  for (k = 0; k < F->S->n; k++) {
+    tails[k].up = -1;
+  }
+  for (k = 0; k < F->S->n; k++) {
+    F->chain[k] = tails[F->last[k]].up;
+    tails[F->last[k]].up = k;
+  }
+}
+
+static double sli_null_largest(const sli_null_part *p, sl_int j) {
+  const double *z = p->z + (size_t)j * p->n;
+  double largest = 0.0;
+  sl_int k;
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    largest = fabs(z[k]) > largest ? fabs(z[k]) : largest;
+  }
+  return largest;
+}
+
+static void sli_null_scale(const sli_null_part *p, sl_int j) {
+  double *z = p->z + (size_t)j * p->n;
+  int exponent;
+  sl_int k;
+  (void)frexp(sli_null_largest(p, j), &exponent);
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    z[k] = ldexp(z[k], -exponent);
+  }
+}
+
+static double sli_null_violation(const sli_null_part *p, const double *q, sl_int vectors,
+                 double *x) {
+  const double *product = p->F->products, *sizes = product + (size_t)p->count * p->n;
+  double most = 0.0, y[SLI_NULL_VECTORS_MAX];
+  sl_int k, j;
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    double norm, ratio;
+    if (!sli_is_finite(sizes[k])) {
+      return (double)INFINITY;
+    }
+    if (sizes[k] == 0.0) {
+      continue;
+    }
+    for (j = 0; j < p->count; j++) {
+      y[j] = product[(size_t)k + (size_t)j * p->n] / sizes[k];
+    }
+    norm = sli_null_project(q, vectors, p->count, y);
+    ratio = norm / (16.0 * DBL_EPSILON * p->F->row_entries[k]);
+    if (ratio > most) {
+      most = ratio;
+      for (j = 0; j < p->count; j++) {
+        x[j] = y[j] / norm;
+      }
+    }
+  }
+  return most;
+}
+
+static void sli_null_combine(const sli_null_part *p, const double *c, sl_int columns) {
+  double x[SLI_NULL_VECTORS_MAX];
+  sl_int k, v, j;
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    double *z = p->z + k;
+    for (j = 0; j < p->count; j++) {
+      x[j] = z[(size_t)j * p->n];
+    }
+    for (v = 0; v < p->count; v++) {
+      double sum = 0.0;
+      for (j = 0; j < p->count && v < columns; j++) {
+        sum += c[v * p->count + j] * x[j];
+      }
+      z[(size_t)v * p->n] = sum;
+    }
+  }
+}
+
+static sl_int sli_null_restrict(const sli_null_part *p) {
+  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  double c[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  sl_int vectors = 0;
+  memset(q, 0, sizeof q);
+  while (vectors < p->count) {
+    const double ratio = sli_null_violation(p, q, vectors, q + vectors * p->count);
+    if (!sli_is_finite(ratio)) {
+      vectors = p->count;
+    } else if (ratio > 1.0) {
+      vectors++;
+    } else {
+      break;
+    }
+  }
+  if (vectors > 0) {
+    sli_null_complement(q, vectors, p->count, c);
+    sli_null_combine(p, c, p->count - vectors);
+  }
+  return vectors;
+}
+
+static double sli_null_scalar(const sli_null_part *p, const double *a, const double *b) {
+  double sum = 0.0;
+  sl_int k;
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    sum += a[k] * b[k];
+  }
+  return sum;
+}
+
+static void sli_null_subtract(const sli_null_part *p, double *a, const double *b, double c) {
+  sl_int k;
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    a[k] -= c * b[k];
+  }
+}
+
+static void sli_null_orthonormalize(sli_null_part *p) {
+  sl_int v, j, k;
+  for (v = 0; v < p->count; v++) {
+    double *z = p->z + (size_t)v * p->n, most = -1.0;
+    sl_int at = v;
+    int pass;
+    for (j = v; j < p->count; j++) {
+      const double *other = p->z + (size_t)j * p->n;
+      const double square = sli_null_scalar(p, other, other);
+      at = square > most ? j : at;
+      most = square > most ? square : most;
+    }
+    for (k = p->last; k != -1; k = p->F->chain[k]) {
+      const double swapped = z[k];
+      z[k] = p->z[(size_t)k + (size_t)at * p->n];
+      p->z[(size_t)k + (size_t)at * p->n] = swapped;
+    }
+    for (pass = 0; pass < 2; pass++) {
+      for (j = 0; j < v && sqrt(most) > SLI_NULL_DEPENDENT; j++) {
+        const double *q = p->z + (size_t)j * p->n;
+        sli_null_subtract(p, z, q, sli_null_scalar(p, z, q));
+      }
+      most = sli_null_scalar(p, z, z);
+    }
+    if (sqrt(most) <= SLI_NULL_DEPENDENT) {
+      break;
+    }
+    for (k = p->last; k != -1; k = p->F->chain[k]) {
+      z[k] /= sqrt(most);
+    }
+    for (j = v + 1; j < p->count; j++) {
+      double *other = p->z + (size_t)j * p->n;
+      sli_null_subtract(p, other, z, sli_null_scalar(p, other, z));
+    }
+  }
+  p->rank = v;
+  for (; v < p->count; v++) {
+    for (k = p->last; k != -1; k = p->F->chain[k]) {
+      p->z[(size_t)k + (size_t)v * p->n] = 0.0;
+    }
+  }
+}
+
+static double sli_null_distance(const sli_null_part *p, sl_int k, const double *q, sl_int vectors,
+                double *x) {
+  sl_int j;
+  for (j = 0; j < p->rank; j++) {
+    x[j] = p->z[(size_t)k + (size_t)j * p->n];
+  }
+  return sli_null_project(q, vectors, p->rank, x);
+}
+
+static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
+  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX];
+  sl_int v, j, k;
+  for (v = 0; v < p->rank; v++) {
+    double *x = q + v * p->rank, most = 0.0, distance = 0.0;
+    for (k = p->last; k != -1; k = p->F->chain[k]) {
+      distance = sli_null_distance(p, k, q, v, x);
+      most = distance > most ? distance : most;
+    }
+    k = p->last;
+    while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
+      k = p->F->chain[k];
+    }
+    anchors[v] = k;
+    for (j = 0; j < p->rank; j++) {
+      x[j] /= distance;
+    }
+  }
+}
+
+static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl_int first) {
+  double a[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX], x[SLI_NULL_VECTORS_MAX];
+  sl_int i, j, k;
+  for (i = 0; i < p->rank; i++) {
+    for (j = 0; j < p->rank; j++) {
+      a[i * p->rank + j] = p->z[(size_t)anchors[i] + (size_t)j * p->n];
+    }
+  }
+  sli_null_invert(a, p->rank);
+  for (k = p->last; k != -1; k = p->F->chain[k]) {
+    double *z = p->z + k;
+    for (j = 0; j < p->count; j++) {
+      x[j] = z[(size_t)j * p->n];
+      z[(size_t)j * p->n] = 0.0;
+    }
+    for (i = 0; i < p->rank; i++) {
+      for (j = 0; j < p->rank; j++) {
+        z[(size_t)(first + i) * p->n] += x[j] * a[j * p->rank + i];
+      }
+    }
+  }
+  for (i = 0; i < p->rank; i++) {
+    for (j = 0; j < p->rank; j++) {
+      p->z[(size_t)anchors[i] + (size_t)(first + j) * p->n] = i == j ? 1.0 : 0.0;
+    }
+  }
+}
+
+static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns, int are_given) {
+  const size_t n = (size_t)F->S->n;
+  double *product = F->products, *sizes = product + (size_t)F->null_vectors * n;
+  sl_int j, k;
+  if (are_given) {
+    memset(sizes, 0, n * sizeof(double));
+  }
+  for (j = 0; j < F->null_vectors; j++) {
+    const sli_null_walk w = sli_null_product(F->S, from, by_columns, F->rows,
+                         F->g + (size_t)j * n, NULL);
+    for (k = 0; k < F->S->n; k++) {
+      const sli_null_row *row = &F->rows[sli_null_walk_row(&w, k)];
+      product[(size_t)k + (size_t)j * n] = row->product;
+      sizes[k] += are_given ? row->size : 0.0;
+      F->row_entries[k] = row->entries;
+    }
+  }
+}
+
+static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_columns) {
+  sl_int k, ruled_out = 0;
+  for (k = 0; k < F->S->n; k++) {
+    sli_null_part p = sli_null_part_of(F, k);
+    for (; F->last[k] == k && p.rank > 0; p.rank--) {
+      sli_null_scale(&p, p.rank - 1);
+    }
+  }
+  sli_null_products(F, from, by_columns, 1);
+  for (k = 0; k < F->S->n; k++) {
+    const sli_null_part p = sli_null_part_of(F, k);
+    if (F->last[k] == k) {
+      const sl_int columns = sli_null_restrict(&p);
+      F->rounding[k] = columns == p.count ? (double)INFINITY : 0.0;
+      ruled_out += columns;
+    }
+  }
+  if (ruled_out > 0) {
+    sli_null_products(F, from, by_columns, 0);
+  }
+  for (k = 0; k < F->S->n && ruled_out > 0; k++) {
+    const sli_null_part p = sli_null_part_of(F, k);
+    double x[SLI_NULL_VECTORS_MAX];
+    if (F->last[k] == k && sli_null_violation(&p, NULL, 0, x) > 4.0) {
+      F->rounding[k] = (double)INFINITY;
+    }
+  }
+}
+
+static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_columns,
+                sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
+  memcpy(F->g, F->z, (size_t)S->n * (size_t)F->null_vectors * sizeof(double));
+  sli_null_chain(F);
+  sli_null_bases_test(F, from, by_columns);
+  for (k = 0; k < S->n; k++) {
+    if (F->last[k] == k) {
+      sli_null_part p = sli_null_part_of(F, k);
+      const int is_single = F->chain[k] == -1;
+      if (F->rounding[k] == 0.0) {
+        sli_null_orthonormalize(&p);
+      } else {
+        p.rank = 0;
+      }
+      F->rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
+      if (!is_single && used + p.rank > p.count) {
+        return sli_fail(failure, SL_ERR_UNSUPPORTED, S->super_of[k], k, -1, 0.0);
+      }
+      sli_null_anchors(&p, anchors);
+      rank = p.rank;
+      p.rank = is_single ? 0 : rank;
+      sli_null_normalize(&p, anchors, used);
+      used += p.rank;
+      for (j = 0; j < rank; j++) {
+        F->chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
+      }
+    }
+    used = S->parent[k] == -1 ? 0 : used;
+  }
+  return SL_OK;
+}
+
+/* src/impl/factor/null_vectors.h: before a factorization: components of A, and which of them have a null vector */
+
 static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
   sl_int k;
   for (k = 0; k < F->S->n; k++) {
@@ -11920,7 +12345,7 @@ static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const doub
     F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
     if (!sli_is_finite(F->rounding[k])) {
       F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
-    } else if (k == last) {
+    } else if (F->null_vectors > 1 ? F->chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
       F->rule.kinds[k] = SLI_PIVOT_NULL;
     } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
       F->rule.kinds[k] = SLI_PIVOT_KEPT;
@@ -11958,12 +12383,18 @@ static double sli_null_rounding(sl_int n) {
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n), *diagonal = F->g;
-  const sli_null_walk w =
-    sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, F->z, F->g);
+  const int is_one = F->null_vectors == 1, by_columns = from->A != NULL && !F->has_duplicates;
+  const double rounding = sli_null_rounding(S->n), *z = is_one ? F->z : NULL;
+  double *diagonal =
+    is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
+  const sli_null_walk w = sli_null_product(S, from, by_columns, F->rows, z, diagonal);
   sl_int i, refused = S->n;
   F->stats.factor.regular = 0;
-  sli_null_components(&w, S, F->z, F->last, F->rounding);
+  sli_null_components(&w, S, z, F->last, F->rounding);
+  if (!is_one && sli_null_bases(F, from, by_columns, failure) != SL_OK) {
+    memset(F->D, 0, (size_t)S->n * sizeof(double));
+    return failure->status;
+  }
   for (i = 0; i < S->n; i++) {
     const sl_int k = sli_null_walk_pivot(&w, i), last = F->last[k];
     const double of_last = diagonal[sli_null_walk_row(&w, last)];
@@ -11980,12 +12411,19 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   }
   F->rule.rounding = F->rounding;
   sli_null_kinds_fill(F, &w, diagonal);
-  sli_null_vectors_load(F);
+  if (is_one) {
+    sli_null_vectors_load(F);
+  }
   return SL_OK;
 }
 
 static int sli_nulls_remain(const sl_factor *F) {
-  sl_int m;
+  sl_int m, k;
+  for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
+    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+      return 0;
+    }
+  }
   for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
     if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
       return 0;
@@ -12400,7 +12838,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  double *z = F->g;
+  double *z = F->null_vectors == 1 ? F->g : F->products;
   uint64_t random = 1;
   sli_null_walk w;
   sl_status status = SL_OK;
@@ -12427,8 +12865,22 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
       status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
     }
   }
-  sli_null_vectors_load(F);
+  if (F->null_vectors == 1) {
+    sli_null_vectors_load(F);
+  }
   return status;
+}
+
+static void sli_anchor_columns_clear(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int m, r;
+  for (m = 0; m < F->n_nulls && F->null_vectors > 1; m++) {
+    const sl_int k = F->nulls[m];
+    const sli_step *step = &S->steps[S->super_of[k]];
+    for (r = k - step->column + 1; r < step->width + step->below; r++) {
+      F->L[step->panel + sli_panel_at(step->width, r, k - step->column)] = 0.0;
+    }
+  }
 }
 
 static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
@@ -12449,6 +12901,7 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
   F->stats.factor.regular = regular;
   F->is_centered = F->mass != NULL && F->n_nulls > 0;
   F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+  sli_anchor_columns_clear(F);
   status = sli_null_pivots_verify(F, from, failure);
   return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }
@@ -12548,8 +13001,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
     F->nulls = SLI_TAKE(b, sl_int, n);
     F->rule.kinds = SLI_TAKE(b, signed char, n);
-    F->z = SLI_TAKE(b, double, n);
-    F->g = SLI_TAKE(b, double, n);
+    F->z = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
+    F->g = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
   }
   if (has_mass) {
     F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
@@ -12571,6 +13024,11 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     F->last = SLI_TAKE(b, sl_int, n);
     F->rounding = SLI_TAKE(b, double, n);
     F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+    if (F->null_vectors > 1) {
+      F->chain = SLI_TAKE(b, sl_int, n);
+      F->row_entries = SLI_TAKE(b, sl_int, n);
+      F->products = SLI_TAKE(b, double, n *((uint64_t)F->null_vectors + 2));
+    }
   }
   if (F->method == SL_METHOD_SUPERNODAL) {
     const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
@@ -12651,7 +13109,9 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
       opt->consistency_tolerance == opt->consistency_tolerance &&
       opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
       opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
-      (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE));
+      (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE) &&
+      opt->null_vector_count <= SLI_NULL_VECTORS_MAX &&
+      (opt->null_vector_count <= 1 || opt->null_vector != NULL));
 }
 
 static int sli_factor_options_are_valid(const sl_options *opt) {
@@ -12670,6 +13130,8 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
+  F->null_vectors = opt == NULL || opt->null_vector_count == 0 ? 1
+                                 : (sl_int)opt->null_vector_count;
   F->consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
   F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit, SLI_GROWTH_LIMIT);
@@ -12678,7 +13140,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
 
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
   const sl_symbolic *S = F->S;
-  sl_int i;
+  sl_int i, j;
   if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
     memset(F->rule.signs, 0, (size_t)S->n);
   } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
@@ -12693,12 +13155,16 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
   }
   if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
     memset(F->rule.kinds, 0, (size_t)S->n);
-    for (i = 0; i < S->n; i++) {
-      const double z = opt->null_vector == NULL ? 1.0 : opt->null_vector[i];
-      if (!sli_is_finite(z)) {
-        return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
+    for (j = 0; j < F->null_vectors; j++) {
+      const size_t column = (size_t)j * (size_t)S->n;
+      for (i = 0; i < S->n; i++) {
+        const double z =
+          opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
+        if (!sli_is_finite(z)) {
+          return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
+        }
+        F->z[column + (size_t)S->iperm[i]] = z;
       }
-      F->z[S->iperm[i]] = z;
     }
   }
   return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
@@ -12753,8 +13219,10 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   draft.analysis = S->identity;
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
-  status = S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP ? SL_ERR_UNSUPPORTED
-                                    : sli_factor_use(&draft, opt);
+  status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
+           (draft.is_centered && draft.null_vectors > 1)
+         ? SL_ERR_UNSUPPORTED
+         : sli_factor_use(&draft, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&draft, &b, draft.is_centered);
@@ -13805,36 +14273,87 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
 }
 
 typedef struct sli_null_dot {
-  sl_int at;
+  sl_int null;
+  sl_int number;
   double sums[SLI_TILE];
 } sli_null_dot;
 
-static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
-                 const double *b, sl_int lanes, sli_null_dot *dot) {
-  const sli_tree_range tree = sli_tree_range_of(F->S, &R->steps[root]);
+SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
+  sl_int j = 0;
+  while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+    j++;
+  }
+  return j < F->null_vectors ? j : -1;
+}
+
+static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
+               const double *b, sl_int lanes, sl_int *m, sli_null_dot *dot) {
+  const sl_int last = sli_tree_range_of(F->S, &R->steps[root]).root;
   double chains[SLI_TILE];
-  sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first), null, r;
-  dot->at = -1;
-  while (m < F->n_nulls && F->nulls[m] <= tree.root && F->g[F->nulls[m]] == 0.0) {
-    m++;
+  const double *z;
+  sl_int column = -1, r;
+  for (; *m < F->n_nulls && F->nulls[*m] <= last && column == -1; ++*m) {
+    dot->number = *m;
+    dot->null = F->nulls[*m];
+    column = sli_null_column(F, dot->null);
   }
-  if (m == F->n_nulls || F->nulls[m] > tree.root) {
-    return;
+  if (column == -1) {
+    return 0;
   }
-  null = F->nulls[m];
-  dot->at = sli_reach_index_of(R, null);
+  z = F->g + (size_t)column * (size_t)F->S->n;
   memset(chains, 0, sizeof chains);
-  for (; first <= root && dot->at != -1; first++) {
+  for (; first <= root; first++) {
     const sli_step *step = &R->steps[first];
-    const double *z = F->g + step->column, *row = b + (ptrdiff_t)step->base * lanes;
+    const double *v = z + step->column, *row = b + (ptrdiff_t)step->base * lanes;
     const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, z, row, columns, constant)
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
     SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
   }
   sli_chains_sum(chains, lanes, dot->sums);
   for (r = 0; r < lanes; r++) {
-    dot->sums[r] /= F->z[null];
+    dot->sums[r] /= z[dot->null];
+  }
+  return 1;
+}
+
+SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int root) {
+  return sli_lower_bound(F->nulls, F->n_nulls, sli_tree_range_of(F->S, &R->steps[root]).first);
+}
+
+static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const double *b,
+                   sl_int lanes, const double *norms) {
+  sl_int first = 0, s, m, r;
+  for (s = 0; s < R->count; s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    m = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+      for (r = 0; r < lanes; r++) {
+        if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+          return 0;
+        }
+      }
+    }
+    first = s + 1;
+  }
+  return 1;
+}
+
+static void sli_anchors_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+  sl_int s, m;
+  for (s = 0; s < R->count; s++) {
+    if (R->steps[s].up == -1) {
+      const sl_int last = sli_tree_range_of(F->S, &R->steps[s]).root;
+      for (m = sli_null_first(F, R, s); m < F->n_nulls && F->nulls[m] <= last; m++) {
+        const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+        if (at != -1 && F->rule.kinds[F->nulls[m]] == SLI_PIVOT_NULL) {
+          memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
+        }
+      }
+    }
   }
 }
 
@@ -13849,7 +14368,8 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
     tree = sli_tree_range_of(F->S, &R->steps[s]);
     for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
        m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-      const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+      const int is_judged = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+      const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->nulls[m]);
       for (r = 0; at != -1 && r < lanes; r++) {
         if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
           return 0;
@@ -13993,19 +14513,23 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
   const sli_reach *R = &q->forward;
   const sl_int *rows = R->rows;
   sl_int first = 0, s;
-  if (F->n_nulls == 0) {
+  if (F->n_nulls == 0 || F->null_vectors > 1) {
     F->kernels->forward[kind](R->count, R->steps, rows, F->L, v->y, v->scratch);
     return;
   }
   for (s = 0; s < R->count; s++) {
     sli_null_dot dot;
+    sl_int m, at = -1;
     if (R->steps[s].up != -1) {
       continue;
     }
-    sli_null_dot_compute(F, R, first, s, v->y, (sl_int)1 << kind, &dot);
+    m = sli_null_first(F, R, s);
+    if (sli_null_dot_next(F, R, first, s, v->y, (sl_int)1 << kind, &m, &dot)) {
+      at = sli_reach_index_of(R, dot.null);
+    }
     F->kernels->forward[kind](s + 1 - first, R->steps + first, rows, F->L, v->y, v->scratch);
-    if (dot.at != -1) {
-      memcpy(v->y + ((ptrdiff_t)dot.at << kind), dot.sums, sizeof(double) << kind);
+    if (at != -1) {
+      memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
     }
     for (; first <= s; first++) {
       rows += R->steps[first].below;
@@ -14020,6 +14544,10 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   sli_pack(q, v->y, B, at, lanes, nrhs);
   if (F->checks) {
     sli_norms(&q->forward, v->y, lanes, norms);
+    if (F->null_vectors > 1 && q->region == NULL &&
+      !sli_null_dots_are_small(F, &q->forward, v->y, lanes, norms)) {
+      return 0;
+    }
   }
   sli_sweep_forward(F, q, v, nrhs);
   return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
@@ -14029,6 +14557,9 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
                  sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
+  if (F->null_vectors > 1) {
+    sli_anchors_clear(F, &q->forward, v->y, lanes);
+  }
   if (!q->is_shared) {
     sli_sweep_transfer(q, v->y, v->x, lanes);
   }
@@ -15429,6 +15960,25 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 
 /* src/impl/solve/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
 
+static void sli_defects_known(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
+                const double *b, sl_int lanes, sl_int nrhs) {
+  const sli_reach *R = &q->forward;
+  sl_int first = 0, s, m, r;
+  for (s = 0; s < R->count; s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    m = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+      for (r = 0; r < nrhs; r++) {
+        Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
+      }
+    }
+    first = s + 1;
+  }
+}
+
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
             const double *B, size_t ldb, sl_int nrhs, void *memory) {
   sl_int c, r, m;
@@ -15436,9 +15986,13 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
     const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(q, block, memory);
     sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
+    if (F->null_vectors > 1) {
+      sli_defects_known(F, q, Y + (size_t)c * ldy, ldy, v.y, lanes, block);
+    }
     sli_sweep_forward(F, q, &v, block);
     for (m = 0; m < F->n_nulls; m++) {
-      for (r = 0; r < block; r++) {
+      const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+      for (r = 0; r < block && !is_known; r++) {
         Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
       }
     }
@@ -18875,7 +19429,7 @@ static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *nu
     return SL_OK;
   }
   *null = F->nulls[first];
-  return count > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
+  return count > 1 || F->null_vectors > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
@@ -19456,7 +20010,8 @@ typedef struct sli_saved_factor {
   double pivot_min, pivot_max, entry_max, growth;
   double null_tolerance, regularization, consistency, growth_limit, error_limit;
   uint64_t identity[2];
-  uint64_t reserved[7];
+  int64_t null_vectors;
+  uint64_t reserved[6];
 } sli_saved_factor;
 
 typedef struct sli_saved_part {
@@ -19538,6 +20093,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
   const uint64_t regularized = g->regularization != 0.0 ? n : 0;
   const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
+  const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
   const uint64_t weighted = g->has_mass ? n : 0;
   const uint64_t trees = g->has_mass ? (uint64_t)f->analysis.components : 0;
   const uint64_t anchors = g->is_centered ? (uint64_t)g->anchors : 0;
@@ -19557,8 +20113,8 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   SLI_ADD(4, regularized, regularized, (uint64_t)g->regularized);
   SLI_ADD(4, nulls, skipped, (uint64_t)g->nulls);
   SLI_ADD(1, rule.kinds, skipped, skipped);
-  SLI_ADD(8, z, skipped, skipped);
-  SLI_ADD(8, g, skipped, g->nulls > 0 ? skipped : 0);
+  SLI_ADD(8, z, vectors, vectors);
+  SLI_ADD(8, g, vectors, g->nulls > 0 ? vectors : 0);
   SLI_ADD(4, anchors, trees, anchors);
   SLI_ADD(8, squares, trees, anchors);
   SLI_ADD(8, mass, weighted, weighted);
@@ -19792,6 +20348,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
     !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
     !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
+    !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
     g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
     return 0;
   }
@@ -19802,6 +20359,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->checks = (int)g->checks;
   F->is_centered = (int)g->is_centered;
   F->n_nulls = (sl_int)g->nulls;
+  F->null_vectors = sli_max((sl_int)g->null_vectors, 1);
   F->n_anchors = (sl_int)g->anchors;
   F->consistency = g->consistency;
   F->growth_limit = g->growth_limit;
@@ -20129,7 +20687,7 @@ static int sli_check_factor(const sl_factor *F) {
     }
     if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
       (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
-       (F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
+       (F->null_vectors == 1 && F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
       return 0;
     }
     if (sli_is_skipped(F, k)) {
@@ -20219,6 +20777,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.error_limit = F->error_limit;
   g.identity[0] = F->identity.a;
   g.identity[1] = F->identity.b;
+  g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
   return g;
 }
 

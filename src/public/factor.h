@@ -35,8 +35,16 @@
  *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
  *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
  *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
- *    stats.factor.weak. If such a component has a second null vector, as an elastic body has, its
+ *    stats.factor.weak. If such a component has a second null vector that is not given, its
  *    solutions are arbitrary in that direction; set z = 0 there.
+ *  - Components with several null vectors, as elastic bodies without supports, need all of them:
+ *    options.null_vector is then a matrix of options.null_vector_count columns, such as the 3 rigid
+ *    motions in 2D or the 6 in 3D. Each component keeps those combinations of the columns that
+ *    A Z = 0 holds for, by the bound above: a body that hangs on one hinge keeps the rotation about
+ *    it. As many of its pivots are skipped, in rows that are far from each other, and no other one
+ *    is null. The directions of translations and the center of rotations may be any; a center far
+ *    from a body costs digits. In each tree of the elimination forest, the null vectors of all
+ *    components with more than one row must not be more than the columns.
  *  - In other components, and where z is 0, null_tolerance decides. It misses null pivots whose
  *    rounding errors come from rows much heavier than their own, and takes regular pivots for null
  *    that are smaller than it.
@@ -45,12 +53,13 @@
  *    0.
  *  - An indefinite matrix is refused: a diagonal entry or a pivot of the wrong sign beyond
  *    rounding, or a null pivot by the tolerance without a null vector.
- *  - With options.mass, weights m, every solve, full or local, computes in each component with a
- *    null pivot the x with sum m x = 0 that solves A x = b - c m. Here z is the null vector of the
- *    component, as above or computed from L, and c = z' b / z' m makes the right-hand side
- *    consistent. For a Laplacian z is constant, and x is the zero-mean solution of the Poisson
- *    problem. If all weights of a component are 0, as for a vertex without faces, all count as 1. A
- *    row of zeros is a component by itself, whatever the pattern; its x is 0.
+ *  - With options.mass, weights m, and one null vector a component, every solve, full or local,
+ *    computes in each component with a null pivot the x with sum m x = 0 that solves A x = b - c m.
+ *    Here z is the null vector of the component, as above or computed from L, and c = z' b / z' m
+ *    makes the right-hand side consistent. For a Laplacian z is constant, and x is the zero-mean
+ *    solution of the Poisson problem. If all weights of a component are 0, as for a vertex without
+ *    faces, all count as 1. A row of zeros is a component by itself, whatever the pattern; its x is
+ *    0.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -69,8 +78,8 @@
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
- *                consistency_tolerance, regularization, signs, null_vector, growth_limit,
- *                error_limit; may be NULL.
+ *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
+ *                growth_limit, error_limit; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
@@ -79,13 +88,16 @@
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
  *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
  *           limit, caused by the pivot error.value of error.row; SL_ERR_UNSUPPORTED: the isa, or
- *           SL_NULL_PIVOT_SKIP with a pivoted analysis;
+ *           SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with several null vectors, or more of
+ *           them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
- *           a forward sweep, 24 bytes per row, and as many operations again.
+ *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
+ *           take k + 1 products, k more if a component has fewer, O(n k^2) operations, 24 (k + 1)
+ *           bytes per row, and 2 k operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
  *           fronts. L has the same bits for any number of threads. Only the supernodal method uses

@@ -37,7 +37,7 @@ typedef struct sl_allocator {
  *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
- *  |   sl_batch_factor                          | null_vector .. error_limit               |
+ *  |   sl_batch_factor                          | null_vector .. null_vector_count         |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
@@ -108,9 +108,9 @@ typedef struct sl_options {
     /* upper bound on the bytes of a region that has a boundary; 0: no bound */
     size_t region_bytes;
 
-    /* with SL_NULL_PIVOT_SKIP: n numbers, copied: a vector that is a null vector of each connected
-     * component that has one; 0 in all rows of a component: its null vectors are unknown; NULL: all
-     * 1 */
+    /* with SL_NULL_PIVOT_SKIP: n x null_vector_count numbers, copied. One column: a vector that is
+     * a null vector of each connected component that has one; 0 in all rows of a component: its
+     * null vectors are unknown; NULL: all 1 */
     const double *null_vector;
 
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
@@ -120,8 +120,12 @@ typedef struct sl_options {
      * backward error; 0: 1e-8; negative: never */
     double error_limit;
 
+    /* the columns of null_vector, at most 32: the null vectors of each component are combinations
+     * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
+    size_t null_vector_count;
+
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[4];
+    const void *reserved[3];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.

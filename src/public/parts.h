@@ -29,7 +29,8 @@ typedef enum sl_part {
  *  Parts applied one after the other give the bits of sl_factor_solve. Skipped null pivots count as
  *  0, and dividing by them gives 0: D^-1 is the pseudo-inverse. Consistency is not checked, and
  *  options.mass is not used, so that with null pivots all parts together need not give the solution
- *  of sl_factor_solve.
+ *  of sl_factor_solve. With several null vectors a component (options.null_vector_count), null
+ *  pivots are not the last ones, and P' L D L' P differs from A in their rows and columns.
  *
  *  F      [in]   factor of A, n x n.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.

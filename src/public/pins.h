@@ -11,7 +11,7 @@
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and a known null vector (sl_factor_create), one pin
  *  makes a component regular, if the null vector is not 0 there. In components without pins x is 0
- *  in the null row, and b has to be consistent, which is not checked. Weights (options.mass) are
+ *  in the null rows, and b has to be consistent, which is not checked. Weights (options.mass) are
  *  not used.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.

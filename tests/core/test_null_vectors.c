@@ -1,9 +1,8 @@
 /* test_null_vectors.c: null pivots of Laplacians are those of the components, whatever rounding
  * does: jittered meshes, slivers, weights over 14 decades, weak bridges */
-#include "tests/lib/factored.h"
+#include "tests/lib/factor_ways.h"
 #include "tests/lib/graph_laplacian.h"
 #include "tests/lib/local_solve.h"
-#include "tests/lib/parallel_for.h"
 #include "tests/lib/zero_mean.h"
 
 enum { MESHES = 1000, FAMILIES = 4 };
@@ -144,32 +143,6 @@ static void assert_consistent_solve(const sl_csc *A, const sl_factor *F, const s
     free(sum);
     free(rows);
     free(x);
-}
-
-/* A combination, a batch and threads give the bits of a plain factorization. */
-static void assert_ways_agree(const sl_symbolic *S, const sl_csc *A, const sl_factor *F,
-                              const sl_options *plain) {
-    const double one[2] = {1.0, 1.0};
-    double *values = test_reals((size_t)sl_symbolic_entries(S) + 1);
-    const double *const terms[1] = {values};
-    sl_options opt = *plain;
-    sl_factor *G[2] = {NULL, NULL};
-    int calls = 0;
-    SL_CHECK(sl_symbolic_scatter(S, values, A, NULL));
-    SL_CHECK(sl_factor_create_combination(&G[0], S, one, terms, 1, FOR_FACTOR(&opt), NULL));
-    assert_same_bits(F, G[0]);
-    SL_CHECK(sl_factor_refactor_combination(G[0], one, terms, 1, NULL));
-    assert_same_bits(F, G[0]);
-    sl_factor_free(G[0]);
-    opt.threads.count = 3;
-    opt.threads.run = run_backwards;
-    opt.threads.context = &calls;
-    SL_CHECK(sl_batch_factor(G, 2, S, one, terms, 1, FOR_FACTOR(&opt), NULL, NULL));
-    assert_same_bits(F, G[0]);
-    assert_same_bits(F, G[1]);
-    sl_factor_free(G[0]);
-    sl_factor_free(G[1]);
-    free(values);
 }
 
 static void no_null_pivot_is_missed_or_dropped(void **state) {

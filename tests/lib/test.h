@@ -151,7 +151,8 @@ static inline sl_options options_for_analysis(const sl_options *from) {
         opt.null_pivots = SL_NULL_PIVOT_REFUSE;
         opt.null_tolerance = opt.consistency_tolerance = opt.regularization = 0;
         opt.growth_limit = opt.error_limit = 0;
-        opt.mass = NULL;
+        opt.mass = opt.null_vector = NULL;
+        opt.null_vector_count = 0;
         opt.signs = NULL;
     }
     return opt;

@@ -68,7 +68,7 @@ static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *nu
         return SL_OK;
     }
     *null = F->nulls[first];
-    return count > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
+    return count > 1 || F->null_vectors > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
 /* y := L^-1 P c, and z' c. */

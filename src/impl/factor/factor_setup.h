@@ -30,8 +30,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
         F->nulls = SLI_TAKE(b, sl_int, n);
         F->rule.kinds = SLI_TAKE(b, signed char, n);
-        F->z = SLI_TAKE(b, double, n);
-        F->g = SLI_TAKE(b, double, n);
+        F->z = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
+        F->g = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
     }
     if (has_mass) {
         F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
@@ -54,6 +54,11 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         F->last = SLI_TAKE(b, sl_int, n);
         F->rounding = SLI_TAKE(b, double, n);
         F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+        if (F->null_vectors > 1) {
+            F->chain = SLI_TAKE(b, sl_int, n);
+            F->row_entries = SLI_TAKE(b, sl_int, n);
+            F->products = SLI_TAKE(b, double, n *((uint64_t)F->null_vectors + 2));
+        }
     }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
@@ -142,7 +147,9 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
             opt->consistency_tolerance == opt->consistency_tolerance &&
             opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
             opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
-            (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE));
+            (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE) &&
+            opt->null_vector_count <= SLI_NULL_VECTORS_MAX &&
+            (opt->null_vector_count <= 1 || opt->null_vector != NULL));
 }
 
 /* Checks all options that a factorization reads. */
@@ -165,6 +172,8 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
     F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
+    F->null_vectors = opt == NULL || opt->null_vector_count == 0 ? 1
+                                                                 : (sl_int)opt->null_vector_count;
     F->consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
     F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit, SLI_GROWTH_LIMIT);
@@ -174,7 +183,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
 /* Copies the arrays that the rules refer to, into pivot order. */
 static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_stats *stats) {
     const sl_symbolic *S = F->S;
-    sl_int i;
+    sl_int i, j;
     if (F->rule.regularization != 0.0 && opt->signs == NULL && S->is_pivoted) {
         memset(F->rule.signs, 0, (size_t)S->n); /* any sign is right */
     } else if (F->rule.regularization != 0.0 && opt->signs == NULL) {
@@ -189,12 +198,16 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
     }
     if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
         memset(F->rule.kinds, 0, (size_t)S->n);
-        for (i = 0; i < S->n; i++) {
-            const double z = opt->null_vector == NULL ? 1.0 : opt->null_vector[i];
-            if (!sli_is_finite(z)) {
-                return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
+        for (j = 0; j < F->null_vectors; j++) {
+            const size_t column = (size_t)j * (size_t)S->n;
+            for (i = 0; i < S->n; i++) {
+                const double z =
+                    opt->null_vector == NULL ? 1.0 : opt->null_vector[column + (size_t)i];
+                if (!sli_is_finite(z)) {
+                    return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
+                }
+                F->z[column + (size_t)S->iperm[i]] = z;
             }
-            F->z[S->iperm[i]] = z;
         }
     }
     return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
@@ -254,8 +267,10 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     draft.analysis = S->identity;
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
-    status = S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP ? SL_ERR_UNSUPPORTED
-                                                                      : sli_factor_use(&draft, opt);
+    status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
+                     (draft.is_centered && draft.null_vectors > 1)
+                 ? SL_ERR_UNSUPPORTED
+                 : sli_factor_use(&draft, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         (void)sli_take(&b, 1, sizeof(sl_factor));
         sli_factor_layout(&draft, &b, draft.is_centered);

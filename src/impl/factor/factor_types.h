@@ -26,6 +26,8 @@ typedef struct sli_failure {
     double value;
 } sli_failure;
 
+#define SLI_NULL_VECTORS_MAX 32
+
 /* Row i of A z. A cache line holds two: the product may visit rows at random. */
 typedef struct sli_null_row {
     double z;
@@ -82,12 +84,20 @@ struct sl_factor {
     /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
     sl_int *anchors;
     double *mass;       /* n: the weights m in pivot order; NULL: none */
-    double *z;          /* n: the assumed null vectors of all components */
-    double *g;          /* n: z in trees with one component whose null vector is known, else 0 */
+    sl_int null_vectors; /* columns of z and g */
+    double *z;           /* n x null_vectors: the assumed null vectors of all components */
+    /* n x null_vectors: one: z in trees with one component whose null vector is known, else 0;
+     * several: the null vectors that are known, 1 in one anchor each and 0 in the others */
+    double *g;
     int has_duplicates; /* of the pattern; known with the scratch arrays */
     sli_null_row *rows; /* n: scratch */
     sl_int *last;       /* n: scratch, the last pivot of each component */
     double *rounding;   /* n: scratch for the rule */
+    /* scratch where there are several null vectors (null_basis.h): n: the pivot before in the
+     * component, -1 at the first one; the entries of each row of A; n x (null_vectors + 2): A z,
+     * |A| |z| and the diagonal of A */
+    sl_int *chain, *row_entries;
+    double *products;
     /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
     double *center;
     double *squares; /* components: w' D^+ w of the tree of each anchor */

@@ -170,7 +170,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    double *z = F->g; /* loaded again below */
+    double *z = F->null_vectors == 1 ? F->g : F->products; /* g is loaded again below */
     uint64_t random = 1;
     sli_null_walk w;
     sl_status status = SL_OK;
@@ -198,8 +198,24 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
             status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
         }
     }
-    sli_null_vectors_load(F);
+    if (F->null_vectors == 1) {
+        sli_null_vectors_load(F);
+    }
     return status;
+}
+
+/* Clears the columns of L at null pivots that are not the last ones of their component. Their
+ * entries were divided by SLI_NULL_PIVOT, and such small numbers are slow to compute with. */
+static void sli_anchor_columns_clear(sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sl_int m, r;
+    for (m = 0; m < F->n_nulls && F->null_vectors > 1; m++) {
+        const sl_int k = F->nulls[m];
+        const sli_step *step = &S->steps[S->super_of[k]];
+        for (r = k - step->column + 1; r < step->width + step->below; r++) {
+            F->L[step->panel + sli_panel_at(step->width, r, k - step->column)] = 0.0;
+        }
+    }
 }
 
 /* Finds the null pivots of a new factorization, counts the components without one, and prepares
@@ -222,6 +238,7 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
     F->stats.factor.regular = regular;
     F->is_centered = F->mass != NULL && F->n_nulls > 0;
     F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    sli_anchor_columns_clear(F);
     status = sli_null_pivots_verify(F, from, failure);
     return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
 }

@@ -332,7 +332,7 @@ static int sli_check_factor(const sl_factor *F) {
         }
         if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
             (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
-             (F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
+             (F->null_vectors == 1 && F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
             return 0;
         }
         if (sli_is_skipped(F, k)) {

@@ -115,6 +115,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
         !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
         !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
+        !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
         g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
         return 0;
     }
@@ -125,6 +126,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->checks = (int)g->checks;
     F->is_centered = (int)g->is_centered;
     F->n_nulls = (sl_int)g->nulls;
+    F->null_vectors = sli_max((sl_int)g->null_vectors, 1);
     F->n_anchors = (sl_int)g->anchors;
     F->consistency = g->consistency;
     F->growth_limit = g->growth_limit;

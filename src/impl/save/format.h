@@ -70,7 +70,8 @@ typedef struct sli_saved_factor {
     double pivot_min, pivot_max, entry_max, growth;
     double null_tolerance, regularization, consistency, growth_limit, error_limit;
     uint64_t identity[2];
-    uint64_t reserved[7];
+    int64_t null_vectors; /* columns of z and g; 0: 1, in files of earlier versions */
+    uint64_t reserved[6];
 } sli_saved_factor;
 
 /* Regions or a selected inverse: how many regions or supernodes, and the identity of the factor. */
@@ -158,6 +159,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     const uint64_t n = has_factor ? (uint64_t)f->analysis.n : 0;
     const uint64_t regularized = g->regularization != 0.0 ? n : 0;
     const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
+    const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
     const uint64_t weighted = g->has_mass ? n : 0;
     const uint64_t trees = g->has_mass ? (uint64_t)f->analysis.components : 0;
     const uint64_t anchors = g->is_centered ? (uint64_t)g->anchors : 0;
@@ -177,8 +179,8 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     SLI_ADD(4, regularized, regularized, (uint64_t)g->regularized);
     SLI_ADD(4, nulls, skipped, (uint64_t)g->nulls);
     SLI_ADD(1, rule.kinds, skipped, skipped);
-    SLI_ADD(8, z, skipped, skipped);
-    SLI_ADD(8, g, skipped, g->nulls > 0 ? skipped : 0);
+    SLI_ADD(8, z, vectors, vectors);
+    SLI_ADD(8, g, vectors, g->nulls > 0 ? vectors : 0);
     SLI_ADD(4, anchors, trees, anchors);
     SLI_ADD(8, squares, trees, anchors);
     SLI_ADD(8, mass, weighted, weighted);

@@ -63,6 +63,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.error_limit = F->error_limit;
     g.identity[0] = F->identity.a;
     g.identity[1] = F->identity.b;
+    g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
     return g;
 }
 

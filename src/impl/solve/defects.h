@@ -5,6 +5,26 @@
 #include "../../public/accuracy.h"
 #include "sweep.h"
 
+/* Y := z' b at the null pivots of known null vectors, for one block b. */
+static void sli_defects_known(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
+                              const double *b, sl_int lanes, sl_int nrhs) {
+    const sli_reach *R = &q->forward;
+    sl_int first = 0, s, m, r;
+    for (s = 0; s < R->count; s++) {
+        sli_null_dot dot;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        m = sli_null_first(F, R, s);
+        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+            for (r = 0; r < nrhs; r++) {
+                Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
+            }
+        }
+        first = s + 1;
+    }
+}
+
 /* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides. */
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
                         const double *B, size_t ldb, sl_int nrhs, void *memory) {
@@ -13,9 +33,13 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
         sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
+        if (F->null_vectors > 1) {
+            sli_defects_known(F, q, Y + (size_t)c * ldy, ldy, v.y, lanes, block);
+        }
         sli_sweep_forward(F, q, &v, block);
         for (m = 0; m < F->n_nulls; m++) {
-            for (r = 0; r < block; r++) {
+            const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+            for (r = 0; r < block && !is_known; r++) {
                 Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
             }
         }

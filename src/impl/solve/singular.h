@@ -91,44 +91,103 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
     return tree;
 }
 
-/* z' b of a tree's null pivot whose null vector z is known, scaled to 1 there. */
+/* z' b of a null pivot whose null vector z is known, scaled to 1 there. */
 typedef struct sli_null_dot {
-    sl_int at; /* the index of the null pivot in the reach; -1: none */
+    sl_int null;
+    sl_int number; /* among the null pivots */
     double sums[SLI_TILE];
 } sli_null_dot;
 
-/* Before the forward sweep of the tree of steps first .. root. */
-static void sli_null_dot_compute(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
-                                 const double *b, sl_int lanes, sli_null_dot *dot) {
-    const sli_tree_range tree = sli_tree_range_of(F->S, &R->steps[root]);
+/* The column of g that holds the null vector of null pivot k; -1: it is not known, or k is a row of
+ * zeros. */
+SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
+    sl_int j = 0;
+    while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+        j++;
+    }
+    return j < F->null_vectors ? j : -1;
+}
+
+/* Finds the next null pivot of a tree, from number *m on, whose null vector is known, and computes
+ * z' b before the forward sweep of the tree's steps first .. root. Returns 0 if there is none. */
+static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
+                             const double *b, sl_int lanes, sl_int *m, sli_null_dot *dot) {
+    const sl_int last = sli_tree_range_of(F->S, &R->steps[root]).root;
     double chains[SLI_TILE];
-    sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first), null, r;
-    dot->at = -1;
-    while (m < F->n_nulls && F->nulls[m] <= tree.root && F->g[F->nulls[m]] == 0.0) {
-        m++;
+    const double *z;
+    sl_int column = -1, r;
+    for (; *m < F->n_nulls && F->nulls[*m] <= last && column == -1; ++*m) {
+        dot->number = *m;
+        dot->null = F->nulls[*m];
+        column = sli_null_column(F, dot->null);
     }
-    if (m == F->n_nulls || F->nulls[m] > tree.root) {
-        return;
+    if (column == -1) {
+        return 0;
     }
-    null = F->nulls[m]; /* at most one in a tree */
-    dot->at = sli_reach_index_of(R, null);
+    z = F->g + (size_t)column * (size_t)F->S->n;
     memset(chains, 0, sizeof chains);
-    for (; first <= root && dot->at != -1; first++) {
+    for (; first <= root; first++) {
         const sli_step *step = &R->steps[first];
-        const double *z = F->g + step->column, *row = b + (ptrdiff_t)step->base * lanes;
+        const double *v = z + step->column, *row = b + (ptrdiff_t)step->base * lanes;
         const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, z, row, columns, constant)
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
         SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
     }
     sli_chains_sum(chains, lanes, dot->sums);
     for (r = 0; r < lanes; r++) {
-        dot->sums[r] /= F->z[null];
+        dot->sums[r] /= z[dot->null];
+    }
+    return 1;
+}
+
+/* The number of the first null pivot in the tree of a root. */
+SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int root) {
+    return sli_lower_bound(F->nulls, F->n_nulls, sli_tree_range_of(F->S, &R->steps[root]).first);
+}
+
+/* Before the forward sweep, where components have several null vectors: is |z' b| small for all
+ * that are known? Their null pivots need not be in the reach. */
+static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const double *b,
+                                   sl_int lanes, const double *norms) {
+    sl_int first = 0, s, m, r;
+    for (s = 0; s < R->count; s++) {
+        sli_null_dot dot;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        m = sli_null_first(F, R, s);
+        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+            for (r = 0; r < lanes; r++) {
+                if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+                    return 0;
+                }
+            }
+        }
+        first = s + 1;
+    }
+    return 1;
+}
+
+/* y := 0 at the null pivots of known null vectors where components have several. Their columns of L
+ * are 0, and a local solve may reach some of them with b only, or with x. */
+static void sli_anchors_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+    sl_int s, m;
+    for (s = 0; s < R->count; s++) {
+        if (R->steps[s].up == -1) {
+            const sl_int last = sli_tree_range_of(F->S, &R->steps[s]).root;
+            for (m = sli_null_first(F, R, s); m < F->n_nulls && F->nulls[m] <= last; m++) {
+                const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+                if (at != -1 && F->rule.kinds[F->nulls[m]] == SLI_PIVOT_NULL) {
+                    memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
+                }
+            }
+        }
     }
 }
 
 /* After the forward sweep: is |z' b| small at every null pivot? NaN and overflow pass: they show in
- * x. */
+ * x. Where components have several null vectors, those that are known have been judged already. */
 static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
                              const double *norms) {
     sl_int s, m, r;
@@ -140,7 +199,8 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
         tree = sli_tree_range_of(F->S, &R->steps[s]);
         for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
              m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-            const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+            const int is_judged = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+            const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->nulls[m]);
             for (r = 0; at != -1 && r < lanes; r++) {
                 if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
                     return 0;

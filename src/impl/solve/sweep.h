@@ -26,26 +26,31 @@ static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
                      v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
 }
 
-/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. */
+/* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
+ * components have several of them, their y(k) has no meaning. */
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                               sl_int nrhs) {
     const int kind = sli_lanes_kind(nrhs);
     const sli_reach *R = &q->forward;
     const sl_int *rows = R->rows;
     sl_int first = 0, s;
-    if (F->n_nulls == 0) {
+    if (F->n_nulls == 0 || F->null_vectors > 1) {
         F->kernels->forward[kind](R->count, R->steps, rows, F->L, v->y, v->scratch);
         return;
     }
     for (s = 0; s < R->count; s++) {
         sli_null_dot dot;
+        sl_int m, at = -1;
         if (R->steps[s].up != -1) {
             continue;
         }
-        sli_null_dot_compute(F, R, first, s, v->y, (sl_int)1 << kind, &dot);
+        m = sli_null_first(F, R, s);
+        if (sli_null_dot_next(F, R, first, s, v->y, (sl_int)1 << kind, &m, &dot)) {
+            at = sli_reach_index_of(R, dot.null);
+        }
         F->kernels->forward[kind](s + 1 - first, R->steps + first, rows, F->L, v->y, v->scratch);
-        if (dot.at != -1) {
-            memcpy(v->y + ((ptrdiff_t)dot.at << kind), dot.sums, sizeof(double) << kind);
+        if (at != -1) {
+            memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
         }
         for (; first <= s; first++) {
             rows += R->steps[first].below;
@@ -62,6 +67,10 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     sli_pack(q, v->y, B, at, lanes, nrhs);
     if (F->checks) {
         sli_norms(&q->forward, v->y, lanes, norms);
+        if (F->null_vectors > 1 && q->region == NULL &&
+            !sli_null_dots_are_small(F, &q->forward, v->y, lanes, norms)) {
+            return 0;
+        }
     }
     sli_sweep_forward(F, q, v, nrhs);
     return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
@@ -72,6 +81,9 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
                                sl_int nrhs) {
     const int kind = sli_lanes_kind(nrhs);
     const sl_int lanes = (sl_int)1 << kind;
+    if (F->null_vectors > 1) {
+        sli_anchors_clear(F, &q->forward, v->y, lanes);
+    }
     if (!q->is_shared) {
         sli_sweep_transfer(q, v->y, v->x, lanes);
     }

@@ -31,7 +31,8 @@ class Factor:
     null_pivots     'refuse' (PivotError), or 'skip': singular semidefinite matrices, Laplacians.
     null_tolerance  see sparse_local.h; 0 is its default, negative: only an exact 0 is null.
     mass            n weights m: solutions of a singular A have sum m x = 0 in each component.
-    null_vector     n numbers, if the null vector is not constant.
+    null_vector     n numbers, if the null vector is not constant; n x k: several null vectors a
+                    component, such as the 3 or 6 rigid motions of an elastic body.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
 
     Threads   any number of threads may call all methods but refactor and update at once. Calls
@@ -65,7 +66,10 @@ class Factor:
             raise ArgumentError("ordering 'given' needs perm")
         set_array("perm", perm, n, np.int32)
         set_array("mass", mass, n, np.float64)
-        set_array("null_vector", null_vector, n, np.float64)
+        if np.ndim(null_vector) == 2:
+            options.null_vector_count = np.shape(null_vector)[1]
+            null_vector = np.ravel(null_vector, order="F")
+        set_array("null_vector", null_vector, n * max(options.null_vector_count, 1), np.float64)
         set_array("signs", signs, n, np.int32)
         if coordinates is not None:
             shape = np.shape(coordinates)

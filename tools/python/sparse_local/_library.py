@@ -34,8 +34,8 @@ class Options(ctypes.Structure):
         ("purpose", _ENUM), ("isa", _ENUM), ("method", _ENUM), ("null_pivots", _ENUM),
         ("null_tolerance", _REAL), ("mass", _PTR), ("consistency_tolerance", _REAL),
         ("regularization", _REAL), ("signs", _PTR), ("region", _PTR), ("region_bytes", _SIZE),
-        ("null_vector", _PTR),
-        ("growth_limit", _REAL), ("error_limit", _REAL), ("reserved", _PTR * 4)]
+        ("null_vector", _PTR), ("growth_limit", _REAL), ("error_limit", _REAL),
+        ("null_vector_count", _SIZE), ("reserved", _PTR * 3)]
 
 
 def _struct(name, fields):

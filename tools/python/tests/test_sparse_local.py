@@ -374,6 +374,24 @@ def test_singular_and_indefinite():
     assert F.stats["factor"]["negative"] == 1 and F.logdet()[0] == -1
 
 
+def test_several_null_vectors():
+    L = grid(5, 0.0)
+    A = sp.block_diag([L, 3 * L], format="csc")  # two components with a constant each
+    Z = np.zeros((50, 2))
+    Z[:25, 0], Z[25:, 1], Z[25:, 0] = 1, 2, 1
+    b = A @ np.arange(50.0)
+    for vectors in (Z, np.asfortranarray(Z), Z[::-1]):
+        F = sl.Factor(A, null_pivots="skip", null_vector=vectors)
+        assert F.stats["factor"]["null"] == 2
+        assert np.allclose(A @ F.solve(b), b)
+    b[3] += 1
+    with pytest.raises(sl.InconsistentError):
+        F.solve(b)
+    for wrong in (np.ones((50, 33)), np.ones((49, 2)), np.ones((50, 2, 2))):
+        with pytest.raises(sl.ArgumentError):
+            sl.Factor(A, null_pivots="skip", null_vector=wrong)
+
+
 def test_malformed_matrices(A):
     with pytest.raises(sl.ArgumentError):
         sl.Factor(A[:, :10])
