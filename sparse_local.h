@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4c2772f8bb45db14
+ * FNV-1a of the lines after this comment, without the license: d3a007c510360811
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,28 +51,28 @@
  *  12473 multifrontal.h  12708 nullspace.h  12909 growth.h  12983 factor_setup.h  13250 factor.h
  *  13450 leftlooking.h  13625 factor_query.h  13758 combination.h
  * (solve: full and local solves)
- *  13819 region_types.h  13923 work.h  14020 query.h  14194 singular.h  14461 backward.h
- *  14491 sweep.h  14677 compile.h  14870 plan.h  14977 local.h  15127 parts.h  15414 refine.h
- *  15589 refine_local.h  15804 rcond.h  15961 defects.h
+ *  13819 region_types.h  13922 work.h  14019 query.h  14193 singular.h  14460 backward.h
+ *  14490 sweep.h  14676 compile.h  14869 plan.h  14976 local.h  15126 parts.h  15413 refine.h
+ *  15588 refine_local.h  15803 rcond.h  15960 defects.h
  * (inverse: entries of the inverse, regions)
- *  16038 traversal.h  16280 traversal_run.h  16443 row_sets.h  16470 unit_vectors.h
- *  16696 bilinear.h  16873 entries.h  17154 block.h  17394 reserve.h  17584 selected.h
- *  17791 selected_query.h  17893 region_choose.h  18120 region.h
+ *  16037 traversal.h  16279 traversal_run.h  16442 row_sets.h  16469 unit_vectors.h
+ *  16695 bilinear.h  16872 entries.h  17153 block.h  17393 reserve.h  17583 selected.h
+ *  17790 selected_query.h  17892 region_choose.h  18119 region.h
  * (change: a factor that follows changes of its matrix)
- *  18368 update.h  18717 rank.h  19042 edges.h  19196 choose.h  19383 pins.h
+ *  18367 update.h  18716 rank.h  19041 edges.h  19195 choose.h  19382 pins.h
  * (save: factors in files)
- *  19955 format.h  20244 decode.h  20388 check.h  20720 write.h  21018 load.h  21283 load_inverse.h
- *  21619 load_calls.h
+ *  19954 format.h  20243 decode.h  20387 check.h  20719 write.h  21017 load.h  21282 load_inverse.h
+ *  21616 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  21818 batch_solve.h  22027 batch_factor.h  22228 batch_diagonal.h
+ *  21815 batch_solve.h  22024 batch_factor.h  22225 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  22368 hermitian.h  22513 complex_rows.h
+ *  22365 hermitian.h  22510 complex_rows.h
  * (last: undefine every internal macro)
- *  22681 undef.h
+ *  22678 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22819 multi_rhs.inl.h  23175 kernel_set.inl.h  23177 unit_triangle.inl.h  23210 two_rhs.inl.h
- *  23376 product.inl.h  23504 front.inl.h  23718 inverse_front.inl.h  24003 small_supernode.inl.h
- *  24160 single_rhs.inl.h  24409 change.inl.h
+ *  22816 multi_rhs.inl.h  23172 kernel_set.inl.h  23174 unit_triangle.inl.h  23207 two_rhs.inl.h
+ *  23373 product.inl.h  23501 front.inl.h  23715 inverse_front.inl.h  24000 small_supernode.inl.h
+ *  24157 single_rhs.inl.h  24406 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2197,8 +2197,8 @@ typedef enum sl_load_checks {
     /* every index is in range and every structure consistent: with any bytes whatsoever, later
      * calls stay inside the memory of the objects and terminate. Numbers may be wrong */
     SL_LOAD_CHECKED = 0,
-    /* nothing else is checked: for files that nobody else can write. A forged or damaged file may
-     * crash later calls */
+    /* no more than loading itself needs: for files that nobody else can write. A forged or damaged
+     * file may crash the call or later ones */
     SL_LOAD_TRUSTED,
     /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
      * by accident */
@@ -13827,7 +13827,6 @@ struct sl_region {
   sli_region_extent extent;
   sl_int *roots, *rows;
   sl_int *requested;
-  sl_int inside;
   sl_int *relative;
   sl_off *begin;
   double *Z;
@@ -18128,11 +18127,6 @@ static void sli_region_index(sl_region *R) {
   R->analysis = S->identity;
   R->identity = sli_hash_ints(R->analysis, R->roots, R->extent.n_roots);
   R->identity = sli_hash_ints(R->identity, R->rows, n);
-  R->inside = 0;
-  for (k = 0; k < R->extent.n_roots; k++) {
-    const sl_int s = R->roots[k];
-    R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
-  }
   R->begin[0] = 0;
   for (k = 0; k < n; k++) {
     R->requested[k] = S->perm[R->rows[k]];
@@ -18340,9 +18334,14 @@ SL_API void sl_region_free(sl_region *R) {
 }
 
 SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
+  sl_int k;
   sli_stats_clear_error(stats);
   if (R != NULL && stats != NULL) {
-    stats->region.rows = R->inside + R->extent.n_rows;
+    stats->region.rows = R->extent.n_rows;
+    for (k = 0; k < R->extent.n_roots; k++) {
+      const sl_int s = R->roots[k], first = R->S->first_descendant[s];
+      stats->region.rows += R->S->super_first[s + 1] - R->S->super_first[first];
+    }
     stats->region.boundary = R->extent.n_rows;
     stats->region.subtrees = R->extent.n_roots;
     stats->region.entries = R->begin[sli_region_chunks(R->extent.n_rows)];
@@ -21372,7 +21371,7 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
   }
   ends = (const sl_off *)begin;
   if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
-    (r->checks != SL_LOAD_TRUSTED &&
+    ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) &&
      !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
     return SL_ERR_IO;
   }
@@ -21464,10 +21463,6 @@ static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
 
 static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *extent) {
   sl_int k, i;
-  if (!sli_check_columns(extent->roots, extent->n_roots, S->n_supers) ||
-    !sli_check_columns(extent->rows, extent->n_rows, S->n)) {
-    return 0;
-  }
   for (k = 0; k < extent->n_rows; k++) {
     if (sli_extent_find(S, extent, S->super_of[extent->rows[k]]) != -1) {
       return 0;
@@ -21505,7 +21500,9 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
   draft.is_copied = (int)record->is_copied;
   draft.is_mapped = r->is_mapped;
   draft.is_immutable = r->is_mapped || F->S->is_partial;
-  if (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent)) {
+  if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
+    !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
+    (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
     return SL_ERR_IO;
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {

@@ -27,8 +27,8 @@ typedef enum sl_load_checks {
     /* every index is in range and every structure consistent: with any bytes whatsoever, later
      * calls stay inside the memory of the objects and terminate. Numbers may be wrong */
     SL_LOAD_CHECKED = 0,
-    /* nothing else is checked: for files that nobody else can write. A forged or damaged file may
-     * crash later calls */
+    /* no more than loading itself needs: for files that nobody else can write. A forged or damaged
+     * file may crash the call or later ones */
     SL_LOAD_TRUSTED,
     /* as SL_LOAD_CHECKED, and the checksums of everything that is loaded: no byte of it has changed
      * by accident */

@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "tests/lib/saved.h"
+#include "tests/lib/saved_set.h"
 
 /* ---- saving ---- */
 
@@ -235,7 +235,7 @@ static void what_is_no_saved_factor_is_refused(void **state) {
 static void files_of_all_versions_are_read(void **state) {
     (void)state;
     dataset all;
-    int count = 0;
+    int count = 0, inverses = 0, regions = 0;
     if (!dataset_list(&all, "tests/fuzz/corpus/saved", NULL)) {
         skip();
     }
@@ -257,9 +257,24 @@ static void files_of_all_versions_are_read(void **state) {
         count++;
         sl_factor_free(F);
         sl_symbolic_free(S);
+        sl_saved_set set;
+        SL_CHECK(sl_load_set_file(&set, all.paths[k], SL_LOAD_VERIFIED, NULL));
+        inverses += set.selected != NULL;
+        regions += set.n_regions;
+        for (sl_int m = 0; m < set.n_regions; m++) {
+            const sl_region_arrays r = sl_region_view(set.regions[m]);
+            assert_null(check_region(set.regions[m], r.boundary, r.n_boundary));
+        }
+        if (set.selected != NULL) {
+            const sl_selected_arrays z = sl_selected_view(set.selected);
+            for (sl_off p = 0; p < z.begin[z.count]; p++) {
+                assert_true(z.Z[p] == z.Z[p]);
+            }
+        }
+        sl_saved_set_free(&set);
     }
     dataset_free(&all);
-    assert_true(count >= 5);
+    assert_true(count >= 20 && inverses >= 6 && regions >= 12);
 }
 
 int main(void) {

@@ -1,5 +1,5 @@
-/* fuzz_saved.c: loads, maps and uses saved factors that are arbitrary bytes, or damaged in a few
- * words with checksums that agree */
+/* fuzz_saved.c: loads, maps and uses saved factors, some with regions and a selected inverse, that
+ * are arbitrary bytes, or damaged in a few words with checksums that agree */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,11 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { SIDE = 4, MOST = SIDE * SIDE, WAYS = 6, BASES = 2 * WAYS };
+enum { SIDE = 4, MOST = SIDE * SIDE, WAYS = 6, BASES = 2 * WAYS, REGIONS = 3 };
+
+static void ignore(sl_status status) {
+    (void)status;
+}
 
 /* ---- memory: loads take no more than the saved bytes ---- */
 
@@ -79,8 +83,36 @@ static sl_csc view_of(const matrix_t *A) {
     return view;
 }
 
+/* Saves a factor in new memory, if wanted with what is made over it. */
+static unsigned char *save(sl_symbolic *S, sl_factor *F, int has_inverse, size_t *size) {
+    const sl_int few[2] = {0, 1}, *const sets[REGIONS] = {few, NULL, few};
+    const sl_int counts[REGIONS] = {2, 0, 1};
+    sl_region *regions[REGIONS] = {NULL, NULL, NULL};
+    sl_saved_set set;
+    memset(&set, 0, sizeof set);
+    set.symbolic = S;
+    set.factor = F;
+    set.regions = regions;
+    if (has_inverse) { /* a factor with weights has no regions, one with 2x2 pivots neither */
+        ignore(sl_selected_create(&set.selected, F, few, 2, NULL, NULL));
+        for (int k = 0; k < REGIONS; k++) {
+            const sl_selected *Z = k == 2 ? set.selected : NULL;
+            set.n_regions += sl_region_create(&regions[set.n_regions], F, sets[k], counts[k], Z,
+                                              NULL, NULL) == SL_OK;
+        }
+    }
+    PROMISE(sl_save_set_bytes(size, &set) == SL_OK);
+    unsigned char *bytes = (unsigned char *)malloc(*size);
+    PROMISE(bytes != NULL && sl_save_set_memory(bytes, *size, &set) == SL_OK);
+    for (int k = 0; k < REGIONS; k++) {
+        sl_region_free(regions[k]);
+    }
+    sl_selected_free(set.selected);
+    return bytes;
+}
+
 /* Saves base k in new memory. */
-static unsigned char *base_make(int base, size_t *size) {
+static unsigned char *base_make(int base, int has_inverse, size_t *size) {
     const matrix_t A = matrix_make(base);
     const int way = base % WAYS;
     const sl_csc view = view_of(&A);
@@ -104,19 +136,13 @@ static unsigned char *base_make(int base, size_t *size) {
         PROMISE(sl_symbolic_create(&S, &view, NULL, NULL) == SL_OK);
     }
     PROMISE(sl_factor_create(&F, S, &view, &opt, NULL) == SL_OK);
-    PROMISE(sl_save_bytes(size, S, F) == SL_OK);
-    unsigned char *bytes = (unsigned char *)malloc(*size);
-    PROMISE(bytes != NULL && sl_save_memory(bytes, *size, S, F) == SL_OK);
+    unsigned char *bytes = save(S, F, has_inverse, size);
     sl_factor_free(F);
     sl_symbolic_free(S);
     return bytes;
 }
 
 /* ---- use ---- */
-
-static void ignore(sl_status status) {
-    (void)status;
-}
 
 /* Every kind of call, on a factor whose structure was checked: any answer, but an end. */
 static void use(const sl_symbolic *S, sl_factor *F) {
@@ -171,6 +197,90 @@ static void use(const sl_symbolic *S, sl_factor *F) {
     free(x);
 }
 
+/* Solves in a region, with b and x on its boundary and its whole subtrees. */
+static void use_region(const sl_saved_set *set, const sl_region *R) {
+    const sl_symbolic_arrays v = sl_symbolic_view(set->symbolic);
+    const sl_region_arrays r = sl_region_view(R);
+    sl_int *rows = (sl_int *)calloc((size_t)v.n + 1, sizeof *rows), count = 0;
+    double *b = (double *)calloc(9 * ((size_t)v.n + 1), sizeof *b),
+           *x = (double *)calloc(9 * ((size_t)v.n + 1), sizeof *x);
+    sl_plan *P = NULL;
+    sl_options opt;
+    sl_stats stats;
+    PROMISE(rows != NULL && b != NULL && x != NULL);
+    PROMISE(r.n_boundary >= 0 && r.n_boundary <= v.n);
+    for (; count < r.n_boundary; count++) {
+        rows[count] = r.boundary[count];
+        b[count] = 1.0 + count;
+    }
+    for (sl_int k = 0; k < r.n_roots && count < v.n; k++) {
+        b[count] = -1.0;
+        rows[count++] = v.perm[v.super_first[r.roots[k]]];
+    }
+    memset(&opt, 0, sizeof opt);
+    opt.region = R;
+    if (sl_plan_create(&P, set->symbolic, rows, count, rows, count, &opt, &stats) == SL_OK) {
+        PROMISE(stats.plan.in_region);
+        ignore(sl_plan_solve(P, set->factor, x, (size_t)v.n + 1, b, (size_t)v.n + 1, 1, NULL));
+        ignore(sl_plan_solve(P, set->factor, x, (size_t)v.n + 1, b, (size_t)v.n + 1, 9, NULL));
+    }
+    sl_plan_free(P);
+    free(rows);
+    free(b);
+    free(x);
+}
+
+/* Every kind of call on what comes with a factor, before and after a refactorization. */
+static void use_set(const sl_saved_set *set) {
+    const sl_int n = sl_symbolic_view(set->symbolic).n, row = n / 2;
+    const matrix_t M = matrix_make(0);
+    const sl_csc A = view_of(&M);
+    double *x = (double *)calloc((size_t)n + 1, sizeof *x);
+    sl_region *R = NULL;
+    size_t size = 0;
+    PROMISE(x != NULL);
+    ignore(sl_save_set_bytes(&size, set));
+    for (sl_int k = 0; k < set->n_regions; k++) {
+        use_region(set, set->regions[k]);
+    }
+    if (set->factor != NULL && n > 0) {
+        ignore(sl_region_create(&R, set->factor, &row, 1, set->selected, NULL, NULL));
+        ignore(sl_factor_refactor(set->factor, &A, NULL));
+        sl_region_free(R);
+    }
+    for (sl_int k = 0; k < n && set->selected != NULL; k++) {
+        ignore(sl_selected_diagonal(set->selected, x, &k, 1, NULL));
+        ignore(sl_selected_entries(set->selected, x, &k, &row, 1, NULL));
+    }
+    if (set->selected != NULL) {
+        ignore(sl_selected_diagonal(set->selected, x, NULL, 0, NULL));
+        ignore(sl_selected_refactor(set->selected, set->factor, NULL));
+    }
+    for (sl_int k = 0; k < set->n_regions; k++) {
+        ignore(sl_region_refactor(set->regions[k], set->factor, set->selected, NULL));
+        use_region(set, set->regions[k]);
+    }
+    free(x);
+}
+
+static void load_set(const unsigned char *bytes, size_t size, int is_mapped,
+                     sl_load_checks checks) {
+    sl_options opt;
+    sl_saved_set set;
+    memset(&opt, 0, sizeof opt);
+    opt.allocator.allocate = allocate;
+    opt.allocator.release = release;
+    limit = size + 4096;
+    const sl_status status = is_mapped ? sl_map_set_memory(&set, bytes, size, checks, &opt)
+                                       : sl_load_set_memory(&set, bytes, size, checks, &opt);
+    limit = 0;
+    PROMISE((set.symbolic != NULL) == (status == SL_OK));
+    if (status == SL_OK && checks != SL_LOAD_TRUSTED) {
+        use_set(&set);
+    }
+    sl_saved_set_free(&set);
+}
+
 static void load(const unsigned char *bytes, size_t size, int is_mapped, sl_load_checks checks) {
     sl_options opt;
     sl_symbolic *S = NULL;
@@ -200,6 +310,9 @@ static void try_bytes(const unsigned char *bytes, size_t size) {
     load(aligned, size, 1, SL_LOAD_CHECKED);
     load(aligned, size, 0, SL_LOAD_CHECKED);
     load(aligned, size, 0, SL_LOAD_VERIFIED);
+    load_set(aligned, size, 1, SL_LOAD_TRUSTED);
+    load_set(aligned, size, 1, SL_LOAD_VERIFIED);
+    load_set(aligned, size, 0, SL_LOAD_CHECKED);
     free(block);
 }
 
@@ -238,8 +351,8 @@ static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t c
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static unsigned char *bases[BASES];
-    static size_t sizes[BASES];
+    static unsigned char *bases[2 * BASES];
+    static size_t sizes[2 * BASES];
     if (size >= 8 && data[0] == 0x89) { /* a file */
         try_bytes(data, size);
         unsigned char *copy = (unsigned char *)malloc(size);
@@ -248,10 +361,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         saved_repair(copy, size);
         try_bytes(copy, size);
         free(copy);
-    } else if (size >= 2) { /* a base, a flag and edits */
-        const int base = data[0] % BASES;
+    } else if (size >= 2) { /* a base, flags and edits */
+        const int kind = data[0] % BASES, has_inverse = data[1] >> 1 & 1;
+        const int base = kind + has_inverse * BASES;
         if (bases[base] == NULL) {
-            bases[base] = base_make(base, &sizes[base]);
+            bases[base] = base_make(kind, has_inverse, &sizes[base]);
         }
         unsigned char *copy = (unsigned char *)malloc(sizes[base]);
         PROMISE(copy != NULL);

@@ -16,11 +16,6 @@ static void sli_region_index(sl_region *R) {
     R->analysis = S->identity;
     R->identity = sli_hash_ints(R->analysis, R->roots, R->extent.n_roots);
     R->identity = sli_hash_ints(R->identity, R->rows, n);
-    R->inside = 0;
-    for (k = 0; k < R->extent.n_roots; k++) {
-        const sl_int s = R->roots[k];
-        R->inside += S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
-    }
     R->begin[0] = 0;
     for (k = 0; k < n; k++) {
         R->requested[k] = S->perm[R->rows[k]];
@@ -236,9 +231,14 @@ SL_API void sl_region_free(sl_region *R) {
 }
 
 SL_API void sl_region_stats(const sl_region *R, sl_stats *stats) {
+    sl_int k;
     sli_stats_clear_error(stats);
     if (R != NULL && stats != NULL) {
-        stats->region.rows = R->inside + R->extent.n_rows;
+        stats->region.rows = R->extent.n_rows;
+        for (k = 0; k < R->extent.n_roots; k++) {
+            const sl_int s = R->roots[k], first = R->S->first_descendant[s];
+            stats->region.rows += R->S->super_first[s + 1] - R->S->super_first[first];
+        }
         stats->region.boundary = R->extent.n_rows;
         stats->region.subtrees = R->extent.n_roots;
         stats->region.entries = R->begin[sli_region_chunks(R->extent.n_rows)];

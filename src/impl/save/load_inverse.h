@@ -106,7 +106,7 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
     }
     ends = (const sl_off *)begin;
     if (bytes % sizeof(double) != 0 || (uint64_t)ends[count] != bytes / sizeof(double) ||
-        (r->checks != SL_LOAD_TRUSTED &&
+        ((r->checks != SL_LOAD_TRUSTED || !r->is_mapped) && /* copies use the list at once */
          !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
         return SL_ERR_IO;
     }
@@ -202,13 +202,9 @@ static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
 }
 
 /* Are the subtrees disjoint, is the boundary outside of them, and does it have every row below
- * them? These are the rows below their roots. */
+ * them? These are the rows below their roots. Both lists ascend. */
 static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *extent) {
     sl_int k, i;
-    if (!sli_check_columns(extent->roots, extent->n_roots, S->n_supers) ||
-        !sli_check_columns(extent->rows, extent->n_rows, S->n)) {
-        return 0;
-    }
     for (k = 0; k < extent->n_rows; k++) {
         if (sli_extent_find(S, extent, S->super_of[extent->rows[k]]) != -1) {
             return 0;
@@ -247,7 +243,9 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     draft.is_copied = (int)record->is_copied;
     draft.is_mapped = r->is_mapped;
     draft.is_immutable = r->is_mapped || F->S->is_partial;
-    if (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent)) {
+    if (!sli_check_columns(roots, draft.extent.n_roots, F->S->n_supers) ||
+        !sli_check_columns(rows, draft.extent.n_rows, F->S->n) ||
+        (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
         return SL_ERR_IO;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

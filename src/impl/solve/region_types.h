@@ -26,7 +26,6 @@ struct sl_region {
     sli_region_extent extent;
     sl_int *roots, *rows; /* of the extent: roots of the subtrees, boundary */
     sl_int *requested;    /* boundary rows: as rows of A */
-    sl_int inside;        /* rows of A in the subtrees */
     sl_int *relative;     /* boundary rows: relative indices in the second vector of the product */
     sl_off *begin;        /* chunks + 1: where each panel begins, in doubles */
     double *Z;
