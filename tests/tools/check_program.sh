@@ -155,6 +155,41 @@ gives 0 'auto-diffusion of 162 of 162 vertices, t as it was saved' adf "$dir/f.s
 gives 0 'wanted 2 of 162 vertices, t as it was saved' heat "$dir/f.slf" --from 3 --at 4,5 --region
 gives 0 'differ by at most' pairs "$dir/f.slf" --count 20
 gives 2 'has its own time' adf "$dir/f.slf" --time 1
+# a selected inverse and a region in the file
+gives 0 'with the selected inverse and a region: made in' save sphere:2 --scaled-time 1 --selected \
+    --region 5-20 --out "$dir/r.slf"
+gives 0 '^selected inverse  *162   columns' info "$dir/r.slf"
+gives 0 '^region  *[0-9]*   rows, [1-9][0-9]* of them on its boundary' info "$dir/r.slf"
+printf '5;1;12,5\n5,12;1,0;12,5\n6-8;1,2,3;20\n5;1;100\nall;1;3\n' >"$dir/questions"
+"$program" query "$dir/f.slf" <"$dir/questions" >"$dir/out" 2>"$dir/err" &&
+    "$program" query "$dir/r.slf" <"$dir/questions" >"$dir/out2" 2>"$dir/err" &&
+    [ "$(wc -l <"$dir/out2")" -eq 5 ] && paste -d, "$dir/out" "$dir/out2" |
+    awk -F, 'BEGIN { bad = 1 } { bad = 0; for (k = 1; k <= NF / 2; k++) {
+            d = $k - $(k + NF / 2); if (d > 1e-12 || -d > 1e-12) exit 1 } } END { exit bad }' &&
+    [ "$(tail -n 2 "$dir/out")" = "$(tail -n 2 "$dir/out2")" ]
+record $? 'query: a region gives the answers of the factor; other rows are solved without it'
+"$program" save sphere:2 --scaled-time 2 --out "$dir/g.slf" >"$dir/out" 2>"$dir/err" &&
+    "$program" hks "$dir/r.slf" "$dir/g.slf" --at 7,100 >"$dir/out" 2>"$dir/err" &&
+    "$program" adf "$dir/g.slf" --at 7,100 >"$dir/out2" 2>"$dir/err" &&
+    [ "$(grep -c '^[0-9]* [0-9.]* [0-9.]*$' "$dir/out")" -eq 2 ] &&
+    [ "$(sed -n 's/^7 [0-9.]* //p' "$dir/out")" = "$(sed -n 's/^7 //p' "$dir/out2")" ]
+record $? 'hks: a saved factor gives the values of adf'
+"$program" adf "$dir/r.slf" --csv "$dir/a1.csv" >"$dir/out" 2>"$dir/err" &&
+    "$program" adf sphere:2 --scaled-time 1 --csv "$dir/a2.csv" >"$dir/out" 2>"$dir/err" &&
+    paste -d, "$dir/a1.csv" "$dir/a2.csv" | awk -F, 'NR > 1 { d = $2 / $4 - 1
+        if (d > 1e-12 || -d > 1e-12) exit 1 } END { exit NR != 163 }'
+record $? 'adf: the selected inverse of a file has the values of the mesh'
+gives 0 'at the times of 2 files' hks "$dir/r.slf" "$dir/g.slf" --csv "$dir/h.csv"
+[ "$(wc -l <"$dir/h.csv")" -eq 163 ] && head -n 1 "$dir/h.csv" | grep -q '^vertex,.*r.slf,.*g.slf$'
+record $? 'hks: a column for each file'
+"$program" save sphere:1 --out "$dir/small.slf" >"$dir/out" 2>"$dir/err"
+gives 1 'small.slf has 42' hks "$dir/f.slf" "$dir/small.slf"
+gives 2 'has its own time' hks "$dir/f.slf" --times 3
+gives 2 'no mesh for --laplacian and --like' hks "$dir/f.slf" --like 3
+gives 2 'has no mesh for --out and --png' hks "$dir/f.slf" --png "$dir/x.png"
+gives 2 'expected one mesh, or files' hks "$dir/f.slf" sphere:2
+gives 2 'expected one mesh, or files' hks sphere:2 "$dir/f.slf"
+gives 1 'there is no vertex 162' save sphere:2 --region 162 --out "$dir/x.slf"
 gives 2 'has no mesh for --out and --png' heat "$dir/f.slf" --png "$dir/x.png"
 gives 2 'has no mesh for --radius' heat "$dir/f.slf" --radius 1
 gives 1 'there is no vertex 162' adf "$dir/f.slf" --at 162

@@ -110,8 +110,7 @@ int command_adf(int argc, char **argv) {
     app_stage("auto-diffusion");
     bool all = strcmp(at, "all") == 0;
     double begin = app_now(), worst = 0;
-    app_must(sl_inverse_diagonal(h.F, values, all ? NULL : vertices, count, NULL, NULL),
-             "auto-diffusion", NULL);
+    heat_system_diagonal(&h, values, all ? NULL : vertices, count);
     double seconds = app_now() - begin;
     app_progress_end();
     double full = compare_full(values, &h, vertices, count, &worst);

@@ -7,21 +7,25 @@
 #include "command.h"
 #include "tools/cli/heat_system.h"
 
-static const options_usage usage = {"hks", "MESH", 1, 1,
+enum { FILES_MAX = 1000, TIMES = 16 };
+
+static const options_usage usage = {"hks", "MESH | FILE.slf ...", 1, FILES_MAX,
                                     "Computes heat kernel signatures of vertices."};
 
 static const options_manual manual = {
     "The signature of a vertex consists of its auto-diffusion function (see adf) at several times, "
     "which are evenly spaced on a logarithmic scale. By default the times span those of the first "
     "300 eigenvalues of the Laplacian, which Weyl's law estimates from the area of the surface. "
-    "The "
-    "pattern is analyzed once; then as many times as there are threads are factored by one call, "
-    "and another call computes their diagonals.",
+    "The pattern is analyzed once; then as many times as there are threads are factored by one "
+    "call, and another call computes their diagonals. In place of MESH there may be files of "
+    "sparse-local save, whose names end in .slf: one for each time. Their factors need not be "
+    "computed, and neither need the diagonals of files with a selected inverse.",
     "The range of times and the seconds of each phase. --csv has a column per time, headed by the "
-    "time. The picture shows the logarithm of the value at the middle time, or the distance to the "
-    "signature of --like: the root mean square of the differences of the logarithms.",
+    "time, or by the name of the file. The picture shows the logarithm of the value at the middle "
+    "time, or the distance to the signature of --like: the root mean square of the differences of "
+    "the logarithms. Of files, up to 20 signatures are printed unless --csv is given.",
     "star:6 --like 100 --png hks.png --csv hks.csv\nbunny.obj --times 8 --at 17,100-200 --csv "
-    "hks.csv"};
+    "hks.csv\nbunny1.slf bunny2.slf --at 17,100-200"};
 
 static const double pi = 3.14159265358979323846;
 
@@ -75,12 +79,58 @@ static void compute(double *values, heat_system *h, const double *times, sl_int 
     free(factors);
 }
 
-static void write_csv(const char *path, const double *values, const double *times, sl_int n_times,
-                      const sl_int *vertices, sl_int count) {
+/* values[k * count + i]: vertex i of the list, of file k. Returns the vertices of --at. */
+static sl_int *read_files(double **values, sl_int *count, const char *const *files, sl_int n_files,
+                          const char *at, const app_output *output) {
+    const heat_time none = {0, 0, 0, NULL};
+    sl_int *vertices = NULL, n = 0;
+    double began = app_now();
+    for (sl_int k = 0; k < n_files; k++) {
+        heat_system h;
+        mesh m;
+        if (!app_is_saved(files[k])) {
+            app_die_usage("unexpected operand %s: expected one mesh, or files of sparse-local save",
+                          files[k]);
+        }
+        heat_system_open(&h, &m, files[k], &none, 0, output);
+        if (k == 0) {
+            n = h.n;
+            vertices = app_vertices("at", at, n, 1, count);
+            *values = app_alloc((size_t)n_files * (size_t)*count, sizeof **values);
+        } else if (h.n != n) {
+            app_die("%s has %d rows, %s has %d", files[0], (int)n, files[k], (int)h.n);
+        }
+        heat_system_diagonal(&h, *values + (size_t)k * (size_t)*count,
+                             strcmp(at, "all") == 0 ? NULL : vertices, *count);
+        heat_system_free(&h);
+        app_progress("signatures", (double)(k + 1) / n_files);
+    }
+    app_progress_end();
+    printf("signatures of %d of %d vertices at the times of %d files, in %.4g s\n", (int)*count,
+           (int)n, (int)n_files, app_now() - began);
+    return vertices;
+}
+
+/* The name of a file as the head of a column. */
+static void print_name(FILE *csv, const char *name) {
+    for (; *name != '\0'; name++) {
+        fputc(strchr(",\"\r\n", *name) != NULL ? '_' : *name, csv);
+    }
+}
+
+/* times NULL: each column is that of a file. */
+static void write_csv(const char *path, const double *values, const double *times,
+                      const char *const *files, sl_int n_times, const sl_int *vertices,
+                      sl_int count) {
     FILE *csv = app_create(path);
     fprintf(csv, "vertex");
     for (sl_int k = 0; k < n_times; k++) {
-        fprintf(csv, ",%.17g", times[k]);
+        fprintf(csv, ",");
+        if (times != NULL) {
+            fprintf(csv, "%.17g", times[k]);
+        } else {
+            print_name(csv, files[k]);
+        }
     }
     for (sl_int i = 0; i < count; i++) {
         fprintf(csv, "\n%d", (int)vertices[i]);
@@ -160,10 +210,32 @@ static sl_int find_like(const char *like, const sl_int *vertices, sl_int count, 
     return position;
 }
 
+/* Signatures out of saved factors. */
+static void run_files(const char *const *files, const char *at, const app_output *output) {
+    sl_int n_files = 0, count = 0;
+    double *values = NULL;
+    while (n_files < FILES_MAX && files[n_files] != NULL) {
+        n_files++;
+    }
+    sl_int *vertices = read_files(&values, &count, files, n_files, at, output);
+    if (output->csv != NULL) {
+        write_csv(output->csv, values, NULL, files, n_files, vertices, count);
+    }
+    for (sl_int i = 0; i < count && count <= 20 && output->csv == NULL; i++) {
+        printf("%d", (int)vertices[i]);
+        for (sl_int k = 0; k < n_files; k++) {
+            printf(" %.17g", values[(size_t)k * (size_t)count + (size_t)i]);
+        }
+        printf("\n");
+    }
+    free(vertices);
+    free(values);
+}
+
 int command_hks(int argc, char **argv) {
-    const char *operand = NULL, *at = "all", *like = NULL, *laplacian = NULL;
+    const char *operands[FILES_MAX] = {NULL}, *at = "all", *like = NULL, *laplacian = NULL;
     double first = 0, last = 0;
-    sl_int n_times = 16, count = 0, like_position = -1;
+    sl_int n_times = -1, count = 0, like_position = -1;
     sl_threads threads = {1, NULL, NULL};
     app_output output;
     memset(&output, 0, sizeof output);
@@ -180,7 +252,24 @@ int command_hks(int argc, char **argv) {
         LAPLACIAN_OPTION(&laplacian),
         APP_OUTPUT_OPTIONS(&output),
         {OPTION_END, NULL, NULL, NULL, NULL}};
-    options_read(&usage, &manual, options, argc, argv, &operand);
+    options_read(&usage, &manual, options, argc, argv, operands);
+    const char *operand = operands[0];
+    if (app_is_saved(operand)) {
+        if (n_times >= 0 || first > 0 || last > 0) {
+            app_die_usage("%s: has its own time", operand);
+        }
+        if (laplacian != NULL || like != NULL) {
+            app_die_usage("%s: a saved factor has no mesh for --laplacian and --like", operand);
+        }
+        app_check_output(&output, output.out);
+        run_files(operands, at, &output);
+        return 0;
+    }
+    if (operands[1] != NULL) {
+        app_die_usage("unexpected operand %s: expected one mesh, or files of sparse-local save",
+                      operands[1]);
+    }
+    n_times = n_times < 0 ? TIMES : n_times;
     if (n_times < 1 || n_times > 1000) {
         app_die_usage("--times: expected 1 to 1000");
     }
@@ -208,7 +297,7 @@ int command_hks(int argc, char **argv) {
     printf("seconds: order and analyze %.4g, factors and signatures %.4g\n",
            h.stats.symbolic.seconds_order + h.stats.symbolic.seconds_analyze, app_now() - begin);
     if (output.csv != NULL) {
-        write_csv(output.csv, values, times, n_times, vertices, count);
+        write_csv(output.csv, values, times, NULL, n_times, vertices, count);
     }
     write_mesh(&output, &m, values, n_times, vertices, count, like_position);
     free(values);

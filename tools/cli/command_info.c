@@ -97,25 +97,33 @@ static void print_costs(const heat_system *h, double seconds_read, double second
 
 /* A file of sparse-local save, completely verified. */
 static void print_saved(const char *path) {
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
+    sl_saved_set set;
     sl_stats s;
     memset(&s, 0, sizeof s);
-    app_must(sl_load_file(&S, &F, path, SL_LOAD_VERIFIED, NULL), path, NULL);
-    sl_symbolic_stats(S, &s);
+    app_must(sl_load_set_file(&set, path, SL_LOAD_VERIFIED, NULL), path, NULL);
+    sl_symbolic_stats(set.symbolic, &s);
     printf("%s\n", path);
     printf("matrix               %12d   rows, %lld entries of the lower triangle\n",
            (int)s.symbolic.n, (long long)s.symbolic.nnz_a);
-    print_analysis(S, &s);
-    if (F != NULL) {
-        sl_factor_stats(F, &s);
+    print_analysis(set.symbolic, &s);
+    if (set.factor != NULL) {
+        sl_factor_stats(set.factor, &s);
         print_factor(&s);
         printf("signs of the pivots  %12d   positive, %d negative, %d null, %d regularized\n",
                (int)s.factor.positive, (int)s.factor.negative, (int)s.factor.null,
                (int)s.factor.regularized);
     }
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    if (set.selected != NULL) {
+        sl_selected_stats(set.selected, &s);
+        printf("selected inverse     %12d   columns, %lld entries\n", (int)s.selected.columns,
+               (long long)s.selected.entries);
+    }
+    for (sl_int k = 0; k < set.n_regions; k++) {
+        sl_region_stats(set.regions[k], &s);
+        printf("region               %12d   rows, %d of them on its boundary\n", (int)s.region.rows,
+               (int)s.region.boundary);
+    }
+    sl_saved_set_free(&set);
 }
 
 static double time_solve(const heat_system *h) {

@@ -6,6 +6,7 @@
 
 #include "app.h"
 #include "command.h"
+#include "saved_file.h"
 #include "solve_accuracy.h"
 
 static const options_usage usage = {"query", "FILE.slf", 1, 1,
@@ -17,7 +18,9 @@ static const options_manual manual = {
     "VALUES "
     "are the entries of b in the rows of B, separated by commas, or one value for all of them. All "
     "other entries of b are 0. Empty lines and lines that begin with # are skipped. The file is "
-    "mapped: processes that use it at the same time share one copy in memory.",
+    "mapped: processes that use it at the same time share one copy in memory. Where B and X are in "
+    "a region that the file has (save --region), only that part of the factor is read, and answers "
+    "agree with others to rounding.",
     "For each question a line with the entries of x in the rows of X, separated by commas, with "
     "all digits. A malformed question ends the program.",
     "hills.slf < questions.txt > answers.csv"};
@@ -87,7 +90,38 @@ static double *read_values(const char *text, sl_int count, long number) {
     return values;
 }
 
-static void answer(const sl_factor *F, sl_int n, char *text, long number, sl_work *W) {
+/* A question, and its answer in x. */
+typedef struct query_solve {
+    const sl_int *b_rows, *x_rows;
+    sl_int nb, nx;
+    const double *b;
+    double *x;
+} query_solve;
+
+/* Solves in the first region that contains all rows; *found: there is one. */
+static sl_status solve_in_region(const query_solve *q, const sl_saved_set *set, sl_work *W,
+                                 bool *found) {
+    sl_status status = SL_OK;
+    *found = false;
+    for (sl_int k = 0; k < set->n_regions && status == SL_OK && !*found; k++) {
+        sl_options opt;
+        sl_stats stats;
+        sl_plan *P = NULL;
+        memset(&opt, 0, sizeof opt);
+        opt.region = set->regions[k];
+        status =
+            sl_plan_create(&P, set->symbolic, q->b_rows, q->nb, q->x_rows, q->nx, &opt, &stats);
+        *found = status == SL_OK && stats.plan.in_region;
+        if (*found) {
+            status = sl_plan_solve(P, set->factor, q->x, (size_t)q->nx, q->b, (size_t)q->nb, 1, W);
+        }
+        sl_plan_free(P);
+    }
+    return status;
+}
+
+static void answer(const sl_saved_set *set, char *text, long number, sl_work *W) {
+    const sl_int n = sl_symbolic_view(set->symbolic).n;
     char *values = strchr(text, ';'), *xset = values == NULL ? NULL : strchr(values + 1, ';');
     sl_int nb = 0, nx = 0;
     if (xset == NULL || strchr(xset + 1, ';') != NULL) {
@@ -98,8 +132,13 @@ static void answer(const sl_factor *F, sl_int n, char *text, long number, sl_wor
     sl_int *b_rows = app_vertices("b", text, n, 1, &nb),
            *x_rows = app_vertices("x", xset, n, 1, &nx);
     double *b = read_values(values, nb, number), *x = app_alloc((size_t)nx, sizeof *x);
-    const sl_status status =
-        sl_local_solve(F, b_rows, nb, x_rows, nx, x, (size_t)nx, b, (size_t)nb, 1, W, NULL);
+    const query_solve q = {b_rows, x_rows, nb, nx, b, x};
+    bool found;
+    sl_status status = solve_in_region(&q, set, W, &found);
+    if (status == SL_OK && !found) {
+        status = sl_local_solve(set->factor, b_rows, nb, x_rows, nx, x, (size_t)nx, b, (size_t)nb,
+                                1, W, NULL);
+    }
     if (status != SL_OK) {
         app_die("line %ld: %s", number, sl_status_string(status));
     }
@@ -126,26 +165,18 @@ int command_query(int argc, char **argv) {
     if (trusted && verified) {
         app_die_usage("--trusted and --verify exclude each other");
     }
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
+    sl_saved_set set;
     sl_work *W = NULL;
     query_line line = {NULL, 0, 0};
     sl_load_checks checks = trusted    ? SL_LOAD_TRUSTED
                             : verified ? SL_LOAD_VERIFIED
                                        : SL_LOAD_CHECKED;
-    sl_status status = sl_map_file(&S, &F, operand, checks, NULL);
-    if (status == SL_ERR_UNSUPPORTED) { /* the other byte order, or a system that maps no files */
-        status = sl_load_file(&S, &F, operand, checks, NULL);
-    }
-    app_must(status, operand, NULL);
-    if (F == NULL) {
-        app_die("%s: holds an analysis without a factor", operand);
-    }
-    accuracy_warn(NULL, F, NULL);
+    saved_file_open(&set, operand, checks);
+    accuracy_warn(NULL, set.factor, NULL);
     app_must(sl_work_create(&W, NULL), "workspace", NULL);
     while (read_line(&line, stdin)) {
         if (line.text[0] != '\0' && line.text[0] != '#') {
-            answer(F, sl_symbolic_view(S).n, line.text, line.number, W);
+            answer(&set, line.text, line.number, W);
             if (prompt) {
                 (void)fflush(stdout);
             }
@@ -153,7 +184,6 @@ int command_query(int argc, char **argv) {
     }
     free(line.text);
     sl_work_free(W);
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    sl_saved_set_free(&set);
     return 0;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "saved_file.h"
 #include "tools/geometry/laplacian.h"
 
 static void check_time(double t) {
@@ -85,18 +86,19 @@ void heat_system_create(heat_system *h, const mesh *m, double t, const char *lap
     heat_system_warn(h, h->F, t);
 }
 
-/* Maps a saved factor. A file of the other byte order is loaded. */
+/* Opens a saved factor. Its regions are not used. */
 static void open_saved(heat_system *h, mesh *m, const char *path) {
     memset(h, 0, sizeof *h);
     memset(m, 0, sizeof *m);
-    sl_status status = sl_map_file(&h->S, &h->F, path, SL_LOAD_CHECKED, NULL);
-    if (status == SL_ERR_UNSUPPORTED) {
-        status = sl_load_file(&h->S, &h->F, path, SL_LOAD_CHECKED, NULL);
-    }
-    app_must(status, path, NULL);
-    if (h->F == NULL) {
-        app_die("%s: holds an analysis without a factor", path);
-    }
+    sl_saved_set set;
+    saved_file_open(&set, path, SL_LOAD_CHECKED);
+    h->S = set.symbolic;
+    h->F = set.factor;
+    h->selected = set.selected;
+    set.symbolic = NULL;
+    set.factor = NULL;
+    set.selected = NULL;
+    sl_saved_set_free(&set);
     sl_symbolic_stats(h->S, &h->stats);
     sl_factor_stats(h->F, &h->stats);
     h->stats.error.row = -1;
@@ -130,6 +132,18 @@ const char *heat_system_time(const heat_system *h) {
     return isnan(h->t) ? "t as it was saved" : text;
 }
 
+void heat_system_diagonal(const heat_system *h, double *values, const sl_int *vertices,
+                          sl_int count) {
+    sl_status status = SL_ERR_PATTERN;
+    if (h->selected != NULL) {
+        status = sl_selected_diagonal(h->selected, values, vertices, count, NULL);
+    }
+    if (status == SL_ERR_PATTERN) { /* there is none, or it does not have all of them */
+        status = sl_inverse_diagonal(h->F, values, vertices, count, NULL, NULL);
+    }
+    app_must(status, "auto-diffusion", NULL);
+}
+
 void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, sl_int count,
                          const sl_threads *threads) {
     const double *const terms[2] = {h->terms[0], h->terms[1]};
@@ -152,6 +166,7 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
 }
 
 void heat_system_free(heat_system *h) {
+    sl_selected_free(h->selected);
     sl_factor_free(h->F);
     sl_symbolic_free(h->S);
     sl_matrix_free(h->laplacian);

@@ -31,6 +31,7 @@ typedef struct heat_system {
     accuracy_faces faces; /* of the triangulation that L is of */
     sl_symbolic *S;
     sl_factor *F;            /* NULL: analyzed only */
+    sl_selected *selected;   /* of a file that has one; or NULL */
     sl_stats stats;          /* of analysis and factorization */
     double seconds_assemble; /* for L and M */
 } heat_system;
@@ -56,7 +57,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t, const char *lap
 /** The system of a command's operand: of a mesh, whose time the options select as in
  *  heat_time_value, or of a file of sparse-local save, which is mapped.
  *
- *  h       [out]  of a file: S and F only.
+ *  h       [out]  of a file: S, F and, if it has one, the selected inverse.
  *  m       [out]  the mesh; of a file: as many vertices as there are rows, without coordinates and
  *                 faces.
  *  output  [in]   with a file, options that need the mesh are refused: times, pictures, meshes.
@@ -67,6 +68,15 @@ void heat_system_open(heat_system *h, mesh *m, const char *operand, const heat_t
 /** "t = 0.01", or that the time is the one that the file was saved with; valid until the next
  *  call. */
 const char *heat_system_time(const heat_system *h);
+
+/** The auto-diffusion function of some vertices: diagonal entries of the inverse of h->F, read from
+ *  the selected inverse if it has all of them.
+ *
+ *  values    [out]  count values.
+ *  vertices  [in]   count vertices; NULL: all n, which count must be.
+ */
+void heat_system_diagonal(const heat_system *h, double *values, const sl_int *vertices,
+                          sl_int count);
 
 /** Factors M + t[k] L for several times in one call.
  *

@@ -1,0 +1,15 @@
+/* saved_file.c: opens a file of sparse-local save */
+#include "saved_file.h"
+
+#include "app.h"
+
+void saved_file_open(sl_saved_set *set, const char *path, sl_load_checks checks) {
+    sl_status status = sl_map_set_file(set, path, checks, NULL);
+    if (status == SL_ERR_UNSUPPORTED) {
+        status = sl_load_set_file(set, path, checks, NULL);
+    }
+    app_must(status, path, NULL);
+    if (set->factor == NULL) {
+        app_die("%s: holds an analysis without a factor", path);
+    }
+}
