@@ -1,78 +1,79 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d3a007c510360811
+ * FNV-1a of the lines after this comment, without the license: 72fcda6b9107e769
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     80 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    148 config.h     macros that a user may define before the include, the version, and the integer types
- *    227 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    373 options.h    options of all calls, threads, and the allocator
- *    506 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    648 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    820 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    946 factor.h     the numerical factorization P A P' = L D L'
- *   1161 solve.h      full solves, and the workspace of all solves
- *   1271 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1365 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1478 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1588 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1724 batch.h      many independent solves by one call, distributed over threads
- *   1774 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1952 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2071 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2175 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2314 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2432 change.h     a factor that follows small changes of its matrix
- *   2519 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2609 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *     81 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    149 config.h     macros that a user may define before the include, the version, and the integer types
+ *    228 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    380 options.h    options of all calls, threads, and the allocator
+ *    517 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    659 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    831 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    957 factor.h     the numerical factorization P A P' = L D L'
+ *   1192 solve.h      full solves, and the workspace of all solves
+ *   1302 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1396 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1509 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1620 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1756 batch.h      many independent solves by one call, distributed over threads
+ *   1806 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   1984 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2103 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2207 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2346 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2464 change.h     a factor that follows small changes of its matrix
+ *   2551 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2641 complex.h    complex Hermitian systems, solved as real ones of twice the size
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2744 base.h   2969 status.h   3030 options.h   3087 alloc.h   3197 hash.h   3327 file_map.h
- *   3423 sort.h   3487 parallel.h
+ *   2776 base.h   3001 status.h   3062 options.h   3120 alloc.h   3230 hash.h   3360 file_map.h
+ *   3456 sort.h   3520 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3520 panel.h   3542 step.h   3578 pivot_rule.h   3645 front.h   3689 pairs.h
- *   3896 inverse_front.h   3968 table.h   3993 simd.h   4034 simd_scalar.h   4152 simd_avx2.h
- *   4336 simd_avx512.h   4438 simd_neon.h   4616 dispatch.h
+ *   3553 panel.h   3575 step.h   3616 pivot_rule.h   3683 front.h   3727 pairs.h
+ *   3934 inverse_front.h   4006 table.h   4030 simd.h   4100 simd_scalar.h   4229 simd_avx2.h
+ *   4430 simd_avx512.h   4539 simd_neon.h   4734 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4696 csc.h   4810 csc_build.h   4944 csc64.h   5015 csc_triangle.h   5081 csc_products.h
- *   5198 permute.h   5264 sum.h   5346 output_file.h   5555 matrix_market.h
+ *   4814 csc.h   4928 csc_build.h   5062 csc64.h   5133 csc_triangle.h   5199 csc_products.h
+ *   5316 permute.h   5382 sum.h   5464 output_file.h   5673 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6001 graph.h   6150 coarsen.h   6399 labels.h   6593 subgraph.h   6788 heap.h   6848 bisect.h
- *   7078 separator.h   7340 mindeg.h   7523 dissect.h   7837 levelset.h   7952 geometric.h
- *   8142 septree.h   8202 metis.h   8351 metis_refined.h   8465 nd.h   8657 compress.h
- *   8778 quotient.h   9192 order.h
+ *   6119 graph.h   6268 coarsen.h   6517 labels.h   6711 subgraph.h   6906 heap.h   6966 bisect.h
+ *   7196 separator.h   7458 mindeg.h   7641 dissect.h   7955 levelset.h   8070 geometric.h
+ *   8260 septree.h   8320 metis.h   8469 metis_refined.h   8583 nd.h   8775 compress.h
+ *   8896 quotient.h   9310 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9440 symbolic_types.h   9476 etree.h   9549 counts.h   9606 supernodes.h   9828 structure.h
- *   9949 schedule.h  10138 symbolic.h  10501 reach.h
+ *   9558 symbolic_types.h   9594 etree.h   9667 counts.h   9724 supernodes.h   9946 structure.h
+ *  10067 schedule.h  10256 symbolic.h  10619 reach.h
  * (factor: the numbers of L and D)
- *  10772 factor_types.h  11091 pivot_search.h  11437 pivoted.h  11505 scatter.h  11663 uplooking.h
- *  11735 null_product.h  11939 null_dense.h  12016 null_basis.h  12338 null_vectors.h
- *  12473 multifrontal.h  12708 nullspace.h  12909 growth.h  12983 factor_setup.h  13250 factor.h
- *  13450 leftlooking.h  13625 factor_query.h  13758 combination.h
+ *  10890 factor_types.h  11217 storage.h  11288 pivot_search.h  11634 pivoted.h  11702 scatter.h
+ *  11860 uplooking.h  11932 null_product.h  12136 null_dense.h  12213 null_basis.h
+ *  12535 null_vectors.h  12679 multifrontal.h  12915 nullspace.h  13115 growth.h
+ *  13191 factor_setup.h  13483 factor.h  13689 leftlooking.h  13865 factor_query.h
+ *  14000 combination.h
  * (solve: full and local solves)
- *  13819 region_types.h  13922 work.h  14019 query.h  14193 singular.h  14460 backward.h
- *  14490 sweep.h  14676 compile.h  14869 plan.h  14976 local.h  15126 parts.h  15413 refine.h
- *  15588 refine_local.h  15803 rcond.h  15960 defects.h
+ *  14061 region_types.h  14165 work.h  14262 query.h  14436 singular.h  14703 backward.h
+ *  14733 sweep.h  14919 compile.h  15112 plan.h  15219 local.h  15369 parts.h  15656 refine.h
+ *  15831 refine_local.h  16046 rcond.h  16203 defects.h
  * (inverse: entries of the inverse, regions)
- *  16037 traversal.h  16279 traversal_run.h  16442 row_sets.h  16469 unit_vectors.h
- *  16695 bilinear.h  16872 entries.h  17153 block.h  17393 reserve.h  17583 selected.h
- *  17790 selected_query.h  17892 region_choose.h  18119 region.h
+ *  16280 traversal.h  16525 traversal_run.h  16708 row_sets.h  16735 unit_vectors.h
+ *  16960 bilinear.h  17137 entries.h  17418 block.h  17658 reserve.h  17850 selected.h
+ *  18060 selected_query.h  18162 region_choose.h  18389 region.h
  * (change: a factor that follows changes of its matrix)
- *  18367 update.h  18716 rank.h  19041 edges.h  19195 choose.h  19382 pins.h
+ *  18637 update.h  18987 rank.h  19313 edges.h  19467 choose.h  19655 pins.h
  * (save: factors in files)
- *  19954 format.h  20243 decode.h  20387 check.h  20719 write.h  21017 load.h  21282 load_inverse.h
- *  21616 load_calls.h
+ *  20227 format.h  20516 decode.h  20660 check.h  20992 write.h  21293 load.h  21558 load_inverse.h
+ *  21892 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  21815 batch_solve.h  22024 batch_factor.h  22225 batch_diagonal.h
+ *  22091 batch_solve.h  22300 batch_factor.h  22501 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  22365 hermitian.h  22510 complex_rows.h
+ *  22641 hermitian.h  22786 complex_rows.h
  * (last: undefine every internal macro)
- *  22678 undef.h
+ *  22954 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  22816 multi_rhs.inl.h  23172 kernel_set.inl.h  23174 unit_triangle.inl.h  23207 two_rhs.inl.h
- *  23373 product.inl.h  23501 front.inl.h  23715 inverse_front.inl.h  24000 small_supernode.inl.h
- *  24157 single_rhs.inl.h  24406 change.inl.h
+ *  23113 multi_rhs.inl.h  23496 sweeps.inl.h  23498 unit_triangle.inl.h  23535 two_rhs.inl.h
+ *  23704 small_supernode.inl.h  23863 single_rhs.inl.h  24107 kernel_set.inl.h  24109 product.inl.h
+ *  24237 front.inl.h  24451 inverse_front.inl.h  24736 row.inl.h  24766 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -332,6 +333,12 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
+/** The type in which a factor keeps L. Arithmetic, D, B and X are double in any case. */
+typedef enum sl_storage {
+    SL_STORAGE_DOUBLE = 0,
+    SL_STORAGE_FLOAT /* half the bytes of L, its accuracy until refined: sl_factor_create */
+} sl_storage;
+
 /** What to do with a null pivot. */
 typedef enum sl_null_pivots {
     SL_NULL_PIVOT_REFUSE = 0, /* fail with SL_ERR_PIVOT; D may have any sign */
@@ -405,7 +412,7 @@ typedef struct sl_allocator {
  *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
- *  |   sl_batch_factor                          | null_vector .. null_vector_count         |
+ *  |   sl_batch_factor                          | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
@@ -482,7 +489,8 @@ typedef struct sl_options {
     const double *null_vector;
 
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
-     * 1 / epsilon = 4.5e15, beyond which L D L' may agree with A in no digit; negative: no limit */
+     * 1 / epsilon = 4.5e15, or 8.4e6 with SL_STORAGE_FLOAT, beyond which L D L' may agree with A in
+     * no digit; negative: no limit */
     double growth_limit;
     /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
      * backward error; 0: 1e-8; negative: never */
@@ -491,9 +499,12 @@ typedef struct sl_options {
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
      * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
+    /* SL_STORAGE_FLOAT keeps L in half the bytes; solutions have the accuracy of float until they
+     * are refined (sl_factor_create) */
+    sl_storage storage;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[3];
+    const void *reserved[2];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.
@@ -519,7 +530,7 @@ typedef struct sl_symbolic_info {
     sl_triangle triangle;
     sl_off nnz_a;      /* entries of A that are read: one triangle with diagonal, with duplicates */
     sl_off nnz_l;      /* entries of L with its unit diagonal, without relaxation */
-    sl_off nnz_panels; /* doubles stored for L, padding and relaxation included */
+    sl_off nnz_panels; /* values stored for L, padding and relaxation included */
     double flops;      /* sum over columns of (entries)^2, without relaxation */
     sl_int supernodes;
     sl_int supernodes_fundamental; /* before relaxation */
@@ -967,6 +978,22 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *    whose growth is below options.growth_limit.
  *  - A growth beyond options.growth_limit is refused with SL_ERR_INACCURATE.
  *
+ *  Storage: with SL_STORAGE_FLOAT each front is factored in double, and its panel of L is rounded
+ *  to float when it is done. D, null pivots, growth and log-determinant are those of double, and
+ *  every solve computes in double. L D L' is P (A + E) P' with |E| <= 1.2e-7 |L| |D| |L'|:
+ *  solutions and entries of the inverse have a backward error of about 6e-8 * growth. The pivots
+ *  are not rounded, so a definite matrix stays definite, and the relative error of a solution is
+ *  about 1e-7 sqrt(condition), not 1e-7 condition.
+ *  - Full solves: sl_factor_refine brings a backward error of double, in 2 steps up to a condition
+ *    of about 1e9, in 3 to 6 up to 1e12. If sl_factor_rcond is below 1e-13, expect no digit.
+ *  - Local solves cannot be refined, as the residual needs all of x.
+ *  - The method is supernodal. sl_factor_update and _update_entries return SL_ERR_UNSUPPORTED: each
+ *    change would round L again. sl_factor_change and sl_factor_refactor_changed refactor
+ *    completely. Files of such factors are not supported.
+ *  - An entry of L beyond the range of float is refused with SL_ERR_INACCURATE, as growth is; so is
+ *    one that underflows where that loses more than rounding does. Scaling A to a unit diagonal
+ *    avoids both.
+ *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
@@ -1019,7 +1046,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
  *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit; may be NULL.
+ *                growth_limit, error_limit, storage; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
@@ -1027,11 +1054,13 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
  *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
- *           limit, caused by the pivot error.value of error.row; SL_ERR_UNSUPPORTED: the isa, or
+ *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
+ *           that pivot that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or
  *           SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with several null vectors, or more of
  *           them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
- *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
+ *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
+ *           largest panel in double for each thread, and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
@@ -1151,9 +1180,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
-    const double *L; /* panels, in the layout described at sl_symbolic_arrays */
+    /* panels, in the layout described at sl_symbolic_arrays; NULL with SL_STORAGE_FLOAT */
+    const double *L;
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
     const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
+    const float *L_float; /* the same panels with SL_STORAGE_FLOAT; else NULL */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
@@ -1546,7 +1577,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  above, solutions are worthless. Up to rounding, the true value is never larger than the
  *  estimate, and rarely smaller than a third of it. L D L' is judged, too: the solves of the
  *  estimator are checked against A, and where their largest backward error w exceeds 64 epsilon,
- *  because L has grown, the estimate is multiplied by epsilon / w. 0 if null pivots were skipped; 1
+ *  because L has grown, the estimate is multiplied by epsilon / w; with SL_STORAGE_FLOAT epsilon is
+ *  that of float here, and rcond is that of A down to about 1e-13. 0 if null pivots were skipped; 1
  *  if n = 0. If regularization changed pivots, all this is about A + E.
  *
  *  A      [in]      the matrix that F is a factor of.
@@ -2461,7 +2493,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE: an entry of V at
  *           error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE: growth beyond its
  *           limit; SL_ERR_STATE: F has no numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots
- *           were skipped, or there are 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           were skipped, there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
  *           writes these columns once. A pass that may fail takes another forward sweep; several
  *           such passes, and pivots of both signs, a copy of the columns.
@@ -3055,7 +3087,8 @@ static int sli_options_set(const sl_options *opt) {
              opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
              opt->regularization != 0.0 || opt->signs != NULL ||
              opt->null_vector != NULL || opt->growth_limit != 0.0 ||
-             opt->error_limit != 0.0 || opt->null_vector_count != 0;
+             opt->error_limit != 0.0 || opt->null_vector_count != 0 ||
+             opt->storage != 0;
   return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
        (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
        (opt->region != NULL ? SLI_READS_REGION : 0) |
@@ -3558,10 +3591,15 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
 enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
 
 typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
-                   const double *L, double *x, double *scratch);
+                   const void *L, double *x, double *scratch);
 
 typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
-                  const double *L, const double *D, double *x, double *scratch);
+                  const void *L, const double *D, double *x, double *scratch);
+
+typedef struct sli_sweeps {
+  sli_forward_kernel forward[SLI_NRHS_KINDS];
+  sli_backward_kernel backward[SLI_NRHS_KINDS];
+} sli_sweeps;
 
 typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
                  const double *D, double *x_super, double *x, double *scratch,
@@ -3975,8 +4013,7 @@ typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, co
 
 typedef struct sli_kernels {
   sl_isa isa;
-  sli_forward_kernel forward[SLI_NRHS_KINDS];
-  sli_backward_kernel backward[SLI_NRHS_KINDS];
+  sli_sweeps sweeps[2];
   sli_row_kernel row;
   sli_pivots_kernel pivots;
   sli_rows_kernel rows;
@@ -4031,6 +4068,35 @@ typedef struct sli_kernels {
     } \
   }
 
+#define SLV_SINGLE 0
+#define SLI_PASTE(a, b) a##b
+#define SLI_BY_TYPE(word, is_single) SLI_PASTE(word, is_single)
+#define SLI_VALUE_0 double
+#define SLI_VALUE_1 float
+#define SLI_SWEEP_0(name, f) name(f)
+#define SLI_SWEEP_1(name, f) name(single_##f)
+#define SLI_WIDE_0(v, columns) const double *v;
+#define SLI_WIDE_1(v, columns) SLI_ALIGNED(double v[SLI_TILE * (columns)]);
+#define SLI_WIDEN_0(v, l, columns, rows) v = (l);
+#define SLI_WIDEN_1(v, l, columns, rows) \
+  { \
+    sl_int c_; \
+    for (c_ = 0; c_ < (columns); c_++) { \
+      SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
+    } \
+  }
+#define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
+#define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
+#define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
+#define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
+#define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)
+#define SLV_PREFETCH(l, column, bytes) \
+  if (!SLV_SINGLE || (column) % 2 == 0) { \
+    SLI_PREFETCH((l) + SLI_TILE * (column), bytes); \
+  }
+#define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
+#define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
+
 /* src/impl/kernels/simd_scalar.h: the kernels in plain C: a vector is an array */
 
 #define SLI_LOOP(count, statement) \
@@ -4050,6 +4116,7 @@ typedef struct sli_kernels {
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
 #define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_AXPY(a, l, p) \
   { \
@@ -4135,15 +4202,25 @@ typedef struct sli_kernels {
 #ifdef SLI_SECTION_MULTI_RHS
 #error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_NRHS 8
 #define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
@@ -4200,15 +4277,24 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
 #define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
 #define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLV_READ_0(l) _mm256_load_pd(l)
+#define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+  { \
+    _mm256_store_pd((v), _mm256_cvtps_pd(_mm_load_ps(l))); \
+    if ((rows) > 4) { \
+      _mm256_store_pd((v) + 4, _mm256_cvtps_pd(_mm_load_ps((l) + 4))); \
+    } \
+  }
 #define SLV_AXPY(a, l, p) \
   { \
     const __m256d s_ = _mm256_broadcast_sd(p); \
-    a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0); \
-    a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1); \
+    a##_0 = _mm256_fnmadd_pd(SLV_READ(l), s_, a##_0); \
+    a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), s_, a##_1); \
   }
 #define SLV_DOT(a, l, v) \
-  a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0), \
-  a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
+  a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
+  a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c) \
   a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
@@ -4227,8 +4313,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
 #define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
 #define SLV_SUM_DOT(a, l, v) \
-  a = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a); \
-  a = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a);
+  a = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a); \
+  a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
 #define SLV_SUM_4(a, b, c, d) \
   _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
           _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
@@ -4279,7 +4365,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
                              keep_high_)));
 #define SLV_DUP_AT(e, l) \
   { \
-    const __m256d l_ = _mm256_load_pd(l); \
+    const __m256d l_ = SLV_READ(l); \
     e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
     e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
   }
@@ -4297,6 +4383,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
 #define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #undef SLW_ROWS
@@ -4328,6 +4416,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
 
@@ -4348,8 +4442,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_LOAD(a, p) a = _mm512_load_pd(p);
 #define SLV_STORE(p, a) _mm512_store_pd((p), a);
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
-#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
-#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
+#define SLV_READ_0(l) _mm512_load_pd(l)
+#define SLV_READ_1(l) _mm512_cvtps_pd(_mm256_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), _mm512_cvtps_pd(_mm256_load_ps(l)));
+#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
+#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest) \
@@ -4410,11 +4507,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     (to), _mm512_add_pd(_mm512_load_pd(to), \
               _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
 #define SLV_DUP_LOW(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), \
-                  _mm512_load_pd(l));
+  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
 #define SLV_DUP_HIGH(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), \
-                  _mm512_load_pd(l));
+  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
 #define SLV_PAIR(b, p) \
   b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
@@ -4429,6 +4524,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
 #define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
@@ -4454,19 +4555,28 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_ADD(a, b) \
   a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), \
   a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLV_READ_0(l) vld1q_f64(l)
+#define SLV_READ_1(l) vcvt_f64_f32(vld1_f32(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+  { \
+    int i_; \
+    for (i_ = 0; i_ < (rows); i_ += 2) { \
+      vst1q_f64((v) + i_, vcvt_f64_f32(vld1_f32((l) + i_))); \
+    } \
+  }
 #define SLV_AXPY(a, l, p) \
   { \
     const float64x2_t s_ = vld1q_dup_f64(p); \
-    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_); \
-    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_); \
-    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_); \
-    a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_); \
+    a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), s_); \
+    a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), s_); \
+    a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), s_); \
+    a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), s_); \
   }
 #define SLV_DOT(a, l, v) \
-  a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0), \
-  a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1), \
-  a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
-  a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
+  a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), v##_0), \
+  a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), v##_1), \
+  a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
+  a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_FNMA(a, b, c) \
   a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
@@ -4505,10 +4615,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
 #define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
 #define SLV_SUM_DOT(a, l, v) \
-  a = vfmsq_f64(a, vld1q_f64((l) + 0), v##_0); \
-  a = vfmsq_f64(a, vld1q_f64((l) + 2), v##_1); \
-  a = vfmsq_f64(a, vld1q_f64((l) + 4), v##_2); \
-  a = vfmsq_f64(a, vld1q_f64((l) + 6), v##_3);
+  a = vfmsq_f64(a, SLV_READ((l) + 0), v##_0); \
+  a = vfmsq_f64(a, SLV_READ((l) + 2), v##_1); \
+  a = vfmsq_f64(a, SLV_READ((l) + 4), v##_2); \
+  a = vfmsq_f64(a, SLV_READ((l) + 6), v##_3);
 #define SLV_SUMS(r, a) \
   r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3), \
   r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
@@ -4545,8 +4655,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
 #define SLV_DUP_LOW(e, l) \
-  e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1), \
-  e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
+  e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
+  e##_3 = vdupq_n_f64((l)[3]);
 #define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
@@ -4570,6 +4680,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_0 = vdivq_f64(a##_0, s_); \
     a##_1 = vdivq_f64(a##_1, s_); \
   }
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #undef SLW_ROWS
@@ -4607,6 +4719,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_3 = vdivq_f64(a##_3, s_); \
   }
 #define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
@@ -10820,7 +10938,10 @@ struct sl_factor {
   sl_off updates;
   double drift;
   sli_hash analysis;
-  double *L;
+  sl_storage storage;
+  void *values;
+  double *panels;
+  sl_off panel_room;
   double *D;
   double *E;
   sli_extent *extents;
@@ -10928,11 +11049,16 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
   return low;
 }
 
-SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, sl_off first,
-                           sl_off last, const double *x,
+SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
+  return F->storage == SL_STORAGE_FLOAT ? F->panels + F->panel_room * worker
+                      : (double *)F->values + F->S->steps[s].panel;
+}
+
+SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
+                           sl_off first, sl_off last, const double *x,
                            const sl_int *scatter_from,
                            sli_failure *failure) {
-  const sl_off *to = F->S->scatter_to;
+  const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
   double largest = F->extents[s].entry;
   sl_off m;
   for (m = first; m < last; m++) {
@@ -10942,7 +11068,7 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
     if (!sli_is_finite(a)) {
       return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
     }
-    F->L[to[m]] += a;
+    panel[to[m] - begin] += a;
     largest = size > largest ? size : largest;
   }
   F->extents[s].entry = largest;
@@ -10963,7 +11089,7 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
   }
 }
 
-static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s,
+static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s, double *panel,
                 sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sl_off end = S->scatter_begin[s + 1];
@@ -10974,12 +11100,12 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   F->extents[s].pivot = -1;
   F->extents[s].zero = 0;
   if (from->A != NULL) {
-    return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
+    return sli_panel_load_entries(F, s, panel, m, end, from->A->x, S->scatter_from, failure);
   }
   for (; m < end && status == SL_OK; m = last) {
     last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
     sli_source_sum(from, m, (sl_int)(last - m), sums);
-    status = sli_panel_load_entries(F, s, m, last, sums, NULL, failure);
+    status = sli_panel_load_entries(F, s, panel, m, last, sums, NULL, failure);
   }
   return status;
 }
@@ -11085,6 +11211,77 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
       sli_count_pivot(&stats->factor, values[0]);
       sli_count_pivot(&stats->factor, values[1]);
     }
+  }
+}
+
+/* src/impl/factor/storage.h: L in double or in float: sweeps over it, its entries, panels that are rounded */
+
+SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
+                  const sl_int *rows, double *x, double *scratch) {
+  F->kernels->sweeps[F->storage].forward[kind](count, steps, rows, F->values, x, scratch);
+}
+SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
+                   const sli_step *steps, const sl_int *rows_end, const double *D,
+                   double *x, double *scratch) {
+  F->kernels->sweeps[F->storage].backward[kind](count, steps, rows_end, F->values, D, x, scratch);
+}
+
+SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
+  return F->storage == SL_STORAGE_FLOAT ? (double)((const float *)F->values)[at]
+                      : ((const double *)F->values)[at];
+}
+
+SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
+  if (F->storage == SL_STORAGE_FLOAT) {
+    ((float *)F->values)[at] = 0.0F;
+  } else {
+    ((double *)F->values)[at] = 0.0;
+  }
+}
+
+SLI_INLINE int sli_rounding_harms(const sli_front *f, sl_int r, sl_int j, double l) {
+  const double d =
+    f->E != NULL && f->E[j] != 0.0 ? fmax(fabs(f->D[j]), fabs(f->E[j])) : fabs(f->D[j]);
+  if (fabs(l) > (double)FLT_MAX || d == SLI_NULL_PIVOT) {
+    return d != SLI_NULL_PIVOT;
+  }
+  return l != 0.0 && fabs(l) < (double)FLT_MIN && ldexp(d, -252) > f->magnitude[r];
+}
+
+static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int s,
+                 sli_failure *failure) {
+  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
+  float *to = (float *)F->values + F->S->steps[s].panel;
+  const double *from = f->panel;
+  sl_int t, j, r;
+  for (t = 0; t < tiles; t++) {
+    const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
+    for (j = 0; j < columns; j++, from += SLI_TILE, to += SLI_TILE) {
+      int odd = 0;
+      for (r = 0; r < SLI_TILE; r++) {
+        const double size = fabs(from[r]);
+        odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
+      }
+      for (r = 0; r < SLI_TILE && odd; r++) {
+        if (sli_rounding_harms(f, SLI_TILE * t + r, j, from[r])) {
+          return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
+                  f->D[j]);
+        }
+      }
+      for (r = 0; r < SLI_TILE; r++) {
+        to[r] = (float)from[r];
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
+  const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
+  const float *from = (const float *)F->values + first;
+  sl_off k;
+  for (k = 0; k < size; k++) {
+    to[k] = from[k];
   }
 }
 
@@ -11674,7 +11871,7 @@ static void sli_row_link(sl_factor *F, sl_int s) {
 static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int first = S->super_first[s];
-  F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s],
+  F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
           F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
@@ -11707,11 +11904,11 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
   }
   for (k = 0; k < S->n && status == SL_OK; k++) {
     const sl_int s = S->super_of[k], q = k - S->super_first[s];
-    double *panel = F->L + S->panel_begin[s], *diagonal, pivot, magnitude;
+    double *panel = sli_front_panel(F, s, 0), *diagonal, pivot, magnitude;
     if (q == 0) {
       const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
       memset(panel, 0, (size_t)size * sizeof(double));
-      status = sli_panel_load(F, from, s, failure);
+      status = sli_panel_load(F, from, s, panel, failure);
       if (status != SL_OK) {
         break;
       }
@@ -12449,11 +12646,20 @@ static int sli_null_is_suspected(const sl_factor *F) {
   return 0;
 }
 
+#define SLI_SUSPECT_ROW (sizeof(sli_null_row) + sizeof(double) + sizeof(sl_int))
+
+static int sli_null_suspect_fits(const sl_factor *F) {
+  const sl_off entries = F->S->panel_begin[F->S->n_supers];
+  return F->storage == SL_STORAGE_DOUBLE ||
+       (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
+}
+
 static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n);
-  sli_null_row *rows = (sli_null_row *)(void *)F->L;
+  sli_null_row *rows =
+    (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
   double *most = (double *)(void *)(rows + S->n);
   sl_int *last = (sl_int *)(void *)(most + S->n), k;
   const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
@@ -12483,7 +12689,7 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   const sli_step *step = &F->S->steps[s];
   const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
   sli_front f;
-  f.panel = F->L + step->panel;
+  f.panel = sli_front_panel(F, s, worker);
   f.width = step->width;
   f.below = step->below;
   f.update = F->stack + F->schedule.stack_begin[s];
@@ -12513,7 +12719,7 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
 
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                 sli_failure *failure) {
-  const sl_status status = sli_panel_load(F, from, s, failure);
+  const sl_status status = sli_panel_load(F, from, s, f->panel, failure);
   sl_int k;
   for (k = 0; k < f->width; k++) {
     f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
@@ -12560,7 +12766,8 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
            ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
            : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
   }
-  return status;
+  return status == SL_OK && F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure)
+                               : status;
 }
 
 static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
@@ -12733,12 +12940,12 @@ static void sli_rows_nonzero(const sl_factor *F, double *flags) {
   memset(flags, 0, (size_t)S->n * sizeof(double));
   for (s = 0; s < S->n_supers; s++) {
     const sli_step *step = &S->steps[s];
-    const double *panel = F->L + step->panel;
     for (r = 1; r < step->width + step->below; r++) {
       const sl_int row =
         r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
       for (j = 0; j < sli_min(r, step->width); j++) {
-        flags[row] = panel[sli_panel_at(step->width, r, j)] != 0.0 ? 1.0 : flags[row];
+        const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
+        flags[row] = l != 0.0 ? 1.0 : flags[row];
       }
     }
   }
@@ -12820,8 +13027,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   sl_int k, first = 0, m = 0;
   memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
   memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
-  F->kernels->forward[SLI_NRHS_1](all.count, all.steps, all.rows, F->L, F->center,
-                  F->center_scratch);
+  sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     total += fabs(F->mass[k]);
     if (S->parent[k] == -1) {
@@ -12857,8 +13063,8 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
       z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
     }
   }
-  F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
-                   F->center_scratch);
+  sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, z,
+             F->center_scratch);
   w = sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, z, NULL);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
@@ -12878,7 +13084,7 @@ static void sli_anchor_columns_clear(sl_factor *F) {
     const sl_int k = F->nulls[m];
     const sli_step *step = &S->steps[S->super_of[k]];
     for (r = k - step->column + 1; r < step->width + step->below; r++) {
-      F->L[step->panel + sli_panel_at(step->width, r, k - step->column)] = 0.0;
+      sli_entry_clear(F, step->panel + sli_panel_at(step->width, r, k - step->column));
     }
   }
 }
@@ -12909,6 +13115,7 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
 /* src/impl/factor/growth.h: after a factorization: its pivot growth, and the pivot that causes it */
 
 #define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
+#define SLI_GROWTH_LIMIT_FLOAT (1.0 / (double)FLT_EPSILON)
 
 static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
   const sl_symbolic *S = F->S;
@@ -12924,11 +13131,12 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
       continue;
     }
     for (j = 0; j < sli_min(r, step->width); j++) {
-      const double *l = &F->L[step->panel + sli_panel_at(step->width, r, j)];
+      const sl_off entry = step->panel + sli_panel_at(step->width, r, j);
       const sl_int c = step->column + j;
-      double size = fabs(*l * F->D[c] * *l);
+      const double l = sli_entry(F, entry);
+      double size = fabs(l * F->D[c] * l);
       if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
-        size += 2.0 * fabs(l[0] * F->E[c] * l[SLI_TILE]);
+        size += 2.0 * fabs(l * F->E[c] * sli_entry(F, entry + SLI_TILE));
       }
       if (size > most) {
         most = size;
@@ -13011,7 +13219,25 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->center = SLI_TAKE(b, double, n);
     F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
   }
-  F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+  F->values = F->storage == SL_STORAGE_FLOAT
+          ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
+          : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+}
+
+static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
+  const sl_symbolic *S = F->S;
+  const uint64_t workers = (uint64_t)F->schedule.workers;
+  const uint64_t suspects =
+    sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+    F->panel_room = size > F->panel_room ? size : F->panel_room;
+  }
+  F->panels = SLI_TAKE(b, double,
+             workers *(uint64_t)F->panel_room > suspects
+               ? workers *(uint64_t)F->panel_room
+               : suspects);
 }
 
 static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
@@ -13037,6 +13263,9 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
     F->failures = SLI_TAKE(b, sli_failure, workers);
     sli_schedule_layout(&F->schedule, b, S->n_supers);
+    if (F->storage == SL_STORAGE_FLOAT) {
+      sli_factor_layout_panels(F, b);
+    }
   } else {
     F->buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
     F->x = SLI_TAKE(b, double, n);
@@ -13104,6 +13333,7 @@ static double sli_null_tolerance(sl_int n) {
 static int sli_factor_choices_are_valid(const sl_options *opt) {
   return opt == NULL ||
        ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+      (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT &&
       (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
       opt->null_tolerance == opt->null_tolerance &&
       opt->consistency_tolerance == opt->consistency_tolerance &&
@@ -13134,7 +13364,9 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
                                  : (sl_int)opt->null_vector_count;
   F->consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-  F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit, SLI_GROWTH_LIMIT);
+  F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+                F->storage == SL_STORAGE_FLOAT ? SLI_GROWTH_LIMIT_FLOAT
+                                 : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -13171,7 +13403,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 }
 
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-  if (S->n_pairs > 0) {
+  if (S->n_pairs > 0 || (opt != NULL && opt->storage == SL_STORAGE_FLOAT)) {
     return SL_METHOD_SUPERNODAL;
   }
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
@@ -13217,6 +13449,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   draft.allocator = a;
   draft.S = S;
   draft.analysis = S->identity;
+  draft.storage = opt == NULL ? SL_STORAGE_DOUBLE : opt->storage;
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
   status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
@@ -13286,10 +13519,10 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
   sli_fail_at(&F->stats, f->status, row, column, f->value);
 }
 
-static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f, int has_pivots) {
   sl_int n_done = F->S->n;
   if (f->status != SL_OK && f->pivot >= 0) {
-    n_done = f->status == SL_ERR_INACCURATE ? n_done : f->pivot;
+    n_done = has_pivots ? n_done : f->pivot;
     sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
   } else if (f->status != SL_OK) {
     n_done = F->S->super_first[f->super];
@@ -13320,18 +13553,24 @@ static void sli_pairs_done(sl_factor *F) {
 
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                  double started, sl_stats *stats) {
+  int has_pivots;
   sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     (void)sli_nulls_find(F, from, failure);
   }
   F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
-  if (failure->status == SL_OK) {
+  has_pivots = failure->status == SL_OK;
+  if (has_pivots) {
     (void)sli_growth_check(F, failure);
   }
-  sli_factor_report(F, from->A, failure);
+  sli_factor_report(F, from->A, failure, has_pivots);
   F->stats.factor.seconds = sli_seconds() - started;
   F->is_valid = failure->status == SL_OK;
   if (F->is_valid) {
+    const sl_int storage = (sl_int)F->storage;
+    if (F->storage != SL_STORAGE_DOUBLE) {
+      F->identity = sli_hash_ints(F->identity, &storage, 1);
+    }
     F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
     if (F->E != NULL) {
       sli_pairs_done(F);
@@ -13584,7 +13823,8 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     }
     entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
   }
-  if (F->method != SL_METHOD_SUPERNODAL || entries >= (uint64_t)sli_nnz(A)) {
+  if (F->method != SL_METHOD_SUPERNODAL || F->storage == SL_STORAGE_FLOAT ||
+    entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
   status = sli_factor_prepare(F);
@@ -13701,7 +13941,8 @@ static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
            height = width + S->steps[s].below;
     for (j = 0; j < width; j++) {
       for (r = j; r < height; r++) {
-        const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];
+        const double l =
+          r == j ? 1.0 : sli_entry(F, S->panel_begin[s] + sli_panel_at(width, r, j));
         if (l != 0.0) {
           if (M != NULL) {
             M->i[count] = r < width ? first + r : S->rows[S->rows_begin[s] + r - width];
@@ -13745,10 +13986,11 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-  sl_factor_arrays v = {NULL, NULL, NULL, NULL};
+  sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL};
   if (F != NULL) {
     v.symbolic = F->S;
-    v.L = F->L;
+    v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
+    v.L_float = F->storage == SL_STORAGE_FLOAT ? (const float *)F->values : NULL;
     v.D = F->D;
     v.E = F->E;
   }
@@ -13897,6 +14139,7 @@ static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundar
                const sli_kernels *kernels, int kind, const double *u, double *x,
                double *vectors, double *scratch) {
   static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  const sli_sweeps *sweeps = &kernels->sweeps[SL_STORAGE_DOUBLE];
   const sl_int n = R->extent.n_rows;
   const size_t size = (size_t)n << kind;
   sl_int first;
@@ -13909,11 +14152,11 @@ static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundar
   for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
     const sli_step step = sli_region_step(R, first);
     if (boundary->b[first / SLI_REGION_COLUMNS]) {
-      kernels->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
+      sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
     }
     if (boundary->x[first / SLI_REGION_COLUMNS]) {
-      kernels->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                  scratch);
+      sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
+                   scratch);
     }
   }
   memcpy(x, vectors + size, size * sizeof(double));
@@ -14483,8 +14726,8 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
   if (F->E != NULL) {
     sli_pairs_apply(F, R, x, (sl_int)1 << kind);
   }
-  F->kernels->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->L,
-                 F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
+  sli_backward_sweep(F, kind, R->count, R->steps, R->rows + R->n_rows,
+             F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
 /* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
@@ -14513,7 +14756,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
   const sl_int *rows = R->rows;
   sl_int first = 0, s;
   if (F->n_nulls == 0 || F->null_vectors > 1) {
-    F->kernels->forward[kind](R->count, R->steps, rows, F->L, v->y, v->scratch);
+    sli_forward_sweep(F, kind, R->count, R->steps, rows, v->y, v->scratch);
     return;
   }
   for (s = 0; s < R->count; s++) {
@@ -14526,7 +14769,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
     if (sli_null_dot_next(F, R, first, s, v->y, (sl_int)1 << kind, &m, &dot)) {
       at = sli_reach_index_of(R, dot.null);
     }
-    F->kernels->forward[kind](s + 1 - first, R->steps + first, rows, F->L, v->y, v->scratch);
+    sli_forward_sweep(F, kind, s + 1 - first, R->steps + first, rows, v->y, v->scratch);
     if (at != -1) {
       memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
     }
@@ -15212,12 +15455,12 @@ static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
   }
 }
 
-static void sli_column_multiply(const double *panel, const sli_step *step, const sl_int *rows,
+static void sli_column_multiply(const sl_factor *F, const sli_step *step, const sl_int *rows,
                 sl_int j, int is_transposed, double *x, sl_int lanes) {
   double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
   sl_int i, r;
   for (i = j + 1; i < step->width + step->below; i++) {
-    const double l = panel[sli_panel_at(step->width, i, j)];
+    const double l = sli_entry(F, step->panel + sli_panel_at(step->width, i, j));
     double *xi =
       x + (ptrdiff_t)(i < step->width ? step->base + i : rows[i - step->width]) * lanes;
     for (r = 0; r < lanes; r++) {
@@ -15237,8 +15480,8 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
     s = is_transposed ? at : S->n_supers - 1 - at;
     for (k = 0; k < S->steps[s].width; k++) {
       j = is_transposed ? k : S->steps[s].width - 1 - k;
-      sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s], S->rows + S->rows_begin[s],
-                j, is_transposed, x, lanes);
+      sli_column_multiply(F, &S->steps[s], S->rows + S->rows_begin[s], j, is_transposed, x,
+                lanes);
     }
   }
 }
@@ -15251,7 +15494,7 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
     sli_lower_multiply(F, 1, v->x, lanes);
   }
   if (!p->is_product && p->parts & SL_PART_L) {
-    F->kernels->forward[kind](R->count, R->steps, R->rows, F->L, v->x, v->scratch);
+    sli_forward_sweep(F, kind, R->count, R->steps, R->rows, v->x, v->scratch);
   }
   if (p->parts & (SL_PART_D | SL_PART_SQRT_D)) {
     sli_parts_scale(p, v->x, lanes);
@@ -15260,8 +15503,8 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
     sli_lower_multiply(F, 0, v->x, lanes);
   }
   if (!p->is_product && p->parts & SL_PART_LT) {
-    F->kernels->backward[kind](R->count, p->steps, R->rows + R->n_rows, F->L, p->ones, v->x,
-                   v->scratch);
+    sli_backward_sweep(F, kind, R->count, p->steps, R->rows + R->n_rows, p->ones, v->x,
+               v->scratch);
   }
 }
 
@@ -15802,7 +16045,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
 
 /* src/impl/solve/rcond.h: sl_factor_rcond: reciprocal condition number by the Hager-Higham estimator */
 
-#define SLI_ROUNDING_ERROR (64.0 * DBL_EPSILON)
+#define SLI_ROUNDING_ERROR 64.0
 
 typedef struct sli_norm_estimate {
   const sl_factor *F;
@@ -15845,8 +16088,7 @@ static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   double sum = 0.0, error;
   sl_int k;
   memcpy(p->residual, p->v, (size_t)n * sizeof(double));
-  F->kernels->forward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
-                   p->scratch);
+  sli_forward_sweep(F, SLI_NRHS_1, p->all.count, p->all.steps, p->all.rows, p->v, p->scratch);
   sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
   for (k = 0; k < n; k++) {
     sum += fabs(p->v[k]);
@@ -15944,14 +16186,15 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
   sli_norm_estimate_layout(&p, &b);
   status = sli_work_block(W, &b);
   if (status == SL_OK) {
-    double inverse;
+    double inverse, unit;
     sli_norm_estimate_layout(&p, &b);
     p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
     inverse = sli_inverse_norm(&p);
     *rcond = p.norm > 0.0 && inverse > 0.0
            ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
            : 0.0;
-    *rcond *= p.error > SLI_ROUNDING_ERROR ? DBL_EPSILON / p.error : 1.0;
+    unit = F->storage == SL_STORAGE_FLOAT ? (double)FLT_EPSILON : DBL_EPSILON;
+    *rcond *= p.error > SLI_ROUNDING_ERROR * unit ? unit / p.error : 1.0;
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -16045,6 +16288,7 @@ typedef struct sli_traversal {
   sl_int *first;
   sli_schedule schedule;
   sl_off scratch;
+  sl_off panel;
   sli_schedule_work schedule_work;
 } sli_traversal;
 
@@ -16222,14 +16466,16 @@ static void sli_traversal_stack_all(sli_traversal *t) {
   }
 }
 
-static sl_off sli_traversal_scratch(const sli_traversal *t) {
+static void sli_traversal_measure(sli_traversal *t) {
   sl_int k, tallest = 0, widest = 0;
   for (k = 0; k < t->forest.count; k++) {
     const sli_step *step = &t->S->steps[t->supers[k]];
+    const sl_off panel = sli_panel_size(step->width, step->below);
+    t->panel = panel > t->panel ? panel : t->panel;
     tallest = sli_max(tallest, step->width + step->below);
     widest = sli_max(widest, step->width);
   }
-  return sli_inverse_scratch(tallest, widest);
+  t->scratch = sli_inverse_scratch(tallest, widest);
 }
 
 static void sli_traversal_plan(sli_traversal *t, const uint64_t *seeds, sl_int n_seeds) {
@@ -16249,7 +16495,7 @@ static void sli_traversal_plan(sli_traversal *t, const uint64_t *seeds, sl_int n
     t->schedule_work.flops[k] = sli_front_flops(&t->S->steps[t->supers[k]]);
   }
   sli_plan_tasks(p, &t->forest, &t->schedule_work);
-  t->scratch = sli_traversal_scratch(t);
+  sli_traversal_measure(t);
   sli_traversal_stack_all(t);
 }
 
@@ -16294,17 +16540,23 @@ typedef struct sli_traversal_run {
   sli_inverse_phase phase;
 } sli_traversal_run;
 
+SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
+  return t->scratch + (storage == SL_STORAGE_FLOAT ? t->panel : 0);
+}
+
 static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
-                   sli_block *b) {
+                   sl_storage storage, sli_block *b) {
   run->fronts = SLI_TAKE(b, double, traversal->schedule.stack);
-  run->scratch =
-    SLI_TAKE(b, double, (uint64_t)traversal->schedule.workers *(uint64_t)traversal->scratch);
+  run->scratch = SLI_TAKE(
+    b, double,
+    (uint64_t)traversal->schedule.workers *(uint64_t)sli_traverse_scratch(traversal, storage));
 }
 
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
   const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
   sli_inverse_front f;
-  f.panel = run->F->L + step->panel;
+  f.panel =
+    run->F->storage == SL_STORAGE_FLOAT ? NULL : (const double *)run->F->values + step->panel;
   f.D = run->F->D + step->column;
   f.front = run->fronts + run->traversal->schedule.stack_begin[k];
   f.width = step->width;
@@ -16331,21 +16583,34 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
   const sl_symbolic *S = F->S;
   const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
   const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
+  const size_t entry = F->storage == SL_STORAGE_FLOAT ? sizeof(float) : sizeof(double);
   sl_off k;
   for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
     SLI_PREFETCH(S->relative + row + k, 0);
   }
   for (k = 0; k < size && k < SLI_PANEL_AHEAD; k += SLI_TILE) {
-    SLI_PREFETCH(F->L + first + k, 0);
+    SLI_PREFETCH((const char *)F->values + (size_t)(first + k) * entry, 0);
   }
 }
 
-static void sli_traverse_complete(const sli_traversal_run *run, sl_int k,
-                  const sli_inverse_front *f, sl_int worker) {
+static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
+                  sl_int worker) {
+  const sl_off room = sli_traverse_scratch(run->traversal, run->F->storage);
+  double *scratch = run->scratch + (ptrdiff_t)(room * worker);
+  if (run->F->storage == SL_STORAGE_FLOAT) {
+    sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
+    f->panel = scratch + run->traversal->scratch;
+  }
+  return scratch;
+}
+
+static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
+                  sl_int worker) {
+  double *scratch = sli_traverse_begin(run, k, f, worker);
   if (k > 0) {
     sli_traverse_prefetch(run->F, run->traversal->supers[k - 1]);
   }
-  run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->traversal->scratch * worker));
+  run->F->kernels->takahashi(f, scratch);
   run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
@@ -16355,7 +16620,7 @@ static void sli_traverse_tasks(void *data, sl_int k) {
   sl_int m, s;
   for (m = 0; m < schedule->n_tasks; m++) {
     for (s = schedule->last[m]; s >= schedule->first[m] && schedule->worker[m] == k; s--) {
-      const sli_inverse_front f = sli_traverse_front(run, s);
+      sli_inverse_front f = sli_traverse_front(run, s);
       if (s < schedule->last[m]) {
         sli_traverse_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
       }
@@ -16410,6 +16675,7 @@ static void sli_traverse_shared(sli_traversal_run *run) {
   const sl_int workers = run->traversal->schedule.workers;
   sl_int phase;
   run->front = sli_traverse_front(run, run->at);
+  (void)sli_traverse_begin(run, run->at, &run->front, 0);
   sli_parallel(run->threads, workers, sli_traverse_gather_range, run);
   for (run->group = sli_inverse_last_group(&run->front);
      run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
@@ -16430,7 +16696,7 @@ static void sli_traverse(sli_traversal_run *run) {
       SLI_SHARED_FLOPS) {
       sli_traverse_shared(run);
     } else {
-      const sli_inverse_front f = sli_traverse_front(run, run->at);
+      sli_inverse_front f = sli_traverse_front(run, run->at);
       sli_traverse_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
       sli_traverse_complete(run, run->at, &f, 0);
       sli_traverse_gather_task_roots(run, 0, 1);
@@ -16670,8 +16936,7 @@ static void sli_forward_clear(sli_forward *f, sl_int vectors) {
 }
 
 static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats) {
-  F->kernels->forward[f->kind](f->reach.count, f->reach.steps, f->reach.rows, F->L, f->y,
-                 f->scratch);
+  sli_forward_sweep(F, f->kind, f->reach.count, f->reach.steps, f->reach.rows, f->y, f->scratch);
   if (stats != NULL) {
     stats->inverse.method = SL_INVERSE_FORWARD;
     stats->inverse.supernodes = sli_max(stats->inverse.supernodes, f->reach.count);
@@ -17009,7 +17274,7 @@ static void sli_entries_plan(void *call) {
 static void sli_entries_layout_run(void *call, sli_block *b) {
   sli_entries *q = (sli_entries *)call;
   if (q->method == SL_INVERSE_SELECTED) {
-    sli_traversal_layout_run(&q->run, &q->traversal, b);
+    sli_traversal_layout_run(&q->run, &q->traversal, q->F->storage, b);
   }
 }
 
@@ -17395,6 +17660,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
 typedef struct sli_reserve {
   const sl_symbolic *S;
   sl_int workers;
+  sl_storage storage;
   uint64_t steps, columns, rows;
   sl_off stack;
   sl_off roots;
@@ -17434,7 +17700,7 @@ static void sli_reserve_measure_fronts(sli_reserve *r) {
   sl_int s;
   sli_traversal_plan(&r->all, NULL, 0);
   r->stack = sli_traversal_fronts_size(&r->all);
-  r->scratch = r->all.scratch;
+  r->scratch = sli_traverse_scratch(&r->all, r->storage);
   for (s = 0; s < S->n_supers; s++) {
     r->below[s] = 0;
   }
@@ -17459,6 +17725,7 @@ static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) 
   memset(r, 0, sizeof *r);
   r->S = F->S;
   r->workers = sli_workers(&F->threads);
+  r->storage = F->storage;
   r->all = sli_traversal_of(F->S, F->S->n_supers, 1);
   return sli_work_stages(W, &stage, 1, r);
 }
@@ -17587,6 +17854,7 @@ struct sl_selected {
   sl_threads threads;
   sli_hash analysis;
   sli_numbers numbers;
+  sl_storage storage;
   sli_traversal traversal;
   sl_off *begin;
   double *Z;
@@ -17646,6 +17914,7 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
   memset(&draft, 0, sizeof draft);
   draft.allocator = sli_allocator(opt);
   draft.analysis = S->identity;
+  draft.storage = F->storage;
   draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
   for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
     seeds = SLI_TAKE(&b, uint64_t, count);
@@ -17687,7 +17956,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
 
 static void sli_selected_layout_run(void *context, sli_block *b) {
   sli_traversal_run *run = (sli_traversal_run *)context;
-  sli_traversal_layout_run(run, run->traversal, b);
+  sli_traversal_layout_run(run, run->traversal, run->F->storage, b);
 }
 
 static const sli_stage sli_selected_stage = {sli_selected_layout_run, NULL};
@@ -17707,6 +17976,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   if (status == SL_OK) {
     sli_traverse(&run);
     Z->numbers = sli_numbers_of(F);
+    Z->storage = F->storage;
     Z->seconds = sli_seconds() - started;
   }
   sli_free(&own.allocator, own.block);
@@ -17775,7 +18045,7 @@ SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
   if (W == NULL || Z == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  sli_traversal_layout_run(&run, &Z->traversal, &b);
+  sli_traversal_layout_run(&run, &Z->traversal, Z->storage, &b);
   return sli_work_grow(W, b.used);
 }
 
@@ -18422,7 +18692,7 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
       continue;
     }
     for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
-      const double l = F->L[step->panel + sli_panel_at(step->width, r, j)];
+      const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
       sum += fabs(l * F->D[step->column + j] * l);
     }
     d--;
@@ -18512,7 +18782,7 @@ static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_i
 
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
-  double *l = u->F->L + step->panel + sli_panel_at(step->width, first, first);
+  double *l = (double *)u->F->values + step->panel + sli_panel_at(step->width, first, first);
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
   const sl_int start = step->column - SLI_TILE * step->first_tile;
   sl_int j, i;
@@ -18543,7 +18813,8 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0
   double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t0 - entered), *tiles[4];
   sl_int t;
   for (t = t0; t < t1; t++) {
-    tiles[t - t0] = u->F->L + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
+    tiles[t - t0] =
+      (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
   }
   if (u->kind == SLI_NRHS_1 && t1 - t0 == 4) {
     u->F->kernels->change_tiles(tiles, to - from, c, w);
@@ -18584,7 +18855,7 @@ static void sli_update_gains(const sli_update *u, const sli_step *step, const sl
   const sl_int start = step->column - SLI_TILE * step->first_tile;
   sl_int r, j;
   for (r = SLI_TILE * step->first_tile; r < step->width + step->below; r++) {
-    const double *l = F->L + step->panel + sli_panel_at(step->width, r, 0);
+    const double *l = (const double *)F->values + step->panel + sli_panel_at(step->width, r, 0);
     double *gain = &u->gain[r < step->width ? step->base + start + r - step->column
                         : rows[r - step->width]];
     double sum = r < step->width ? fabs(F->D[start + r]) : 0.0;
@@ -18687,7 +18958,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
   sl_status status = SL_OK;
   sl_int s, j;
   memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
-  u->F->kernels->forward[u->kind](R->count, R->steps, R->rows, u->F->L, u->trial, u->scratch);
+  sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
   u->is_trial = 1;
   for (s = 0; s < R->count; s++) {
     const sli_step *step = &R->steps[s];
@@ -18746,7 +19017,8 @@ static sl_status sli_rank_check(const sl_factor *F) {
   if (!F->is_valid || !sli_factor_may_change(F)) {
     return SL_ERR_STATE;
   }
-  return F->E != NULL || F->n_nulls > 0 ? SL_ERR_UNSUPPORTED : SL_OK;
+  return F->E != NULL || F->n_nulls > 0 || F->storage == SL_STORAGE_FLOAT ? SL_ERR_UNSUPPORTED
+                                      : SL_OK;
 }
 
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
@@ -18886,7 +19158,7 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     const sl_int columns = sli_step_columns(step);
     const sl_off from = sli_tile_offset(step->width, step->first_tile);
     const size_t size = (size_t)(sli_panel_size(step->width, step->below) - from);
-    double *L = F->L + step->panel + from;
+    double *L = (double *)F->values + step->panel + from;
     sli_extent *extent = &F->extents[F->S->super_of[step->column]];
     memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
     memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
@@ -19249,7 +19521,8 @@ static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
 
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
   const sl_symbolic *S = F->S;
-  const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL;
+  const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL &&
+              F->storage == SL_STORAGE_DOUBLE;
   c->flops_refactor = S->stats.symbolic.flops;
   c->refactor = SLI_CHANGE_FRONT_FLOP * c->flops_refactor + SLI_CHANGE_FRONT * S->n_supers;
   c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
@@ -19440,7 +19713,7 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) 
   for (k = 0; k < pin->count; k++) {
     pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
   }
-  F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y, scratch);
+  sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
   pin->z = 0.0;
   status = sli_pin_null(F, &pin->R, &pin->null);
   if (status == SL_OK && pin->null != -1) {
@@ -19895,9 +20168,9 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
   sli_pins_shift(P, q, w, v.x, lanes);
-  F->kernels->backward[kind](q->backward.count, q->backward.steps,
-                 q->backward.rows + q->backward.n_rows, F->L,
-                 P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
+  sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
+             q->backward.rows + q->backward.n_rows,
+             P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
   sli_unpack(q, X, x_at, v.x, lanes, nrhs);
 }
 
@@ -20119,7 +20392,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   SLI_ADD(8, mass, weighted, weighted);
   SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
   SLI_ADD(8, ratios, trees, anchors);
-  SLI_ADD(8, L, panels, panels);
+  SLI_ADD(8, values, panels, panels);
 #undef SLI_ADD
 }
 
@@ -20890,6 +21163,9 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   memset(&none, 0, sizeof none);
   if (status != SL_OK) {
     return status;
+  }
+  if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
+    return SL_ERR_UNSUPPORTED;
   }
   memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
   f->header.order_mark = SLI_ORDER_MARK;
@@ -22728,6 +23004,25 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_HIGH8
 #undef SLI_LOW4
 #undef SLI_LOW8
+#undef SLI_PASTE
+#undef SLI_BY_TYPE
+#undef SLI_VALUE_0
+#undef SLI_VALUE_1
+#undef SLI_SWEEP_0
+#undef SLI_SWEEP_1
+#undef SLI_WIDE_0
+#undef SLI_WIDE_1
+#undef SLI_WIDEN_0
+#undef SLI_WIDEN_1
+#undef SLV_SINGLE
+#undef SLV_VALUE
+#undef SLV_SWEEP
+#undef SLW_SWEEP
+#undef SLW_SWEEP_HALF
+#undef SLV_READ
+#undef SLV_PREFETCH
+#undef SLV_WIDE
+#undef SLV_WIDEN
 #undef SLI_EXPAND_PLAIN
 #undef SLI_EXPAND_ADD_PLAIN
 #undef SLI_GROUP_TILES
@@ -22737,8 +23032,10 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_QUOTIENT_DENSE_ROW
 #undef SLI_ORDER_ND_FLOPS
 #undef SLI_GROWTH_LIMIT
+#undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
+#undef SLI_SUSPECT_ROW
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_ROW
 #undef SLI_INVERSE_COLUMNS
@@ -22835,11 +23132,11 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
 #define SLI_DOWN(r, k) \
   if ((r) > (k)) { \
-    SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k) \
+    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
   }
 #define SLI_UP(j, k) \
   if ((j) < (k) && (j) < inner) { \
-    SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k) \
+    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
   }
 #define SLI_COLUMN(k, unused) \
   if ((k) < inner) { \
@@ -22859,25 +23156,27 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_PREFETCH_OWN(k, bytes) \
   if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE * (k), bytes); \
+    SLV_PREFETCH(l, k, bytes) \
   }
 #define SLI_DOWN_OWN(r, k) \
   if ((r) > (k) && (r) < w) { \
-    SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k) \
+    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
   }
 #define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
 #define SLI_BELOW_OWN(k, unused) \
   if ((k) < w) { \
-    SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k) \
+    SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_int stride,
-                              sl_int below, const sl_int *rows,
-                              const double *l, double *xs,
-                              double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
+                               sl_int below, const sl_int *rows,
+                               const SLV_VALUE *l, double *xs,
+                               double *x) {
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
+  SLV_WIDE(v, SLI_TILE)
+  SLV_WIDEN(v, l, w, SLI_TILE)
   SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
   SLW_EACH(SLI_LOAD_OWN, xs)
   SLW_EACH(SLI_COLUMN_OWN, 0)
@@ -22887,6 +23186,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
     if (lane == SLI_TILE) {
       lane = 0;
       l += SLI_TILE * w;
+      SLV_WIDEN(v, l, w, SLI_TILE)
       SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
     }
     SLW_LOAD(b, to)
@@ -22897,12 +23197,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
 
 #define SLI_UP_OWN(j, k) \
   if ((j) < (k) && (k) < w) { \
-    SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k) \
+    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
   }
 #define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
 #define SLI_ABOVE_OWN(k, unused) \
   if ((k) < w) { \
-    SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b) \
+    SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
   }
 #define SLI_DIVIDE_OWN(k, unused) \
   if ((k) < w) { \
@@ -22911,13 +23211,15 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
     SLW_ADD(a##k, b) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_int stride,
-                               sl_int below, const sl_int *rows,
-                               const double *l, const double *d,
-                               double *xs, const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
+                                sl_int below, const sl_int *rows,
+                                const SLV_VALUE *l, const double *d,
+                                double *xs, const double *x) {
   sl_int i = below - 1, lane = (w + i) % SLI_TILE;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
+  SLV_WIDE(v, SLI_TILE)
+  SLV_WIDEN(v, l, w, SLI_TILE)
   SLW_EACH(SLI_ZERO_OWN, 0)
   SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
   SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
@@ -22925,6 +23227,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
     if (lane < 0) {
       lane = SLI_TILE - 1;
       l -= SLI_TILE * w;
+      SLV_WIDEN(v, l, w, SLI_TILE)
       SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
       SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
     }
@@ -22934,6 +23237,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
   }
   if (w == SLI_TILE && below > 0) {
     l -= SLI_TILE * w;
+    SLV_WIDEN(v, l, w, SLI_TILE)
   }
   SLW_EACH(SLI_DIVIDE_OWN, 0)
   SLW_HIGH(SLI_ROW_OWN, 0)
@@ -22941,18 +23245,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
   SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(small_forward)(k, stride, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(small_backward)(k, stride, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_small)(sl_int w, sl_int stride, sl_int below,
-                         const sl_int *rows, const double *l, double *xs,
-                         double *x) {
+SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                          const sl_int *rows, const SLV_VALUE *l,
+                          double *xs, double *x) {
   SLI_CASES(SLI_FORWARD);
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_int below,
-                          const sl_int *rows, const double *l,
-                          const double *d, double *xs, const double *x) {
+SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                           const sl_int *rows, const SLV_VALUE *l,
+                           const double *d, double *xs, const double *x) {
   SLI_CASES(SLI_BACKWARD);
 }
 
@@ -22970,24 +23274,25 @@ SLV_FUNCTION static void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_in
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 #elif defined(SLW_HALF)
-SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_small)(sl_int w, sl_int stride, sl_int below,
-                           const sl_int *rows, const double *l,
-                           double *xs, double *x) {
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                            const sl_int *rows, const SLV_VALUE *l,
+                            double *xs, double *x) {
   const sl_int half = SLW_NRHS / 2;
-  SLW_HALF(forward_small)(w, stride, below, rows, l, xs, x);
-  SLW_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
+  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
+  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
 }
 
-SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_int below,
-                            const sl_int *rows, const double *l,
-                            const double *d, double *xs,
-                            const double *x) {
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                             const sl_int *rows, const SLV_VALUE *l,
+                             const double *d, double *xs,
+                             const double *x) {
   const sl_int half = SLW_NRHS / 2;
-  SLW_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
-  SLW_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
+  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
+  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
 }
 #endif
 
+#if !SLV_SINGLE
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
                          const sl_int *rows, const double *own,
                          const double *x) {
@@ -23016,17 +23321,21 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   }
 }
 
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                       const double *L, double *x, double *buf) {
+#endif
+
+SLV_FUNCTION static void SLW_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                      const void *values, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  SLV_WIDE(v, SLI_TILE)
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+    const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
     ptrdiff_t row;
     sl_int j;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
     if (w <= SLI_TILE) {
-      SLW_NAME(forward_small)(w, SLW_NRHS, s->below, rows, tile, xs, x);
+      SLW_SWEEP(forward_small)(w, SLW_NRHS, s->below, rows, tile, xs, x);
       continue;
     }
 #endif
@@ -23035,7 +23344,7 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
       const sl_int *below_rows = rows + (row + inner - w);
       double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-      const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
       SLW_EACH(SLI_DECLARE, 0)
       SLW_DECLARE(b)
       if (inner < SLW_ROWS) {
@@ -23044,10 +23353,12 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
       SLW_EACH(SLI_LOAD, p)
       for (j = first; j < final; j++, l += SLI_TILE) {
         SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+        SLV_WIDEN(v, l, 1, SLW_ROWS)
         SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
-        SLW_EACH(SLI_APPLY, l)
+        SLW_EACH(SLI_APPLY, v)
       }
       if (inner > 0) {
+        SLV_WIDEN(v, l, inner, SLW_ROWS)
         SLW_EACH(SLI_COLUMN, 0)
       }
       SLW_EACH(SLI_STORE, p)
@@ -23061,13 +23372,16 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
   }
 }
 
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                      const double *L, const double *D, double *x,
-                      double *buf) {
+SLV_FUNCTION static void SLW_SWEEP(backward)(sl_int count, const sli_step *s,
+                       const sl_int *rows_end, const void *values,
+                       const double *D, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  SLV_WIDE(v, SLI_TILE)
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int padded = SLI_TILE * sli_tiles(height);
-    const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+    const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+    const double *d = D + s->column - first;
     double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
     ptrdiff_t row;
     sl_int i, j;
@@ -23076,7 +23390,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
     if (w <= SLI_TILE) {
-      SLW_NAME(backward_small)
+      SLW_SWEEP(backward_small)
       (w, SLW_NRHS, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
       continue;
     }
@@ -23090,7 +23404,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
       double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-      const double *l;
+      const SLV_VALUE *l;
       SLW_EACH(SLI_DECLARE, 0)
       if (lane + SLW_ROWS == SLI_TILE) {
         tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
@@ -23102,6 +23416,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
       SLW_EACH(SLI_LOAD, p)
       if (inner > 0) {
         l = tile + SLI_TILE * row + lane;
+        SLV_WIDEN(v, l, inner, SLW_ROWS)
         SLW_HIGH(SLI_ROW, 0)
         SLW_LOW(SLI_ROW, 0)
         SLW_EACH(SLI_STORE, p)
@@ -23113,10 +23428,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
       for (j = final - 1; j >= first; j--) {
         l -= SLI_TILE;
         SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+        SLV_WIDEN(v, l, 1, SLW_ROWS)
         SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
         SLW_ZERO(c)
-        SLW_HIGH(SLI_GATHER, l)
-        SLW_LOW(SLI_GATHER2, l)
+        SLW_HIGH(SLI_GATHER, v)
+        SLW_LOW(SLI_GATHER2, v)
         SLW_ADD(b, c)
         SLW_STORE(xs + (ptrdiff_t)j * SLW_NRHS, b)
       }
@@ -23124,7 +23440,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
   }
 }
 
-#if SLW_NRHS == 8
+#if SLW_NRHS == 8 && !SLV_SINGLE
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                       double *sums) {
   sl_int row, k;
@@ -23153,31 +23469,41 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_UP
 #undef SLI_COLUMN
 #undef SLI_ROW
-#undef SLW_NAME
-#undef SLW_NRHS
-#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
 #undef SLW_LOW
+
+#if SLV_SINGLE
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#undef SLW_NAME
+#undef SLW_NRHS
+#undef SLW_HALF
+#else
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#endif
 #endif
 
-#ifdef SLI_SECTION_KERNEL_SET
-#undef SLI_SECTION_KERNEL_SET
+#ifdef SLI_SECTION_SWEEPS
+#undef SLI_SECTION_SWEEPS
 #if SL_VERSION_MAJOR != 0 || \
      SL_VERSION_MINOR != 1 || \
      SL_VERSION_PATCH != 0
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
-/* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except multi_rhs.inl.h, and their table */
+/* src/impl/kernels/sweeps.inl.h: the sweeps for one and two right-hand sides, for one type of L */
 
 /* src/impl/kernels/unit_triangle.inl.h: one right-hand side through the unit triangle of a diagonal tile */
 
-#define SLI_X(k, j) r##k = SLV_FNMA1(l[SLI_TILE * j + k], r##j, r##k);
-#define SLI_XT(j, k) r##j = SLV_FNMA1(l[SLI_TILE * j + k], r##k, r##j);
+#define SLI_X(k, j) r##k = SLV_FNMA1(v[SLI_TILE * j + k], r##j, r##k);
+#define SLI_XT(j, k) r##j = SLV_FNMA1(v[SLI_TILE * j + k], r##k, r##j);
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_forward)(const SLV_VALUE *l, double *r) {
+  SLV_WIDE(v, SLI_TILE)
   double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+  SLV_WIDEN(v, l, SLI_TILE, SLI_TILE)
   SLI_X(1, 0) SLI_X(2, 0) SLI_X(3, 0) SLI_X(4, 0) SLI_X(5, 0) SLI_X(6, 0) SLI_X(7, 0)
   SLI_X(2, 1) SLI_X(3, 1) SLI_X(4, 1) SLI_X(5, 1) SLI_X(6, 1) SLI_X(7, 1)
   SLI_X(3, 2) SLI_X(4, 2) SLI_X(5, 2) SLI_X(6, 2) SLI_X(7, 2)
@@ -23188,8 +23514,10 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_forward)(const double *l, double *r) 
   r[1] = r1, r[2] = r2, r[3] = r3, r[4] = r4, r[5] = r5, r[6] = r6, r[7] = r7;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(tile_backward)(const SLV_VALUE *l, double *r) {
+  SLV_WIDE(v, SLI_TILE)
   double r0 = r[0], r1 = r[1], r2 = r[2], r3 = r[3], r4 = r[4], r5 = r[5], r6 = r[6], r7 = r[7];
+  SLV_WIDEN(v, l, SLI_TILE, SLI_TILE)
   SLI_XT(6, 7) SLI_XT(5, 7) SLI_XT(4, 7) SLI_XT(3, 7) SLI_XT(2, 7) SLI_XT(1, 7) SLI_XT(0, 7)
   SLI_XT(5, 6) SLI_XT(4, 6) SLI_XT(3, 6) SLI_XT(2, 6) SLI_XT(1, 6) SLI_XT(0, 6)
   SLI_XT(4, 5) SLI_XT(3, 5) SLI_XT(2, 5) SLI_XT(1, 5) SLI_XT(0, 5)
@@ -23228,12 +23556,13 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(tile_backward)(const double *l, double *r)
     } \
   }
 
-SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
-                      const double *L, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
+                       const void *values, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
   for (; count > 0; count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const size_t columns = 2 * (size_t)(w - first);
-    const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+    const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + 2 * (ptrdiff_t)s->base;
     sl_int row, i, j, k;
     memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
@@ -23241,7 +23570,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
          2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
     for (row = first; row < height; row += SLI_TILE) {
       const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
-      const double *l = tile + SLI_TILE * (ptrdiff_t)first;
+      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
       double *p = buf + 2 * (ptrdiff_t)row;
       SLV_DECLARE(e0)
       SLV_DECLARE(e1)
@@ -23268,7 +23597,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
       SLV_STORE(p + SLI_TILE, e1)
       l = tile + SLI_TILE * (ptrdiff_t)row;
       if (inner == SLI_TILE) {
-        SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
+        SLI_PAIR_TILE(SLV_SWEEP(tile_forward), l, p)
       } else {
         for (k = 0; k < inner; k++, l += SLI_TILE) {
           SLI_PAIR_AXPY(e, l, p + 2 * k)
@@ -23294,13 +23623,15 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
   SLV_FNMA(a, t0, v0) \
   SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
-                       const sl_int *rows_end, const double *L,
-                       const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
+                        const sl_int *rows_end, const void *values,
+                        const double *D, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int padded = SLI_TILE * sli_tiles(height);
-    const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+    const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+    const double *d = D + s->column - first;
     double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
     sl_int row, i, j, k;
     SLV_DECLARE(a)
@@ -23322,7 +23653,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
     for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
       const sl_int inner = sli_clamp(w - row, SLI_TILE);
       double *p = buf + 2 * (ptrdiff_t)row;
-      const double *l;
+      const SLV_VALUE *l;
       tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
       l = tile + SLI_TILE * (ptrdiff_t)row;
       SLV_LOAD(v0, p)
@@ -23340,7 +23671,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
         }
       }
       if (inner == SLI_TILE) {
-        SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
+        SLI_PAIR_TILE(SLV_SWEEP(tile_backward), l, p)
       } else {
         for (k = inner - 1; k > 0; k--) {
           for (j = 0; j < k; j++) {
@@ -23370,6 +23701,411 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end of two_rhs.inl.h */
 #endif
+/* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
+
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+
+#define SLI_COLUMN(k, unused) \
+  if ((k) < w) { \
+    SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
+    SLV_LANE(y##k, a, k) \
+    SLV_DOT(a, l + SLI_TILE * (k), y##k) \
+  }
+#define SLI_EVEN_ODD(k, unused) \
+  if ((k) < w) { \
+    SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
+    if ((k) % 2 == 0) { \
+      SLV_DOT(a, l + SLI_TILE * (k), y##k) \
+    } else { \
+      SLV_DOT(b, l + SLI_TILE * (k), y##k) \
+    } \
+  }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_int below,
+                               const sl_int *rows, const SLV_VALUE *l,
+                               double *xs, double *x, double *buf) {
+  sl_int row, i;
+  SLV_DECLARE(a)
+  SLV_DECLARE(b)
+  SLI_EACH8(SLI_DECLARE, y)
+  SLV_LOAD_PART(a, xs, w, 0.0)
+  SLI_EACH8(SLI_COLUMN, 0)
+  SLV_STORE(buf, a)
+  for (i = 0; i < w; i++) {
+    xs[i] = buf[i];
+  }
+  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
+    l += SLI_TILE * w;
+    SLV_ZERO(a)
+    SLV_ZERO(b)
+    SLI_EACH8(SLI_EVEN_ODD, 0)
+    SLV_ADD(a, b)
+    SLV_STORE(buf + row, a)
+  }
+  buf += w;
+  for (i = 0; i + 4 <= below; i += 4) {
+    x[rows[i]] += buf[i];
+    x[rows[i + 1]] += buf[i + 1];
+    x[rows[i + 2]] += buf[i + 2];
+    x[rows[i + 3]] += buf[i + 3];
+  }
+  for (; i < below; i++) {
+    x[rows[i]] += buf[i];
+  }
+}
+
+#define SLI_DOT(k) \
+  if ((k) < w) { \
+    SLV_PREFETCH(l, k, -SLI_PREFETCH_DISTANCE) \
+    SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
+  }
+#define SLI_DOTS \
+  SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_ROW_AT(k) rows[at + (k)]
+#define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+#define SLI_SET(k, unused) double r##k = r[k];
+#define SLI_GET(k, unused) \
+  if ((k) < w) { \
+    xs[k] = r##k; \
+  }
+#define SLI_XT(j, k) \
+  if ((j) < (k) && (k) < w) {  \
+    r##j = SLV_FNMA1(t[SLI_TILE * (j) + (k)], r##k, r##j); \
+  }
+#define SLI_ROW(k) \
+  SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl_int below,
+                                const sl_int *rows,
+                                const SLV_VALUE *l, const double *d,
+                                double *xs, const double *x) {
+  const sl_int count = (w + below) % SLI_TILE;
+  sl_int row = w + below - count, at = below;
+  double r[SLI_TILE];
+  SLV_WIDE(t, SLI_TILE)
+  SLV_DECLARE(v)
+  SLV_DECLARE(z)
+  SLI_EACH8(SLI_SUM_DECLARE, a)
+  SLI_EACH8(SLI_SUM_ZERO, a)
+  if (row > 0 && count > 0) {
+    at -= count;
+    l -= SLI_TILE * w;
+    SLV_GATHER(v, x, SLI_ROW_AT_PART)
+    SLV_FIRST(v, count)
+    SLI_DOTS
+  }
+  for (; row > SLI_TILE; row -= SLI_TILE) {
+    at -= SLI_TILE;
+    l -= SLI_TILE * w;
+    SLV_GATHER(v, x, SLI_ROW_AT)
+    SLI_DOTS
+  }
+  l -= SLI_TILE * w;
+  if (w < SLI_TILE && at > 0) {
+    SLV_GATHER(v, x, SLI_ROW_AT_OWN)
+    SLV_FIRST(v, w + at)
+    SLV_BELOW(v, w - 1)
+    SLI_DOTS
+  }
+  SLV_WIDEN(t, l, w, SLI_TILE)
+  SLV_LOAD_PART(z, xs, w, 0.0)
+  SLV_LOAD_PART(v, d, w, 1.0)
+  SLV_DIVIDE(z, z, v)
+  SLV_SUMS(v, a)
+  SLV_ADD(v, z)
+  SLV_STORE_ANY(r, v)
+  SLI_EACH8(SLI_SET, 0)
+  SLI_ROW(7)
+  SLI_ROW(6)
+  SLI_ROW(5)
+  SLI_ROW(4)
+  SLI_ROW(3)
+  SLI_ROW(2)
+  SLI_ROW(1)
+  SLI_EACH8(SLI_GET, 0)
+}
+
+#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(forward_small)(sl_int w, sl_int below, const sl_int *rows,
+                            const SLV_VALUE *l, double *xs, double *x,
+                            double *buf) {
+  SLI_CASES(SLI_FORWARD);
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, const sl_int *rows,
+                             const SLV_VALUE *l, const double *d,
+                             double *xs, const double *x) {
+  SLI_CASES(SLI_BACKWARD);
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_COLUMN
+#undef SLI_EVEN_ODD
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_ROW_AT
+#undef SLI_ROW_AT_PART
+#undef SLI_ROW_AT_OWN
+#undef SLI_SET
+#undef SLI_GET
+#undef SLI_XT
+#undef SLI_ROW
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+/* end of small_supernode.inl.h */
+/* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
+                            sl_int width, sl_int columns, sl_int rows,
+                            double *buf) {
+  const sl_int first = SLI_TILE * t0;
+  sl_int t, j, k;
+  for (t = t0; SLI_TILE * t < rows; t++) {
+    const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
+    const sl_int inner = sli_clamp(columns - row, SLI_TILE);
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(a2)
+    SLV_DECLARE(a3)
+    SLV_LOAD(a0, buf + row)
+    SLV_ZERO(a1)
+    SLV_ZERO(a2)
+    SLV_ZERO(a3)
+    for (j = first; j + 4 <= final; j += 4) {
+      const SLV_VALUE *l = tile + SLI_TILE * j;
+      SLV_AXPY(a0, l, buf + j)
+      SLV_AXPY(a1, l + 8, buf + j + 1)
+      SLV_AXPY(a2, l + 16, buf + j + 2)
+      SLV_AXPY(a3, l + 24, buf + j + 3)
+    }
+    for (; j < final; j++) {
+      SLV_AXPY(a0, tile + SLI_TILE * j, buf + j)
+    }
+    SLV_ADD(a0, a1)
+    SLV_ADD(a2, a3)
+    SLV_ADD(a0, a2)
+    SLV_STORE(buf + row, a0)
+    if (inner == SLI_TILE) {
+      SLV_SWEEP(tile_forward)(tile + SLI_TILE * row, buf + row);
+    } else {
+      for (k = 0; k < inner; k++) {
+        SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
+        SLV_STORE(buf + row, a0)
+      }
+    }
+    tile += SLI_TILE * sli_min(width, row + SLI_TILE);
+  }
+}
+
+SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                      const void *values, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  for (; count > 0; count--, s++) {
+    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+    double *xs = x + s->base;
+    sl_int i;
+    if (w <= SLI_TILE) {
+      SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
+      rows += s->below;
+      continue;
+    }
+    memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
+    for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+      buf[i] = 0.0;
+    }
+    SLV_SWEEP(panel_forward)(tile, s->first_tile, w, w, height, buf);
+    memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
+    for (i = 0; i < s->below; i++) {
+      x[rows[i]] += buf[w + i];
+    }
+    rows += s->below;
+  }
+}
+
+#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_ROW_AT(k) rows[at + (k)]
+#define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots1)(const SLV_VALUE *l, const double *x, sl_int first,
+                        sl_int final, double *sums) {
+  ptrdiff_t j;
+  SLV_DECLARE(v)
+  SLV_SUM_DECLARE(a)
+  SLV_LOAD(v, x)
+  for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+    SLI_PREFETCH(l + j, -SLI_PREFETCH_DISTANCE);
+    SLV_SUM_LOAD(a, sums + j)
+    SLV_SUM_DOT(a, l + j, v)
+    SLV_SUM_STORE(sums + j, a)
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VALUE *l1,
+                        const double *x, sl_int first, sl_int final,
+                        double *sums) {
+  ptrdiff_t j;
+  SLV_DECLARE(v0)
+  SLV_DECLARE(v1)
+  SLV_SUM_DECLARE(a)
+  SLV_LOAD(v0, x)
+  SLV_LOAD(v1, x + SLI_TILE)
+  for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
+    SLV_SUM_LOAD(a, sums + j)
+    SLV_SUM_DOT(a, l1 + j, v1)
+    SLV_SUM_DOT(a, l0 + j, v0)
+    SLV_SUM_STORE(sums + j, a)
+  }
+}
+
+#define SLI_TAKE_SUM(k, unused) \
+  if ((k) < inner) { \
+    SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
+    if (inner < SLI_TILE) { \
+      SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
+    } \
+  } else { \
+    SLV_SUM_ZERO(a##k) \
+  }
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+                         const double *sums, const double *d, double *xs,
+                         double *buf) {
+  double r[SLI_TILE];
+  sl_int j, k;
+  SLV_DECLARE(v)
+  SLV_DECLARE(z)
+  SLI_EACH8(SLI_SUM_DECLARE, a)
+  SLV_ZERO(v)
+  if (inner < SLI_TILE) {
+    SLV_LOAD(v, buf)
+  }
+  SLI_EACH8(SLI_TAKE_SUM, 0)
+  SLV_LOAD_PART(z, xs, inner, 0.0)
+  SLV_LOAD_PART(v, d, inner, 1.0)
+  SLV_DIVIDE(z, z, v)
+  SLV_SUMS(v, a)
+  SLV_ADD(v, z)
+  SLV_STORE_ANY(r, v)
+  if (inner == SLI_TILE) {
+    SLV_SWEEP(tile_backward)(l, r);
+  } else {
+    for (k = inner - 1; k > 0; k--) {
+      for (j = 0; j < k; j++) {
+        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
+      }
+    }
+  }
+  for (k = 0; k < inner; k++) {
+    xs[k] = buf[k] = r[k];
+  }
+}
+
+#define SLI_FEW_STEPS 4096
+
+SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
+                       const sl_int *rows_end, const void *values,
+                       const double *D, double *x, double *buf) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  const int by_two = count <= SLI_FEW_STEPS;
+  for (s += count; count > 0; count--) {
+    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+    const double *d = D + s->column - first;
+    double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
+    const sl_int *rows = rows_end -= s->below;
+    sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
+    SLV_DECLARE(v)
+    SLV_SUM_DECLARE(a)
+    if (w <= SLI_TILE) {
+      SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
+      continue;
+    }
+    SLV_SUM_ZERO(a)
+    for (j = first; j < w; j++) {
+      SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+    }
+    for (; row >= first; row -= SLI_TILE) {
+      const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+      const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+      const SLV_VALUE *above;
+      tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+      above = tile - SLI_TILE * (ptrdiff_t) final;
+      if (part == SLI_TILE) {
+        SLV_GATHER(v, x, SLI_ROW_AT)
+        SLV_STORE(buf + SLI_TILE, v)
+      } else if (inner < SLI_TILE) {
+        SLV_ZERO(v)
+        if (part > 0) {
+          SLV_GATHER(v, x, SLI_ROW_AT_PART)
+          SLV_FIRST(v, inner + part)
+        }
+        SLV_STORE(buf + SLI_TILE, v)
+        for (j = 0; j < inner; j++) {
+          buf[SLI_TILE + j] = 0.0;
+        }
+      }
+      if (inner > 0) {
+        SLV_SWEEP(diagonal)
+        (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+         xs + row, buf + SLI_TILE);
+      }
+      if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
+        SLV_SWEEP(dots1)(tile, buf + SLI_TILE, first, final, sums);
+        continue;
+      }
+      row -= SLI_TILE;
+      if (inner == 0) {
+        rows -= SLI_TILE;
+        SLV_GATHER(v, x, SLI_ROW_AT)
+        rows += SLI_TILE;
+        SLV_STORE(buf, v)
+        SLV_SWEEP(dots2)(above, tile, buf, first, w, sums);
+      } else {
+        SLV_SWEEP(dots1)(tile, buf + SLI_TILE, row, final, sums);
+        SLV_SWEEP(diagonal)
+        (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
+         d + row, xs + row, buf);
+        SLV_SWEEP(dots2)(above, tile, buf, first, row, sums);
+      }
+      tile = above;
+    }
+  }
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_ROW_AT
+#undef SLI_ROW_AT_PART
+#undef SLI_TAKE_SUM
+#undef SLI_FEW_STEPS
+/* end of single_rhs.inl.h */
+
+#if SLV_SINGLE
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#else
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#endif
+#endif
+
+#ifdef SLI_SECTION_KERNEL_SET
+#undef SLI_SECTION_KERNEL_SET
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except its sweeps, and their table */
+
 /* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
 #define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
@@ -23997,383 +24733,7 @@ SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double 
   }
 }
 /* end of inverse_front.inl.h */
-/* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
-
-#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
-#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
-
-#define SLI_COLUMN(k, unused) \
-  if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
-    SLV_LANE(y##k, a, k) \
-    SLV_DOT(a, l + SLI_TILE * (k), y##k) \
-  }
-#define SLI_EVEN_ODD(k, unused) \
-  if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
-    if ((k) % 2 == 0) { \
-      SLV_DOT(a, l + SLI_TILE * (k), y##k) \
-    } else { \
-      SLV_DOT(b, l + SLI_TILE * (k), y##k) \
-    } \
-  }
-
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_int below,
-                              const sl_int *rows, const double *l,
-                              double *xs, double *x, double *buf) {
-  sl_int row, i;
-  SLV_DECLARE(a)
-  SLV_DECLARE(b)
-  SLI_EACH8(SLI_DECLARE, y)
-  SLV_LOAD_PART(a, xs, w, 0.0)
-  SLI_EACH8(SLI_COLUMN, 0)
-  SLV_STORE(buf, a)
-  for (i = 0; i < w; i++) {
-    xs[i] = buf[i];
-  }
-  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
-    l += SLI_TILE * w;
-    SLV_ZERO(a)
-    SLV_ZERO(b)
-    SLI_EACH8(SLI_EVEN_ODD, 0)
-    SLV_ADD(a, b)
-    SLV_STORE(buf + row, a)
-  }
-  buf += w;
-  for (i = 0; i + 4 <= below; i += 4) {
-    x[rows[i]] += buf[i];
-    x[rows[i + 1]] += buf[i + 1];
-    x[rows[i + 2]] += buf[i + 2];
-    x[rows[i + 3]] += buf[i + 3];
-  }
-  for (; i < below; i++) {
-    x[rows[i]] += buf[i];
-  }
-}
-
-#define SLI_DOT(k) \
-  if ((k) < w) { \
-    SLI_PREFETCH(l + SLI_TILE * (k), -SLI_PREFETCH_DISTANCE); \
-    SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
-  }
-#define SLI_DOTS \
-  SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
-#define SLI_ROW_AT(k) rows[at + (k)]
-#define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
-#define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
-#define SLI_SET(k, unused) double r##k = r[k];
-#define SLI_GET(k, unused) \
-  if ((k) < w) { \
-    xs[k] = r##k; \
-  }
-#define SLI_XT(j, k) \
-  if ((j) < (k) && (k) < w) {  \
-    r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j); \
-  }
-#define SLI_ROW(k) \
-  SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
-
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_backward)(const sl_int w, sl_int below,
-                               const sl_int *rows, const double *l,
-                               const double *d, double *xs,
-                               const double *x) {
-  const sl_int count = (w + below) % SLI_TILE;
-  sl_int row = w + below - count, at = below;
-  double r[SLI_TILE];
-  SLV_DECLARE(v)
-  SLV_DECLARE(z)
-  SLI_EACH8(SLI_SUM_DECLARE, a)
-  SLI_EACH8(SLI_SUM_ZERO, a)
-  if (row > 0 && count > 0) {
-    at -= count;
-    l -= SLI_TILE * w;
-    SLV_GATHER(v, x, SLI_ROW_AT_PART)
-    SLV_FIRST(v, count)
-    SLI_DOTS
-  }
-  for (; row > SLI_TILE; row -= SLI_TILE) {
-    at -= SLI_TILE;
-    l -= SLI_TILE * w;
-    SLV_GATHER(v, x, SLI_ROW_AT)
-    SLI_DOTS
-  }
-  l -= SLI_TILE * w;
-  if (w < SLI_TILE && at > 0) {
-    SLV_GATHER(v, x, SLI_ROW_AT_OWN)
-    SLV_FIRST(v, w + at)
-    SLV_BELOW(v, w - 1)
-    SLI_DOTS
-  }
-  SLV_LOAD_PART(z, xs, w, 0.0)
-  SLV_LOAD_PART(v, d, w, 1.0)
-  SLV_DIVIDE(z, z, v)
-  SLV_SUMS(v, a)
-  SLV_ADD(v, z)
-  SLV_STORE_ANY(r, v)
-  SLI_EACH8(SLI_SET, 0)
-  SLI_ROW(7)
-  SLI_ROW(6)
-  SLI_ROW(5)
-  SLI_ROW(4)
-  SLI_ROW(3)
-  SLI_ROW(2)
-  SLI_ROW(1)
-  SLI_EACH8(SLI_GET, 0)
-}
-
-#define SLI_FORWARD(k) SLV_NAME(small_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_NAME(small_backward)(k, below, rows, l, d, xs, x)
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_small)(sl_int w, sl_int below, const sl_int *rows,
-                           const double *l, double *xs, double *x,
-                           double *buf) {
-  SLI_CASES(SLI_FORWARD);
-}
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_small)(sl_int w, sl_int below, const sl_int *rows,
-                            const double *l, const double *d, double *xs,
-                            const double *x) {
-  SLI_CASES(SLI_BACKWARD);
-}
-
-#undef SLI_DECLARE
-#undef SLI_SUM_DECLARE
-#undef SLI_SUM_ZERO
-#undef SLI_COLUMN
-#undef SLI_EVEN_ODD
-#undef SLI_DOT
-#undef SLI_DOTS
-#undef SLI_ROW_AT
-#undef SLI_ROW_AT_PART
-#undef SLI_ROW_AT_OWN
-#undef SLI_SET
-#undef SLI_GET
-#undef SLI_XT
-#undef SLI_ROW
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-/* end of small_supernode.inl.h */
-/* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
-                           sl_int columns, sl_int rows, double *buf) {
-  const sl_int first = SLI_TILE * t0;
-  sl_int t, j, k;
-  for (t = t0; SLI_TILE * t < rows; t++) {
-    const sl_int row = SLI_TILE * t, final = sli_min(row, columns);
-    const sl_int inner = sli_clamp(columns - row, SLI_TILE);
-    SLV_DECLARE(a0)
-    SLV_DECLARE(a1)
-    SLV_DECLARE(a2)
-    SLV_DECLARE(a3)
-    SLV_LOAD(a0, buf + row)
-    SLV_ZERO(a1)
-    SLV_ZERO(a2)
-    SLV_ZERO(a3)
-    for (j = first; j + 4 <= final; j += 4) {
-      const double *l = tile + SLI_TILE * j;
-      SLV_AXPY(a0, l, buf + j)
-      SLV_AXPY(a1, l + 8, buf + j + 1)
-      SLV_AXPY(a2, l + 16, buf + j + 2)
-      SLV_AXPY(a3, l + 24, buf + j + 3)
-    }
-    for (; j < final; j++) {
-      SLV_AXPY(a0, tile + SLI_TILE * j, buf + j)
-    }
-    SLV_ADD(a0, a1)
-    SLV_ADD(a2, a3)
-    SLV_ADD(a0, a2)
-    SLV_STORE(buf + row, a0)
-    if (inner == SLI_TILE) {
-      SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
-    } else {
-      for (k = 0; k < inner; k++) {
-        SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
-        SLV_STORE(buf + row, a0)
-      }
-    }
-    tile += SLI_TILE * sli_min(width, row + SLI_TILE);
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                       const double *L, double *x, double *buf) {
-  for (; count > 0; count--, s++) {
-    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-    double *xs = x + s->base;
-    sl_int i;
-    if (w <= SLI_TILE) {
-      SLV_NAME(forward_small)(w, s->below, rows, tile, xs, x, buf);
-      rows += s->below;
-      continue;
-    }
-    memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
-    for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
-      buf[i] = 0.0;
-    }
-    SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
-    memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
-    for (i = 0; i < s->below; i++) {
-      x[rows[i]] += buf[w + i];
-    }
-    rows += s->below;
-  }
-}
-
-#define SLI_DECLARE(k, a) SLV_DECLARE(a##k)
-#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_ROW_AT(k) rows[at + (k)]
-#define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
-                       sl_int final, double *sums) {
-  ptrdiff_t j;
-  SLV_DECLARE(v)
-  SLV_SUM_DECLARE(a)
-  SLV_LOAD(v, x)
-  for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
-    SLI_PREFETCH(l + j, -SLI_PREFETCH_DISTANCE);
-    SLV_SUM_LOAD(a, sums + j)
-    SLV_SUM_DOT(a, l + j, v)
-    SLV_SUM_STORE(sums + j, a)
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
-                       sl_int first, sl_int final, double *sums) {
-  ptrdiff_t j;
-  SLV_DECLARE(v0)
-  SLV_DECLARE(v1)
-  SLV_SUM_DECLARE(a)
-  SLV_LOAD(v0, x)
-  SLV_LOAD(v1, x + SLI_TILE)
-  for (j = SLI_TILE * ((ptrdiff_t) final - 1); j >= SLI_TILE * (ptrdiff_t)first; j -= SLI_TILE) {
-    SLV_SUM_LOAD(a, sums + j)
-    SLV_SUM_DOT(a, l1 + j, v1)
-    SLV_SUM_DOT(a, l0 + j, v0)
-    SLV_SUM_STORE(sums + j, a)
-  }
-}
-
-#define SLI_TAKE_SUM(k, unused) \
-  if ((k) < inner) { \
-    SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
-    if (inner < SLI_TILE) { \
-      SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
-    } \
-  } else { \
-    SLV_SUM_ZERO(a##k) \
-  }
-SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
-                        const double *d, double *xs, double *buf) {
-  double r[SLI_TILE];
-  sl_int j, k;
-  SLV_DECLARE(v)
-  SLV_DECLARE(z)
-  SLI_EACH8(SLI_SUM_DECLARE, a)
-  SLV_ZERO(v)
-  if (inner < SLI_TILE) {
-    SLV_LOAD(v, buf)
-  }
-  SLI_EACH8(SLI_TAKE_SUM, 0)
-  SLV_LOAD_PART(z, xs, inner, 0.0)
-  SLV_LOAD_PART(v, d, inner, 1.0)
-  SLV_DIVIDE(z, z, v)
-  SLV_SUMS(v, a)
-  SLV_ADD(v, z)
-  SLV_STORE_ANY(r, v)
-  if (inner == SLI_TILE) {
-    SLV_NAME(tile_backward)(l, r);
-  } else {
-    for (k = inner - 1; k > 0; k--) {
-      for (j = 0; j < k; j++) {
-        r[j] = SLV_FNMA1(l[SLI_TILE * j + k], r[k], r[j]);
-      }
-    }
-  }
-  for (k = 0; k < inner; k++) {
-    xs[k] = buf[k] = r[k];
-  }
-}
-
-#define SLI_FEW_STEPS 4096
-
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                      const double *L, const double *D, double *x,
-                      double *buf) {
-  const int by_two = count <= SLI_FEW_STEPS;
-  for (s += count; count > 0; count--) {
-    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
-    double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
-    const sl_int *rows = rows_end -= s->below;
-    sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
-    SLV_DECLARE(v)
-    SLV_SUM_DECLARE(a)
-    if (w <= SLI_TILE) {
-      SLV_NAME(backward_small)(w, s->below, rows, tile, d, xs, x);
-      continue;
-    }
-    SLV_SUM_ZERO(a)
-    for (j = first; j < w; j++) {
-      SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
-    }
-    for (; row >= first; row -= SLI_TILE) {
-      const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
-      const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
-      const double *above;
-      tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
-      above = tile - SLI_TILE * (ptrdiff_t) final;
-      if (part == SLI_TILE) {
-        SLV_GATHER(v, x, SLI_ROW_AT)
-        SLV_STORE(buf + SLI_TILE, v)
-      } else if (inner < SLI_TILE) {
-        SLV_ZERO(v)
-        if (part > 0) {
-          SLV_GATHER(v, x, SLI_ROW_AT_PART)
-          SLV_FIRST(v, inner + part)
-        }
-        SLV_STORE(buf + SLI_TILE, v)
-        for (j = 0; j < inner; j++) {
-          buf[SLI_TILE + j] = 0.0;
-        }
-      }
-      if (inner > 0) {
-        SLV_NAME(diagonal)
-        (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
-         xs + row, buf + SLI_TILE);
-      }
-      if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
-        SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
-        continue;
-      }
-      row -= SLI_TILE;
-      if (inner == 0) {
-        rows -= SLI_TILE;
-        SLV_GATHER(v, x, SLI_ROW_AT)
-        rows += SLI_TILE;
-        SLV_STORE(buf, v)
-        SLV_NAME(dots2)(above, tile, buf, first, w, sums);
-      } else {
-        SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-        SLV_NAME(diagonal)
-        (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
-         d + row, xs + row, buf);
-        SLV_NAME(dots2)(above, tile, buf, first, row, sums);
-      }
-      tile = above;
-    }
-  }
-}
-
-#undef SLI_DECLARE
-#undef SLI_SUM_DECLARE
-#undef SLI_ROW_AT
-#undef SLI_ROW_AT_PART
-#undef SLI_TAKE_SUM
-#undef SLI_FEW_STEPS
+/* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
                      const double *D, double *xs, double *x, double *buf,
@@ -24402,7 +24762,7 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   *pivot = d;
   *magnitude = size;
 }
-/* end of single_rhs.inl.h */
+/* end of row.inl.h */
 /* src/impl/kernels/change.inl.h: rank-k change of the rows of a panel, for 1, 2, 4 and 8 vectors */
 
 #define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
@@ -24474,8 +24834,12 @@ SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int col
 
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
-  {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
-  {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)},
+  {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)}},
+   {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
+     SLV_NAME(single_forward8)},
+    {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
+     SLV_NAME(single_backward8)}}},
   SLV_NAME(row),
   SLV_NAME(pivots),
   SLV_NAME(rows),
@@ -24497,6 +24861,9 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_LOAD
 #undef SLV_STORE
 #undef SLV_ADD
+#undef SLV_READ_0
+#undef SLV_READ_1
+#undef SLV_WIDEN_ROWS
 #undef SLV_AXPY
 #undef SLV_DOT
 #undef SLV_FNMA1

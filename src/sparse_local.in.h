@@ -99,6 +99,7 @@ extern "C" {
 #include "impl/analysis/reach.h"
 /* factor: the numbers of L and D */
 #include "impl/factor/factor_types.h"
+#include "impl/factor/storage.h"
 #include "impl/factor/pivot_search.h"
 #include "impl/factor/pivoted.h"
 #include "impl/factor/scatter.h"

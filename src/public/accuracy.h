@@ -74,7 +74,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  above, solutions are worthless. Up to rounding, the true value is never larger than the
  *  estimate, and rarely smaller than a third of it. L D L' is judged, too: the solves of the
  *  estimator are checked against A, and where their largest backward error w exceeds 64 epsilon,
- *  because L has grown, the estimate is multiplied by epsilon / w. 0 if null pivots were skipped; 1
+ *  because L has grown, the estimate is multiplied by epsilon / w; with SL_STORAGE_FLOAT epsilon is
+ *  that of float here, and rcond is that of A down to about 1e-13. 0 if null pivots were skipped; 1
  *  if n = 0. If regularization changed pivots, all this is about A + E.
  *
  *  A      [in]      the matrix that F is a factor of.

@@ -35,7 +35,7 @@
  *           would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE: an entry of V at
  *           error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE: growth beyond its
  *           limit; SL_ERR_STATE: F has no numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots
- *           were skipped, or there are 2x2 pivots; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           were skipped, there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
  *           writes these columns once. A pass that may fail takes another forward sweep; several
  *           such passes, and pivots of both signs, a copy of the columns.

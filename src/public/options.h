@@ -37,7 +37,7 @@ typedef struct sl_allocator {
  *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
- *  |   sl_batch_factor                          | null_vector .. null_vector_count         |
+ *  |   sl_batch_factor                          | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create                         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
@@ -114,7 +114,8 @@ typedef struct sl_options {
     const double *null_vector;
 
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
-     * 1 / epsilon = 4.5e15, beyond which L D L' may agree with A in no digit; negative: no limit */
+     * 1 / epsilon = 4.5e15, or 8.4e6 with SL_STORAGE_FLOAT, beyond which L D L' may agree with A in
+     * no digit; negative: no limit */
     double growth_limit;
     /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
      * backward error; 0: 1e-8; negative: never */
@@ -123,9 +124,12 @@ typedef struct sl_options {
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
      * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
+    /* SL_STORAGE_FLOAT keeps L in half the bytes; solutions have the accuracy of float until they
+     * are refined (sl_factor_create) */
+    sl_storage storage;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[3];
+    const void *reserved[2];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.

@@ -18,7 +18,7 @@ typedef struct sl_symbolic_info {
     sl_triangle triangle;
     sl_off nnz_a;      /* entries of A that are read: one triangle with diagonal, with duplicates */
     sl_off nnz_l;      /* entries of L with its unit diagonal, without relaxation */
-    sl_off nnz_panels; /* doubles stored for L, padding and relaxation included */
+    sl_off nnz_panels; /* values stored for L, padding and relaxation included */
     double flops;      /* sum over columns of (entries)^2, without relaxation */
     sl_int supernodes;
     sl_int supernodes_fundamental; /* before relaxation */

@@ -110,6 +110,12 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
+/** The type in which a factor keeps L. Arithmetic, D, B and X are double in any case. */
+typedef enum sl_storage {
+    SL_STORAGE_DOUBLE = 0,
+    SL_STORAGE_FLOAT /* half the bytes of L, its accuracy until refined: sl_factor_create */
+} sl_storage;
+
 /** What to do with a null pivot. */
 typedef enum sl_null_pivots {
     SL_NULL_PIVOT_REFUSE = 0, /* fail with SL_ERR_PIVOT; D may have any sign */

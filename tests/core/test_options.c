@@ -139,6 +139,11 @@ static void unknown_enum_values_are_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
+        opt.storage = (sl_storage)unknown(k, SL_STORAGE_FLOAT);
+        SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
+        SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
+        opt = options_none();
         opt.null_pivots = (sl_null_pivots)unknown(k, SL_NULL_PIVOT_SKIP);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));

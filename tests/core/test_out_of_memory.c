@@ -103,6 +103,12 @@ static sl_status factor(fixture_t *f, const sl_options *opt) {
     return status;
 }
 
+static sl_status factor_float(fixture_t *f, const sl_options *opt) {
+    sl_options single = *opt;
+    single.storage = SL_STORAGE_FLOAT;
+    return factor(f, &single);
+}
+
 static sl_status lower(fixture_t *f, const sl_options *opt) {
     sl_matrix *M = GARBAGE(sl_matrix);
     return end_matrix(sl_factor_lower(&M, f->y.F, opt), &M);
@@ -265,6 +271,7 @@ static void every_allocation_may_fail(void **state) {
         {"sl_symbolic_create, natural", symbolic_natural},
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},
+        {"sl_factor_create, in float", factor_float},
         {"sl_factor_lower", lower},
         {"sl_plan_create", plan},
         {"sl_work_create", work},

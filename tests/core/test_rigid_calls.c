@@ -384,6 +384,30 @@ static void what_is_not_supported_is_refused(void **state) {
     for_all(check_refusals);
 }
 
+/* L in float: the null pivots within a tree are no entries that float cannot hold, and refinement
+ * brings the accuracy of double. */
+static void check_float(bodies_t *f, const sl_options *from) {
+    sl_options opt = *from;
+    sl_factor *F = NULL;
+    double *x = test_reals(f->n);
+    sl_int *nulls = test_ints(f->n), count = 0;
+    opt.storage = SL_STORAGE_FLOAT;
+    SL_CHECK(sl_factor_create(&F, f->S, &f->y.A, &opt, NULL));
+    SL_CHECK(sl_factor_null_rows(F, nulls, f->y.n, &count));
+    assert_int_equal(count, f->y.null);
+    SL_CHECK(sl_factor_solve(F, x, f->n, f->B, f->n, 1, NULL));
+    SL_CHECK(sl_factor_refine(F, &f->y.A, x, f->n, f->B, f->n, 1, 5, NULL, NULL));
+    BACKWARD_PASSES(&f->y.A, x, f->n, f->B, f->n, 1);
+    free(nulls);
+    free(x);
+    sl_factor_free(F);
+}
+
+static void in_single_precision(void **state) {
+    (void)state;
+    for_all(check_float);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(inconsistent_right_hand_sides_are_refused),
@@ -394,6 +418,7 @@ int main(void) {
         cmocka_unit_test(half_solves_make_a_solve),
         cmocka_unit_test(factors_are_saved),
         cmocka_unit_test(what_is_not_supported_is_refused),
+        cmocka_unit_test(in_single_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

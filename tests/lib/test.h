@@ -153,6 +153,7 @@ static inline sl_options options_for_analysis(const sl_options *from) {
         opt.growth_limit = opt.error_limit = 0;
         opt.mass = opt.null_vector = NULL;
         opt.null_vector_count = 0;
+        opt.storage = SL_STORAGE_DOUBLE;
         opt.signs = NULL;
     }
     return opt;

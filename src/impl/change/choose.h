@@ -68,7 +68,8 @@ static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
 /* Chooses. can_update: rank-one changes are possible. */
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
     const sl_symbolic *S = F->S;
-    const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL;
+    const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL &&
+                          F->storage == SL_STORAGE_DOUBLE;
     c->flops_refactor = S->stats.symbolic.flops;
     c->refactor = SLI_CHANGE_FRONT_FLOP * c->flops_refactor + SLI_CHANGE_FRONT * S->n_supers;
     c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;

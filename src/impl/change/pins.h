@@ -81,7 +81,7 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) 
     for (k = 0; k < pin->count; k++) {
         pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
     }
-    F->kernels->forward[SLI_NRHS_1](pin->R.count, pin->R.steps, pin->R.rows, F->L, pin->y, scratch);
+    sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
     pin->z = 0.0;
     status = sli_pin_null(F, &pin->R, &pin->null);
     if (status == SL_OK && pin->null != -1) {
@@ -554,9 +554,9 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
     }
     sli_pins_shift(P, q, w, v.x, lanes);
-    F->kernels->backward[kind](q->backward.count, q->backward.steps,
-                               q->backward.rows + q->backward.n_rows, F->L,
-                               P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
+    sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
+                       q->backward.rows + q->backward.n_rows,
+                       P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
     sli_unpack(q, X, x_at, v.x, lanes, nrhs);
 }
 

@@ -40,7 +40,9 @@ static sl_status sli_rank_check(const sl_factor *F) {
     if (!F->is_valid || !sli_factor_may_change(F)) {
         return SL_ERR_STATE;
     }
-    return F->E != NULL || F->n_nulls > 0 ? SL_ERR_UNSUPPORTED : SL_OK;
+    /* in float each change would round all of its columns again */
+    return F->E != NULL || F->n_nulls > 0 || F->storage == SL_STORAGE_FLOAT ? SL_ERR_UNSUPPORTED
+                                                                            : SL_OK;
 }
 
 /* Checks vector v: its entries are finite, and its rows are below each other in L. */
@@ -188,7 +190,7 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
         const sl_int columns = sli_step_columns(step);
         const sl_off from = sli_tile_offset(step->width, step->first_tile);
         const size_t size = (size_t)(sli_panel_size(step->width, step->below) - from);
-        double *L = F->L + step->panel + from;
+        double *L = (double *)F->values + step->panel + from;
         sli_extent *extent = &F->extents[F->S->super_of[step->column]];
         memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
         memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,

@@ -74,7 +74,7 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
             continue;
         }
         for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
-            const double l = F->L[step->panel + sli_panel_at(step->width, r, j)];
+            const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
             sum += fabs(l * F->D[step->column + j] * l);
         }
         d--;
@@ -169,7 +169,7 @@ static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_i
 /* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
-    double *l = u->F->L + step->panel + sli_panel_at(step->width, first, first);
+    double *l = (double *)u->F->values + step->panel + sli_panel_at(step->width, first, first);
     double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
     const sl_int start = step->column - SLI_TILE * step->first_tile;
     sl_int j, i;
@@ -201,7 +201,8 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0
     double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t0 - entered), *tiles[4];
     sl_int t;
     for (t = t0; t < t1; t++) {
-        tiles[t - t0] = u->F->L + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
+        tiles[t - t0] =
+            (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
     }
     if (u->kind == SLI_NRHS_1 && t1 - t0 == 4) {
         u->F->kernels->change_tiles(tiles, to - from, c, w);
@@ -245,7 +246,7 @@ static void sli_update_gains(const sli_update *u, const sli_step *step, const sl
     const sl_int start = step->column - SLI_TILE * step->first_tile;
     sl_int r, j;
     for (r = SLI_TILE * step->first_tile; r < step->width + step->below; r++) {
-        const double *l = F->L + step->panel + sli_panel_at(step->width, r, 0);
+        const double *l = (const double *)F->values + step->panel + sli_panel_at(step->width, r, 0);
         double *gain = &u->gain[r < step->width ? step->base + start + r - step->column
                                                 : rows[r - step->width]];
         double sum = r < step->width ? fabs(F->D[start + r]) : 0.0;
@@ -355,7 +356,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
     sl_status status = SL_OK;
     sl_int s, j;
     memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
-    u->F->kernels->forward[u->kind](R->count, R->steps, R->rows, u->F->L, u->trial, u->scratch);
+    sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
     u->is_trial = 1;
     for (s = 0; s < R->count; s++) {
         const sli_step *step = &R->steps[s];

@@ -49,11 +49,12 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
     sli_fail_at(&F->stats, f->status, row, column, f->value);
 }
 
-/* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. */
-static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+/* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. has_pivots:
+ * the failure came after all of them. */
+static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f, int has_pivots) {
     sl_int n_done = F->S->n; /* pivots before the failure */
     if (f->status != SL_OK && f->pivot >= 0) {
-        n_done = f->status == SL_ERR_INACCURATE ? n_done : f->pivot;
+        n_done = has_pivots ? n_done : f->pivot;
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
     } else if (f->status != SL_OK) {
         n_done = F->S->super_first[f->super];
@@ -87,18 +88,24 @@ static void sli_pairs_done(sl_factor *F) {
  * and for the caller. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                                  double started, sl_stats *stats) {
+    int has_pivots;
     sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
         (void)sli_nulls_find(F, from, failure);
     }
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
-    if (failure->status == SL_OK) {
+    has_pivots = failure->status == SL_OK;
+    if (has_pivots) {
         (void)sli_growth_check(F, failure);
     }
-    sli_factor_report(F, from->A, failure);
+    sli_factor_report(F, from->A, failure, has_pivots);
     F->stats.factor.seconds = sli_seconds() - started;
     F->is_valid = failure->status == SL_OK;
-    if (F->is_valid) { /* the pivots show every option that changes numbers by more than rounding */
+    if (F->is_valid) { /* the pivots show every other option that changes more than rounding */
+        const sl_int storage = (sl_int)F->storage;
+        if (F->storage != SL_STORAGE_DOUBLE) {
+            F->identity = sli_hash_ints(F->identity, &storage, 1);
+        }
         F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
         if (F->E != NULL) {
             sli_pairs_done(F);

@@ -3,6 +3,7 @@
 #define SLI_FACTOR_FACTOR_QUERY_H
 
 #include "factor.h"
+#include "storage.h"
 
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
     sli_stats_clear_error(stats);
@@ -84,7 +85,8 @@ static sl_off sli_factor_entries(const sl_factor *F, sl_matrix *M) {
                      height = width + S->steps[s].below;
         for (j = 0; j < width; j++) {
             for (r = j; r < height; r++) {
-                const double l = r == j ? 1.0 : F->L[S->panel_begin[s] + sli_panel_at(width, r, j)];
+                const double l =
+                    r == j ? 1.0 : sli_entry(F, S->panel_begin[s] + sli_panel_at(width, r, j));
                 if (l != 0.0) {
                     if (M != NULL) {
                         M->i[count] = r < width ? first + r : S->rows[S->rows_begin[s] + r - width];
@@ -128,10 +130,11 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
 }
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
-    sl_factor_arrays v = {NULL, NULL, NULL, NULL};
+    sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL};
     if (F != NULL) {
         v.symbolic = F->S;
-        v.L = F->L;
+        v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
+        v.L_float = F->storage == SL_STORAGE_FLOAT ? (const float *)F->values : NULL;
         v.D = F->D;
         v.E = F->E;
     }

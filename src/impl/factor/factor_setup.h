@@ -40,7 +40,26 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->center = SLI_TAKE(b, double, n);
         F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
     }
-    F->L = SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+    F->values = F->storage == SL_STORAGE_FLOAT
+                    ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
+                    : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+}
+
+/* The pieces of scratch for panels that are rounded, one a worker. */
+static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
+    const sl_symbolic *S = F->S;
+    const uint64_t workers = (uint64_t)F->schedule.workers;
+    const uint64_t suspects =
+        sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+        F->panel_room = size > F->panel_room ? size : F->panel_room;
+    }
+    F->panels = SLI_TAKE(b, double,
+                         workers *(uint64_t)F->panel_room > suspects
+                             ? workers *(uint64_t)F->panel_room
+                             : suspects);
 }
 
 /* The scratch of a factorization. */
@@ -67,6 +86,9 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
         F->failures = SLI_TAKE(b, sli_failure, workers);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
+        if (F->storage == SL_STORAGE_FLOAT) {
+            sli_factor_layout_panels(F, b);
+        }
     } else {
         F->buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
         F->x = SLI_TAKE(b, double, n);
@@ -142,6 +164,7 @@ static double sli_null_tolerance(sl_int n) {
 static int sli_factor_choices_are_valid(const sl_options *opt) {
     return opt == NULL ||
            ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
+            (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT &&
             (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
             opt->null_tolerance == opt->null_tolerance &&
             opt->consistency_tolerance == opt->consistency_tolerance &&
@@ -176,7 +199,9 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
                                                                  : (sl_int)opt->null_vector_count;
     F->consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-    F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit, SLI_GROWTH_LIMIT);
+    F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+                                F->storage == SL_STORAGE_FLOAT ? SLI_GROWTH_LIMIT_FLOAT
+                                                               : SLI_GROWTH_LIMIT);
     F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -217,8 +242,8 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
  * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
  * supernodal method is 1.1 to 6 times faster. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-    if (S->n_pairs > 0) { /* only fronts have 2x2 pivots */
-        return SL_METHOD_SUPERNODAL;
+    if (S->n_pairs > 0 || (opt != NULL && opt->storage == SL_STORAGE_FLOAT)) {
+        return SL_METHOD_SUPERNODAL; /* only fronts have 2x2 pivots, and L before it is rounded */
     }
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
         return opt->method;
@@ -265,6 +290,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     draft.allocator = a;
     draft.S = S;
     draft.analysis = S->identity;
+    draft.storage = opt == NULL ? SL_STORAGE_DOUBLE : opt->storage;
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
     status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||

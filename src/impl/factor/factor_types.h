@@ -65,7 +65,10 @@ struct sl_factor {
     sl_off updates; /* rank-one changes since the last complete factorization */
     double drift;   /* the rounding errors that they have added, relative to the largest entry */
     sli_hash analysis;   /* the identity of S */
-    double *L;           /* the panels of all supernodes */
+    sl_storage storage;  /* the type of L */
+    void *values;        /* L: the panels of all supernodes, doubles or floats */
+    double *panels;      /* in float: scratch for a panel in double, one a worker; else NULL */
+    sl_off panel_room;   /* doubles of such a piece */
     double *D;           /* n pivots */
     double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
     sli_extent *extents; /* n_supers */
@@ -195,14 +198,20 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
+/* The panel of supernode s in double, while a worker factors it. */
+SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
+    return F->storage == SL_STORAGE_FLOAT ? F->panels + F->panel_room * worker
+                                          : (double *)F->values + F->S->steps[s].panel;
+}
+
 /* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, and records the
  * largest magnitude. With scatter_from, x is A's value array and scatter_from[m] the position of
  * entry m; without, x[0] is the value of entry `first`. */
-SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, sl_off first,
-                                                   sl_off last, const double *x,
+SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
+                                                   sl_off first, sl_off last, const double *x,
                                                    const sl_int *scatter_from,
                                                    sli_failure *failure) {
-    const sl_off *to = F->S->scatter_to;
+    const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
     double largest = F->extents[s].entry;
     sl_off m;
     for (m = first; m < last; m++) {
@@ -212,7 +221,7 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
         if (!sli_is_finite(a)) {
             return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
         }
-        F->L[to[m]] += a;
+        panel[to[m] - begin] += a;
         largest = size > largest ? size : largest;
     }
     F->extents[s].entry = largest;
@@ -235,7 +244,7 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
 }
 
 /* Adds the matrix's entries to the panel of supernode s. */
-static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s,
+static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s, double *panel,
                                 sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sl_off end = S->scatter_begin[s + 1];
@@ -246,12 +255,12 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     F->extents[s].pivot = -1;
     F->extents[s].zero = 0;
     if (from->A != NULL) {
-        return sli_panel_load_entries(F, s, m, end, from->A->x, S->scatter_from, failure);
+        return sli_panel_load_entries(F, s, panel, m, end, from->A->x, S->scatter_from, failure);
     }
     for (; m < end && status == SL_OK; m = last) {
         last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
         sli_source_sum(from, m, (sl_int)(last - m), sums);
-        status = sli_panel_load_entries(F, s, m, last, sums, NULL, failure);
+        status = sli_panel_load_entries(F, s, panel, m, last, sums, NULL, failure);
     }
     return status;
 }

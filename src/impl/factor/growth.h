@@ -2,7 +2,7 @@
 #ifndef SLI_FACTOR_GROWTH_H
 #define SLI_FACTOR_GROWTH_H
 
-#include "factor_types.h"
+#include "storage.h"
 
 /* The computed factors satisfy L D L' = P A P' + E, |E| <= c n epsilon |L| |D| |L'| [Hi02] 11.1.
  * No entry of the semidefinite matrix |L| |D| |L'| exceeds its largest diagonal entry. Null pivots
@@ -19,6 +19,7 @@
  * that stayed above 1e-8 among these had a growth above 2e15. So the factorization refuses only
  * where L D L' may have no digit of A, and leaves the rest to refinement, which measures. */
 #define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
+#define SLI_GROWTH_LIMIT_FLOAT (1.0 / (double)FLT_EPSILON) /* where L is rounded to float */
 
 /* The pivot j that contributes most to row k, max |l_kj d_j l_kj|; -1 if row k of L is empty. */
 static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
@@ -35,11 +36,12 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
             continue;
         }
         for (j = 0; j < sli_min(r, step->width); j++) {
-            const double *l = &F->L[step->panel + sli_panel_at(step->width, r, j)];
+            const sl_off entry = step->panel + sli_panel_at(step->width, r, j);
             const sl_int c = step->column + j;
-            double size = fabs(*l * F->D[c] * *l);
+            const double l = sli_entry(F, entry);
+            double size = fabs(l * F->D[c] * l);
             if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
-                size += 2.0 * fabs(l[0] * F->E[c] * l[SLI_TILE]);
+                size += 2.0 * fabs(l * F->E[c] * sli_entry(F, entry + SLI_TILE));
             }
             if (size > most) {
                 most = size;

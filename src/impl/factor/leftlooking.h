@@ -152,7 +152,8 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         }
         entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
     }
-    if (F->method != SL_METHOD_SUPERNODAL || entries >= (uint64_t)sli_nnz(A)) {
+    if (F->method != SL_METHOD_SUPERNODAL || F->storage == SL_STORAGE_FLOAT ||
+        entries >= (uint64_t)sli_nnz(A)) {
         return sl_factor_refactor(F, A, stats);
     }
     status = sli_factor_prepare(F);

@@ -2,7 +2,7 @@
 #ifndef SLI_FACTOR_MULTIFRONTAL_H
 #define SLI_FACTOR_MULTIFRONTAL_H
 
-#include "factor_types.h"
+#include "storage.h"
 
 /* What the workers of one parallel call share. First each worker factors whole subtrees; then all
  * workers factor the fronts above them together, each on its own row tiles. */
@@ -17,7 +17,7 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
     const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
     sli_front f;
-    f.panel = F->L + step->panel;
+    f.panel = sli_front_panel(F, s, worker);
     f.width = step->width;
     f.below = step->below;
     f.update = F->stack + F->schedule.stack_begin[s];
@@ -50,7 +50,7 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
  * them. */
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                                 sli_failure *failure) {
-    const sl_status status = sli_panel_load(F, from, s, failure);
+    const sl_status status = sli_panel_load(F, from, s, f->panel, failure);
     sl_int k;
     for (k = 0; k < f->width; k++) {
         f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
@@ -90,7 +90,8 @@ static void sli_front_hand_over(const sli_front *f) {
            SLI_TILE * (size_t)tiles * sizeof(double));
 }
 
-/* Refuses pivots that are not finite, and null pivots that were not replaced. */
+/* Ends a front: refuses pivots that are not finite, and null pivots that were not replaced; rounds
+ * the panel of a factor in float. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
@@ -101,7 +102,8 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
                      ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
                      : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
     }
-    return status;
+    return status == SL_OK && F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure)
+                                                             : status;
 }
 
 /* Factors the panel of an assembled front: its columns of L and D. */

@@ -145,13 +145,24 @@ static int sli_null_is_suspected(const sl_factor *F) {
     return 0;
 }
 
+/* The bytes a row that sli_null_suspect_check works in. */
+#define SLI_SUSPECT_ROW (sizeof(sli_null_row) + sizeof(double) + sizeof(sl_int))
+
+/* Does it fit in L? L has 8 entries or more for each column: enough in double. */
+static int sli_null_suspect_fits(const sl_factor *F) {
+    const sl_off entries = F->S->panel_begin[F->S->n_supers];
+    return F->storage == SL_STORAGE_DOUBLE ||
+           (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
+}
+
 /* Refuses A if constants are a null vector of a component whose last pivot is suspected. Overwrites
- * L, which has 8 doubles or more for each column. */
+ * L, or the scratch of a factor in float where L is too short. */
 static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n);
-    sli_null_row *rows = (sli_null_row *)(void *)F->L;
+    sli_null_row *rows =
+        (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
     double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
     sl_int *last = (sl_int *)(void *)(most + S->n), k;
     const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);

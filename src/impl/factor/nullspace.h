@@ -3,7 +3,7 @@
 #define SLI_FACTOR_NULLSPACE_H
 
 #include "../analysis/reach.h"
-#include "factor_types.h"
+#include "storage.h"
 #include "null_vectors.h"
 
 /* A skipped null pivot k has the null vector z = P' L^-T e_k, which is 1 in the pivot's own row.
@@ -55,12 +55,12 @@ static void sli_rows_nonzero(const sl_factor *F, double *flags) {
     memset(flags, 0, (size_t)S->n * sizeof(double));
     for (s = 0; s < S->n_supers; s++) {
         const sli_step *step = &S->steps[s];
-        const double *panel = F->L + step->panel;
         for (r = 1; r < step->width + step->below; r++) {
             const sl_int row =
                 r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
             for (j = 0; j < sli_min(r, step->width); j++) {
-                flags[row] = panel[sli_panel_at(step->width, r, j)] != 0.0 ? 1.0 : flags[row];
+                const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
+                flags[row] = l != 0.0 ? 1.0 : flags[row];
             }
         }
     }
@@ -149,8 +149,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     sl_int k, first = 0, m = 0;
     memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
     memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
-    F->kernels->forward[SLI_NRHS_1](all.count, all.steps, all.rows, F->L, F->center,
-                                    F->center_scratch);
+    sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->mass[k]);
         if (S->parent[k] == -1) {
@@ -190,8 +189,8 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
             z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
         }
     }
-    F->kernels->backward[SLI_NRHS_1](all.count, all.steps, all.rows + all.n_rows, F->L, F->D, z,
-                                     F->center_scratch);
+    sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, z,
+                       F->center_scratch);
     w = sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, z, NULL);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
@@ -213,7 +212,7 @@ static void sli_anchor_columns_clear(sl_factor *F) {
         const sl_int k = F->nulls[m];
         const sli_step *step = &S->steps[S->super_of[k]];
         for (r = k - step->column + 1; r < step->width + step->below; r++) {
-            F->L[step->panel + sli_panel_at(step->width, r, k - step->column)] = 0.0;
+            sli_entry_clear(F, step->panel + sli_panel_at(step->width, r, k - step->column));
         }
     }
 }

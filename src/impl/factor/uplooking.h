@@ -19,7 +19,7 @@ static void sli_row_link(sl_factor *F, sl_int s) {
 static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int first = S->super_first[s];
-    F->kernels->row(F->L + S->panel_begin[s], S->steps[s].width, q, S->rows + S->rows_begin[s],
+    F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
                     F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
@@ -55,11 +55,11 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     }
     for (k = 0; k < S->n && status == SL_OK; k++) {
         const sl_int s = S->super_of[k], q = k - S->super_first[s];
-        double *panel = F->L + S->panel_begin[s], *diagonal, pivot, magnitude;
+        double *panel = sli_front_panel(F, s, 0), *diagonal, pivot, magnitude;
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_load(F, from, s, failure);
+            status = sli_panel_load(F, from, s, panel, failure);
             if (status != SL_OK) {
                 break;
             }

@@ -10,11 +10,12 @@
 typedef struct sli_reserve {
     const sl_symbolic *S;
     sl_int workers;
+    sl_storage storage;            /* of the factor */
     uint64_t steps, columns, rows; /* of the longest path to a root, each maximized separately */
     sl_off stack;   /* doubles for the fronts of a traversal of everything by one worker */
     sl_off roots;   /* the most doubles of fronts that are pairwise not ancestors of each other */
     sl_off front;   /* doubles of the largest front */
-    sl_off scratch; /* doubles of kernel scratch per worker */
+    sl_off scratch; /* doubles of scratch per worker */
     /* arrays in the workspace, gone once it grows: n_supers each */
     sli_traversal all;
     uint64_t *path_steps, *path_columns, *path_rows; /* from each supernode to its root */
@@ -53,7 +54,7 @@ static void sli_reserve_measure_fronts(sli_reserve *r) {
     sl_int s;
     sli_traversal_plan(&r->all, NULL, 0);
     r->stack = sli_traversal_fronts_size(&r->all);
-    r->scratch = r->all.scratch;
+    r->scratch = sli_traverse_scratch(&r->all, r->storage);
     for (s = 0; s < S->n_supers; s++) {
         r->below[s] = 0;
     }
@@ -79,6 +80,7 @@ static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) 
     memset(r, 0, sizeof *r);
     r->S = F->S;
     r->workers = sli_workers(&F->threads);
+    r->storage = F->storage;
     r->all = sli_traversal_of(F->S, F->S->n_supers, 1);
     return sli_work_stages(W, &stage, 1, r);
 }

@@ -25,6 +25,7 @@ typedef struct sli_traversal {
     sl_int *first;  /* count: the first column that is needed, within its supernode; NULL: 0 */
     sli_schedule schedule;           /* tasks and the offsets of the fronts */
     sl_off scratch;                  /* doubles of kernel scratch per worker */
+    sl_off panel;                    /* doubles of the largest panel */
     sli_schedule_work schedule_work; /* with more than one worker */
 } sli_traversal;
 
@@ -221,15 +222,17 @@ static void sli_traversal_stack_all(sli_traversal *t) {
     }
 }
 
-/* Kernel scratch that suffices for every front of the list. */
-static sl_off sli_traversal_scratch(const sli_traversal *t) {
+/* Computes the kernel scratch that suffices for every front of the list. */
+static void sli_traversal_measure(sli_traversal *t) {
     sl_int k, tallest = 0, widest = 0;
     for (k = 0; k < t->forest.count; k++) {
         const sli_step *step = &t->S->steps[t->supers[k]];
+        const sl_off panel = sli_panel_size(step->width, step->below);
+        t->panel = panel > t->panel ? panel : t->panel;
         tallest = sli_max(tallest, step->width + step->below);
         widest = sli_max(widest, step->width);
     }
-    return sli_inverse_scratch(tallest, widest);
+    t->scratch = sli_inverse_scratch(tallest, widest);
 }
 
 /* Plans the traversal of the reach of seeds, or of all supernodes if seeds is NULL. The arrays are
@@ -251,7 +254,7 @@ static void sli_traversal_plan(sli_traversal *t, const uint64_t *seeds, sl_int n
         t->schedule_work.flops[k] = sli_front_flops(&t->S->steps[t->supers[k]]);
     }
     sli_plan_tasks(p, &t->forest, &t->schedule_work);
-    t->scratch = sli_traversal_scratch(t);
+    sli_traversal_measure(t);
     sli_traversal_stack_all(t);
 }
 

@@ -3,7 +3,7 @@
 #define SLI_INVERSE_TRAVERSAL_RUN_H
 
 #include "traversal.h"
-#include "../factor/factor_types.h"
+#include "../factor/storage.h"
 
 /* Called with each completed front, that of the k-th supernode of the list, to read its row tiles
  * t0 .. t1-1. Calls for other tiles or other fronts may run at the same time. */
@@ -25,18 +25,26 @@ typedef struct sli_traversal_run {
     sli_inverse_phase phase;
 } sli_traversal_run;
 
-static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
-                                     sli_block *b) {
-    run->fronts = SLI_TAKE(b, double, traversal->schedule.stack);
-    run->scratch =
-        SLI_TAKE(b, double, (uint64_t)traversal->schedule.workers *(uint64_t)traversal->scratch);
+/* Doubles of scratch per worker: that of the kernels, and for L in float a panel in double. */
+SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
+    return t->scratch + (storage == SL_STORAGE_FLOAT ? t->panel : 0);
 }
 
-/* The k-th front of the list, as the kernels take it. */
+/* storage: that of the factor. */
+static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
+                                     sl_storage storage, sli_block *b) {
+    run->fronts = SLI_TAKE(b, double, traversal->schedule.stack);
+    run->scratch = SLI_TAKE(
+        b, double,
+        (uint64_t)traversal->schedule.workers *(uint64_t)sli_traverse_scratch(traversal, storage));
+}
+
+/* The k-th front of the list, as the kernels take it; without its panel if L is in float. */
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
     const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
     sli_inverse_front f;
-    f.panel = run->F->L + step->panel;
+    f.panel =
+        run->F->storage == SL_STORAGE_FLOAT ? NULL : (const double *)run->F->values + step->panel;
     f.D = run->F->D + step->column;
     f.front = run->fronts + run->traversal->schedule.stack_begin[k];
     f.width = step->width;
@@ -67,22 +75,36 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     const sl_symbolic *S = F->S;
     const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
     const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
+    const size_t entry = F->storage == SL_STORAGE_FLOAT ? sizeof(float) : sizeof(double);
     sl_off k;
     for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
         SLI_PREFETCH(S->relative + row + k, 0);
     }
     for (k = 0; k < size && k < SLI_PANEL_AHEAD; k += SLI_TILE) {
-        SLI_PREFETCH(F->L + first + k, 0);
+        SLI_PREFETCH((const char *)F->values + (size_t)(first + k) * entry, 0);
     }
 }
 
+/* The scratch of a worker; first gives front k a panel in double there if L is in float. */
+static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
+                                  sl_int worker) {
+    const sl_off room = sli_traverse_scratch(run->traversal, run->F->storage);
+    double *scratch = run->scratch + (ptrdiff_t)(room * worker);
+    if (run->F->storage == SL_STORAGE_FLOAT) {
+        sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
+        f->panel = scratch + run->traversal->scratch;
+    }
+    return scratch;
+}
+
 /* Completes a front whose rows below have been gathered, and visits it. */
-static void sli_traverse_complete(const sli_traversal_run *run, sl_int k,
-                                  const sli_inverse_front *f, sl_int worker) {
+static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
+                                  sl_int worker) {
+    double *scratch = sli_traverse_begin(run, k, f, worker);
     if (k > 0) {
         sli_traverse_prefetch(run->F, run->traversal->supers[k - 1]);
     }
-    run->F->kernels->takahashi(f, run->scratch + (ptrdiff_t)(run->traversal->scratch * worker));
+    run->F->kernels->takahashi(f, scratch);
     run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
@@ -93,7 +115,7 @@ static void sli_traverse_tasks(void *data, sl_int k) {
     sl_int m, s;
     for (m = 0; m < schedule->n_tasks; m++) {
         for (s = schedule->last[m]; s >= schedule->first[m] && schedule->worker[m] == k; s--) {
-            const sli_inverse_front f = sli_traverse_front(run, s);
+            sli_inverse_front f = sli_traverse_front(run, s);
             if (s < schedule->last[m]) {
                 sli_traverse_gather(run, s, &f, 0, sli_tiles(f.width + f.below));
             }
@@ -154,6 +176,7 @@ static void sli_traverse_shared(sli_traversal_run *run) {
     const sl_int workers = run->traversal->schedule.workers;
     sl_int phase;
     run->front = sli_traverse_front(run, run->at);
+    (void)sli_traverse_begin(run, run->at, &run->front, 0);
     sli_parallel(run->threads, workers, sli_traverse_gather_range, run);
     for (run->group = sli_inverse_last_group(&run->front);
          run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
@@ -175,7 +198,7 @@ static void sli_traverse(sli_traversal_run *run) {
             SLI_SHARED_FLOPS) {
             sli_traverse_shared(run);
         } else {
-            const sli_inverse_front f = sli_traverse_front(run, run->at);
+            sli_inverse_front f = sli_traverse_front(run, run->at);
             sli_traverse_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
             sli_traverse_complete(run, run->at, &f, 0);
             sli_traverse_gather_task_roots(run, 0, 1);

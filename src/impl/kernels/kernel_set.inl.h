@@ -1,16 +1,11 @@
-/* kernel_set.inl.h: all kernels of one instruction set except multi_rhs.inl.h, and their table */
+/* kernel_set.inl.h: all kernels of one instruction set except its sweeps, and their table */
 
 /* The last template of an instruction set: it undefines the SIMD vocabulary. */
 
-#include "unit_triangle.inl.h"
-#if defined(SLV_PAIR) /* else multi_rhs.inl.h has the kernels for two right-hand sides */
-#include "two_rhs.inl.h"
-#endif
 #include "product.inl.h"
 #include "front.inl.h"
 #include "inverse_front.inl.h"
-#include "small_supernode.inl.h"
-#include "single_rhs.inl.h"
+#include "row.inl.h"
 #include "change.inl.h"
 
 #if !defined(SLV_NAME_4)
@@ -19,8 +14,12 @@
 
 static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
-    {SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
-    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)},
+    {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
+      {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)}},
+     {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
+       SLV_NAME(single_forward8)},
+      {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
+       SLV_NAME(single_backward8)}}},
     SLV_NAME(row),
     SLV_NAME(pivots),
     SLV_NAME(rows),
@@ -42,6 +41,9 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_LOAD
 #undef SLV_STORE
 #undef SLV_ADD
+#undef SLV_READ_0
+#undef SLV_READ_1
+#undef SLV_WIDEN_ROWS
 #undef SLV_AXPY
 #undef SLV_DOT
 #undef SLV_FNMA1

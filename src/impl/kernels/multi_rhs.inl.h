@@ -2,8 +2,8 @@
 
 /* SLW_EACH(op, k) is op(0, k) op(1, k) .. over the SLW_ROWS rows that are kept in registers,
  * SLW_HIGH and SLW_LOW are its halves in descending order. a0, a1, .. are the accumulators of these
- * rows, b and c are one more row each. A macro does not expand inside itself; SLW_EACH_AGAIN is a
- * copy of SLW_EACH for that. */
+ * rows, b and c are one more row each, v holds entries of L. A macro does not expand inside itself;
+ * SLW_EACH_AGAIN is a copy of SLW_EACH for that. */
 #if SLW_ROWS == 8
 #define SLW_EACH SLI_EACH8
 #define SLW_EACH_AGAIN SLI_EACH8_AGAIN
@@ -25,11 +25,11 @@
 /* Inside the diagonal block: column k updates the rows below it, row k the columns before it. */
 #define SLI_DOWN(r, k) \
     if ((r) > (k)) { \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k) \
+        SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
     }
 #define SLI_UP(j, k) \
     if ((j) < (k) && (j) < inner) { \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k) \
+        SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
     }
 #define SLI_COLUMN(k, unused) \
     if ((k) < inner) { \
@@ -52,25 +52,27 @@
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_PREFETCH_OWN(k, bytes) \
     if ((k) < w) { \
-        SLI_PREFETCH(l + SLI_TILE * (k), bytes); \
+        SLV_PREFETCH(l, k, bytes) \
     }
 #define SLI_DOWN_OWN(r, k) \
     if ((r) > (k) && (r) < w) { \
-        SLW_FNMA(a##r, l[SLI_TILE * (k) + (r)], a##k) \
+        SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
     }
 #define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
 #define SLI_BELOW_OWN(k, unused) \
     if ((k) < w) { \
-        SLW_FNMA(b, l[SLI_TILE * (k) + lane], a##k) \
+        SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_int stride,
-                                                            sl_int below, const sl_int *rows,
-                                                            const double *l, double *xs,
-                                                            double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const SLV_VALUE *l, double *xs,
+                                                             double *x) {
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
+    SLV_WIDE(v, SLI_TILE)
+    SLV_WIDEN(v, l, w, SLI_TILE)
     SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
     SLW_EACH(SLI_LOAD_OWN, xs)
     SLW_EACH(SLI_COLUMN_OWN, 0)
@@ -80,6 +82,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
+            SLV_WIDEN(v, l, w, SLI_TILE)
             SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
         }
         SLW_LOAD(b, to)
@@ -90,12 +93,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
 
 #define SLI_UP_OWN(j, k) \
     if ((j) < (k) && (k) < w) { \
-        SLW_FNMA(a##j, l[SLI_TILE * (j) + (k)], a##k) \
+        SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
     }
 #define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
 #define SLI_ABOVE_OWN(k, unused) \
     if ((k) < w) { \
-        SLW_FNMA(a##k, l[SLI_TILE * (k) + lane], b) \
+        SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
     }
 #define SLI_DIVIDE_OWN(k, unused) \
     if ((k) < w) { \
@@ -105,13 +108,15 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_forward)(const sl_int w, sl_i
     }
 
 /* l: the last tile of the panel */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_int stride,
-                                                             sl_int below, const sl_int *rows,
-                                                             const double *l, const double *d,
-                                                             double *xs, const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const SLV_VALUE *l, const double *d,
+                                                              double *xs, const double *x) {
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
+    SLV_WIDE(v, SLI_TILE)
+    SLV_WIDEN(v, l, w, SLI_TILE)
     SLW_EACH(SLI_ZERO_OWN, 0)
     SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
     SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
@@ -119,6 +124,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
         if (lane < 0) {
             lane = SLI_TILE - 1;
             l -= SLI_TILE * w;
+            SLV_WIDEN(v, l, w, SLI_TILE)
             SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
             SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
         }
@@ -128,6 +134,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
     }
     if (w == SLI_TILE && below > 0) {
         l -= SLI_TILE * w;
+        SLV_WIDEN(v, l, w, SLI_TILE)
     }
     SLW_EACH(SLI_DIVIDE_OWN, 0)
     SLW_HIGH(SLI_ROW_OWN, 0)
@@ -135,18 +142,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_NAME(small_backward)(const sl_int w, sl_
     SLW_EACH(SLI_STORE_OWN, xs)
 }
 
-#define SLI_FORWARD(k) SLW_NAME(small_forward)(k, stride, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_NAME(small_backward)(k, stride, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
 
-SLV_FUNCTION static void SLW_NAME(forward_small)(sl_int w, sl_int stride, sl_int below,
-                                                 const sl_int *rows, const double *l, double *xs,
-                                                 double *x) {
+SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const SLV_VALUE *l,
+                                                  double *xs, double *x) {
     SLI_CASES(SLI_FORWARD);
 }
 
-SLV_FUNCTION static void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_int below,
-                                                  const sl_int *rows, const double *l,
-                                                  const double *d, double *xs, const double *x) {
+SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const SLV_VALUE *l,
+                                                   const double *d, double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD);
 }
 
@@ -165,24 +172,25 @@ SLV_FUNCTION static void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_in
 #undef SLI_BACKWARD
 #elif defined(SLW_HALF)
 /* 8 rows do not fit in the registers: first one half of the right-hand sides, then the other. */
-SLV_FUNCTION SLI_INLINE void SLW_NAME(forward_small)(sl_int w, sl_int stride, sl_int below,
-                                                     const sl_int *rows, const double *l,
-                                                     double *xs, double *x) {
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const SLV_VALUE *l,
+                                                      double *xs, double *x) {
     const sl_int half = SLW_NRHS / 2;
-    SLW_HALF(forward_small)(w, stride, below, rows, l, xs, x);
-    SLW_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
+    SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
+    SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
 }
 
-SLV_FUNCTION SLI_INLINE void SLW_NAME(backward_small)(sl_int w, sl_int stride, sl_int below,
-                                                      const sl_int *rows, const double *l,
-                                                      const double *d, double *xs,
-                                                      const double *x) {
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const SLV_VALUE *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
     const sl_int half = SLW_NRHS / 2;
-    SLW_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
-    SLW_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
+    SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
+    SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
 }
 #endif
 
+#if !SLV_SINGLE
 /* Copies SLW_ROWS rows to buf where not all of them are columns of the supernode: `inner` rows of
  * its columns, then `below` rows below, then zeros. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
@@ -214,19 +222,23 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
     }
 }
 
+#endif
+
 /* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
  * the triangle of the diagonal tile. Rows below are updated in x in place. */
-SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                                           const double *L, double *x, double *buf) {
+SLV_FUNCTION static void SLW_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                            const void *values, double *x, double *buf) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
+    SLV_WIDE(v, SLI_TILE)
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
         ptrdiff_t row;
         sl_int j;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(forward_small)(w, SLW_NRHS, s->below, rows, tile, xs, x);
+            SLW_SWEEP(forward_small)(w, SLW_NRHS, s->below, rows, tile, xs, x);
             continue;
         }
 #endif
@@ -235,7 +247,7 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
             const sl_int *below_rows = rows + (row + inner - w);
             double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-            const double *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+            const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
             SLW_EACH(SLI_DECLARE, 0)
             SLW_DECLARE(b)
             if (inner < SLW_ROWS) {
@@ -244,10 +256,12 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
             SLW_EACH(SLI_LOAD, p)
             for (j = first; j < final; j++, l += SLI_TILE) {
                 SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+                SLV_WIDEN(v, l, 1, SLW_ROWS)
                 SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
-                SLW_EACH(SLI_APPLY, l)
+                SLW_EACH(SLI_APPLY, v)
             }
             if (inner > 0) {
+                SLV_WIDEN(v, l, inner, SLW_ROWS)
                 SLW_EACH(SLI_COLUMN, 0)
             }
             SLW_EACH(SLI_STORE, p)
@@ -263,13 +277,16 @@ SLV_FUNCTION static void SLW_NAME(forward)(sl_int count, const sli_step *s, cons
 
 /* Row tiles from the last to the first, SLW_ROWS rows at a time. Once the rows are final,
  * x(j) -= L(rows, j)' x(rows) for the columns j before them. */
-SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
+SLV_FUNCTION static void SLW_SWEEP(backward)(sl_int count, const sli_step *s,
+                                             const sl_int *rows_end, const void *values,
+                                             const double *D, double *x, double *buf) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
+    SLV_WIDE(v, SLI_TILE)
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
-        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+        const double *d = D + s->column - first;
         double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
         ptrdiff_t row;
         sl_int i, j;
@@ -278,7 +295,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_NAME(backward_small)
+            SLW_SWEEP(backward_small)
             (w, SLW_NRHS, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
             continue;
         }
@@ -292,7 +309,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
             double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-            const double *l;
+            const SLV_VALUE *l;
             SLW_EACH(SLI_DECLARE, 0)
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
@@ -304,6 +321,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             SLW_EACH(SLI_LOAD, p)
             if (inner > 0) {
                 l = tile + SLI_TILE * row + lane;
+                SLV_WIDEN(v, l, inner, SLW_ROWS)
                 SLW_HIGH(SLI_ROW, 0)
                 SLW_LOW(SLI_ROW, 0)
                 SLW_EACH(SLI_STORE, p)
@@ -315,10 +333,11 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
             for (j = final - 1; j >= first; j--) {
                 l -= SLI_TILE;
                 SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+                SLV_WIDEN(v, l, 1, SLW_ROWS)
                 SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
                 SLW_ZERO(c)
-                SLW_HIGH(SLI_GATHER, l)
-                SLW_LOW(SLI_GATHER2, l)
+                SLW_HIGH(SLI_GATHER, v)
+                SLW_LOW(SLI_GATHER2, v)
                 SLW_ADD(b, c)
                 SLW_STORE(xs + (ptrdiff_t)j * SLW_NRHS, b)
             }
@@ -326,7 +345,7 @@ SLV_FUNCTION static void SLW_NAME(backward)(sl_int count, const sli_step *s, con
     }
 }
 
-#if SLW_NRHS == 8
+#if SLW_NRHS == 8 && !SLV_SINGLE
 /* Computes SLW_ROWS rows of sums at a time; see sli_products_kernel. */
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                                             double *sums) {
@@ -356,10 +375,18 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_UP
 #undef SLI_COLUMN
 #undef SLI_ROW
-#undef SLW_NAME
-#undef SLW_NRHS
-#undef SLW_HALF
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
 #undef SLW_LOW
+
+#if SLV_SINGLE
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#undef SLW_NAME
+#undef SLW_NRHS
+#undef SLW_HALF
+#else
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#endif

@@ -34,6 +34,18 @@
  *  SLV_DUP_LOW(e, l)      e = l[0] l[0] l[1] l[1] l[2] l[2] l[3] l[3]. SLV_DUP_HIGH: from l[4] on
  *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
  *
+ *  Sweeps read L in the type in which it is stored. Their templates are included twice, for double
+ *  and for float, and flip SLV_SINGLE at their end.
+ *
+ *  SLV_SINGLE             0: L is stored in double; 1: in float, and everything else is double
+ *  SLV_VALUE              the type of an entry of L
+ *  SLV_SWEEP(f)           SLV_NAME of a function that reads L; SLW_SWEEP(f): SLW_NAME of one
+ *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_DUP_ load at l, as doubles;
+ *                         each instruction set defines SLV_READ_0 for double, SLV_READ_1 for float
+ *  SLV_WIDE(v, columns)   declares v for SLV_WIDEN(v, l, columns, rows): v = columns 0 .. columns-1
+ *                         from l on, their first 4 or 8 rows, as doubles, [column][8]. For scalars
+ *                         of L; L in double is not copied. SLV_WIDEN_ROWS(v, l, rows): one column
+ *
  *  SLV_SUM_: an accumulator of partial sums, at most 8, as many as suit the registers.
  *  SLV_SUM_DECLARE, _ZERO, _LOAD, _STORE as above; an accumulator has room for 8 doubles in memory
  *  SLV_SUM_DOT(a, l, v)   a -= l[0..7] v, in partial sums
@@ -95,5 +107,36 @@
             to_[lanes_[i_]] += from_[i_]; \
         } \
     }
+
+/* What depends on the type of L. */
+#define SLV_SINGLE 0
+#define SLI_PASTE(a, b) a##b
+#define SLI_BY_TYPE(word, is_single) SLI_PASTE(word, is_single)
+#define SLI_VALUE_0 double
+#define SLI_VALUE_1 float
+#define SLI_SWEEP_0(name, f) name(f)
+#define SLI_SWEEP_1(name, f) name(single_##f)
+#define SLI_WIDE_0(v, columns) const double *v;
+#define SLI_WIDE_1(v, columns) SLI_ALIGNED(double v[SLI_TILE * (columns)]);
+#define SLI_WIDEN_0(v, l, columns, rows) v = (l);
+#define SLI_WIDEN_1(v, l, columns, rows) \
+    { \
+        sl_int c_; \
+        for (c_ = 0; c_ < (columns); c_++) { \
+            SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
+        } \
+    }
+#define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
+#define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
+#define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
+#define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
+#define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)
+/* Two columns of L in float share a cache line. column: a constant */
+#define SLV_PREFETCH(l, column, bytes) \
+    if (!SLV_SINGLE || (column) % 2 == 0) { \
+        SLI_PREFETCH((l) + SLI_TILE * (column), bytes); \
+    }
+#define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
+#define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
 
 #endif

@@ -61,15 +61,25 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
 #define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
 #define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+/* The first 4 of 8 values. */
+#define SLV_READ_0(l) _mm256_load_pd(l)
+#define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+    { \
+        _mm256_store_pd((v), _mm256_cvtps_pd(_mm_load_ps(l))); \
+        if ((rows) > 4) { \
+            _mm256_store_pd((v) + 4, _mm256_cvtps_pd(_mm_load_ps((l) + 4))); \
+        } \
+    }
 #define SLV_AXPY(a, l, p) \
     { \
         const __m256d s_ = _mm256_broadcast_sd(p); \
-        a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), s_, a##_0); \
-        a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), s_, a##_1); \
+        a##_0 = _mm256_fnmadd_pd(SLV_READ(l), s_, a##_0); \
+        a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), s_, a##_1); \
     }
 #define SLV_DOT(a, l, v) \
-    a##_0 = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a##_0), \
-    a##_1 = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a##_1);
+    a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
+    a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
 #define SLV_FNMA(a, b, c) \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
@@ -89,8 +99,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
 #define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
 #define SLV_SUM_DOT(a, l, v) \
-    a = _mm256_fnmadd_pd(_mm256_load_pd(l), v##_0, a); \
-    a = _mm256_fnmadd_pd(_mm256_load_pd((l) + 4), v##_1, a);
+    a = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a); \
+    a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
 #define SLV_SUM_4(a, b, c, d) \
     _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
                   _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
@@ -141,7 +151,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
                                                          keep_high_)));
 #define SLV_DUP_AT(e, l) \
     { \
-        const __m256d l_ = _mm256_load_pd(l); \
+        const __m256d l_ = SLV_READ(l); \
         e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
         e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
     }
@@ -160,6 +170,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
 #define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE
@@ -190,6 +201,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
     a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 #include "multi_rhs.inl.h"
+#include "multi_rhs.inl.h"
+#include "sweeps.inl.h"
+#include "sweeps.inl.h"
 #include "kernel_set.inl.h"
 
 #endif

@@ -20,8 +20,11 @@
 #define SLV_LOAD(a, p) a = _mm512_load_pd(p);
 #define SLV_STORE(p, a) _mm512_store_pd((p), a);
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
-#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(_mm512_load_pd(l), _mm512_set1_pd(*(p)), a);
-#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(_mm512_load_pd(l), v, a);
+#define SLV_READ_0(l) _mm512_load_pd(l)
+#define SLV_READ_1(l) _mm512_cvtps_pd(_mm256_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), _mm512_cvtps_pd(_mm256_load_ps(l)));
+#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
+#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest) \
@@ -85,11 +88,9 @@
         (to), _mm512_add_pd(_mm512_load_pd(to), \
                             _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
 #define SLV_DUP_LOW(e, l) \
-    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), \
-                                    _mm512_load_pd(l));
+    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
 #define SLV_DUP_HIGH(e, l) \
-    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), \
-                                    _mm512_load_pd(l));
+    e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
 #define SLV_PAIR(b, p) \
     b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
@@ -104,6 +105,9 @@
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
 #include "multi_rhs.inl.h"
+#include "multi_rhs.inl.h"
+#include "sweeps.inl.h"
+#include "sweeps.inl.h"
 #include "kernel_set.inl.h"
 
 #endif

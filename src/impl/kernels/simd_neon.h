@@ -22,19 +22,29 @@
 #define SLV_ADD(a, b) \
     a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), \
     a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+/* The first 2 of 8 values. */
+#define SLV_READ_0(l) vld1q_f64(l)
+#define SLV_READ_1(l) vcvt_f64_f32(vld1_f32(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+    { \
+        int i_; \
+        for (i_ = 0; i_ < (rows); i_ += 2) { \
+            vst1q_f64((v) + i_, vcvt_f64_f32(vld1_f32((l) + i_))); \
+        } \
+    }
 #define SLV_AXPY(a, l, p) \
     { \
         const float64x2_t s_ = vld1q_dup_f64(p); \
-        a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), s_); \
-        a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), s_); \
-        a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), s_); \
-        a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), s_); \
+        a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), s_); \
+        a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), s_); \
+        a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), s_); \
+        a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), s_); \
     }
 #define SLV_DOT(a, l, v) \
-    a##_0 = vfmsq_f64(a##_0, vld1q_f64((l) + 0), v##_0), \
-    a##_1 = vfmsq_f64(a##_1, vld1q_f64((l) + 2), v##_1), \
-    a##_2 = vfmsq_f64(a##_2, vld1q_f64((l) + 4), v##_2), \
-    a##_3 = vfmsq_f64(a##_3, vld1q_f64((l) + 6), v##_3);
+    a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), v##_0), \
+    a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), v##_1), \
+    a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
+    a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_FNMA(a, b, c) \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
@@ -73,10 +83,10 @@
 #define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
 #define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
 #define SLV_SUM_DOT(a, l, v) \
-    a = vfmsq_f64(a, vld1q_f64((l) + 0), v##_0); \
-    a = vfmsq_f64(a, vld1q_f64((l) + 2), v##_1); \
-    a = vfmsq_f64(a, vld1q_f64((l) + 4), v##_2); \
-    a = vfmsq_f64(a, vld1q_f64((l) + 6), v##_3);
+    a = vfmsq_f64(a, SLV_READ((l) + 0), v##_0); \
+    a = vfmsq_f64(a, SLV_READ((l) + 2), v##_1); \
+    a = vfmsq_f64(a, SLV_READ((l) + 4), v##_2); \
+    a = vfmsq_f64(a, SLV_READ((l) + 6), v##_3);
 #define SLV_SUMS(r, a) \
     r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3), \
     r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
@@ -113,8 +123,8 @@
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
 #define SLV_DUP_LOW(e, l) \
-    e##_0 = vld1q_dup_f64((l) + 0), e##_1 = vld1q_dup_f64((l) + 1), \
-    e##_2 = vld1q_dup_f64((l) + 2), e##_3 = vld1q_dup_f64((l) + 3);
+    e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
+    e##_3 = vdupq_n_f64((l)[3]);
 #define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
 #define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
 
@@ -139,6 +149,7 @@
         a##_0 = vdivq_f64(a##_0, s_); \
         a##_1 = vdivq_f64(a##_1, s_); \
     }
+#include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE
@@ -176,6 +187,9 @@
         a##_3 = vdivq_f64(a##_3, s_); \
     }
 #include "multi_rhs.inl.h"
+#include "multi_rhs.inl.h"
+#include "sweeps.inl.h"
+#include "sweeps.inl.h"
 #include "kernel_set.inl.h"
 
 #endif

@@ -22,6 +22,7 @@
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
 #define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_AXPY(a, l, p) \
     { \
@@ -97,14 +98,19 @@
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
 #include "multi_rhs.inl.h"
+#include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4
+#include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_NRHS 8
 #include "multi_rhs.inl.h"
+#include "multi_rhs.inl.h"
+#include "sweeps.inl.h"
+#include "sweeps.inl.h"
 #include "kernel_set.inl.h"
 #undef SLI_LOOP
 

@@ -4,8 +4,9 @@
  * ascending order. tile: tile t0 of the panel. Four partial sums hide the latency of the FMA. The
  * sum to which a column is added depends only on its number, so a sweep that starts at a later tile
  * gives the same bits as a full one that has zeros before it. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int t0, sl_int width,
-                                                     sl_int columns, sl_int rows, double *buf) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
+                                                      sl_int width, sl_int columns, sl_int rows,
+                                                      double *buf) {
     const sl_int first = SLI_TILE * t0;
     sl_int t, j, k;
     for (t = t0; SLI_TILE * t < rows; t++) {
@@ -20,7 +21,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
         SLV_ZERO(a2)
         SLV_ZERO(a3)
         for (j = first; j + 4 <= final; j += 4) { /* y(rows) -= L(rows, j) y(j) */
-            const double *l = tile + SLI_TILE * j;
+            const SLV_VALUE *l = tile + SLI_TILE * j;
             SLV_AXPY(a0, l, buf + j)
             SLV_AXPY(a1, l + 8, buf + j + 1)
             SLV_AXPY(a2, l + 16, buf + j + 2)
@@ -34,7 +35,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
         SLV_ADD(a0, a2)
         SLV_STORE(buf + row, a0)
         if (inner == SLI_TILE) {
-            SLV_NAME(tile_forward)(tile + SLI_TILE * row, buf + row);
+            SLV_SWEEP(tile_forward)(tile + SLI_TILE * row, buf + row);
         } else {
             for (k = 0; k < inner; k++) { /* columns inside the tile */
                 SLV_AXPY(a0, tile + SLI_TILE * (row + k), buf + row + k)
@@ -45,15 +46,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(panel_forward)(const double *tile, sl_int 
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                                           const double *L, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                            const void *values, double *x, double *buf) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         if (w <= SLI_TILE) {
-            SLV_NAME(forward_small)(w, s->below, rows, tile, xs, x, buf);
+            SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
             rows += s->below;
             continue;
         }
@@ -61,7 +63,7 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
         }
-        SLV_NAME(panel_forward)(tile, s->first_tile, w, w, height, buf);
+        SLV_SWEEP(panel_forward)(tile, s->first_tile, w, w, height, buf);
         memcpy(xs, buf + first, (size_t)(w - first) * sizeof(double));
         for (i = 0; i < s->below; i++) {
             x[rows[i]] += buf[w + i];
@@ -78,8 +80,8 @@ SLV_FUNCTION static void SLV_NAME(forward)(sl_int count, const sli_step *s, cons
 #define SLI_ROW_AT(k) rows[at + (k)]
 #define SLI_ROW_AT_PART(k) rows[at + sli_clamp((k)-inner, part - 1)]
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, sl_int first,
-                                             sl_int final, double *sums) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots1)(const SLV_VALUE *l, const double *x, sl_int first,
+                                              sl_int final, double *sums) {
     ptrdiff_t j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
@@ -93,8 +95,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(dots1)(const double *l, const double *x, s
 }
 
 /* Two row tiles: l0 with the 8 rows at x, l1 with the 8 rows after them. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1, const double *x,
-                                             sl_int first, sl_int final, double *sums) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VALUE *l1,
+                                              const double *x, sl_int first, sl_int final,
+                                              double *sums) {
     ptrdiff_t j;
     SLV_DECLARE(v0)
     SLV_DECLARE(v1)
@@ -120,8 +123,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(dots2)(const double *l0, const double *l1,
     } else { \
         SLV_SUM_ZERO(a##k) \
     }
-SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, const double *sums,
-                                                const double *d, double *xs, double *buf) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inner,
+                                                 const double *sums, const double *d, double *xs,
+                                                 double *buf) {
     double r[SLI_TILE];
     sl_int j, k;
     SLV_DECLARE(v)
@@ -139,7 +143,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
     SLV_ADD(v, z)
     SLV_STORE_ANY(r, v)
     if (inner == SLI_TILE) {
-        SLV_NAME(tile_backward)(l, r);
+        SLV_SWEEP(tile_backward)(l, r);
     } else {
         for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
             for (j = 0; j < k; j++) {
@@ -158,20 +162,22 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(diagonal)(const double *l, sl_int inner, c
 #define SLI_FEW_STEPS 4096
 
 /* buf: the rows of two tiles, then the sums. */
-SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, const sl_int *rows_end,
-                                            const double *L, const double *D, double *x,
-                                            double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
+                                             const sl_int *rows_end, const void *values,
+                                             const double *D, double *x, double *buf) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
     const int by_two = count <= SLI_FEW_STEPS;
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const double *d = D + s->column - first, *tile = L + s->panel + sli_panel_size(w, s->below);
+        const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+        const double *d = D + s->column - first;
         double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
         const sl_int *rows = rows_end -= s->below;
         sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
         SLV_DECLARE(v)
         SLV_SUM_DECLARE(a)
         if (w <= SLI_TILE) {
-            SLV_NAME(backward_small)(w, s->below, rows, tile, d, xs, x);
+            SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
             continue;
         }
         SLV_SUM_ZERO(a)
@@ -181,7 +187,7 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
         for (; row >= first; row -= SLI_TILE) {
             const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
             const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
-            const double *above;
+            const SLV_VALUE *above;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
             above = tile - SLI_TILE * (ptrdiff_t) final;
             if (part == SLI_TILE) {
@@ -199,12 +205,12 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 }
             }
             if (inner > 0) {
-                SLV_NAME(diagonal)
+                SLV_SWEEP(diagonal)
                 (tile + SLI_TILE * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
                  xs + row, buf + SLI_TILE);
             }
             if (!by_two || row == first || (inner == 0 && row - SLI_TILE < w)) {
-                SLV_NAME(dots1)(tile, buf + SLI_TILE, first, final, sums);
+                SLV_SWEEP(dots1)(tile, buf + SLI_TILE, first, final, sums);
                 continue;
             }
             row -= SLI_TILE;
@@ -213,13 +219,13 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
                 SLV_GATHER(v, x, SLI_ROW_AT)
                 rows += SLI_TILE;
                 SLV_STORE(buf, v)
-                SLV_NAME(dots2)(above, tile, buf, first, w, sums);
+                SLV_SWEEP(dots2)(above, tile, buf, first, w, sums);
             } else {
-                SLV_NAME(dots1)(tile, buf + SLI_TILE, row, final, sums);
-                SLV_NAME(diagonal)
+                SLV_SWEEP(dots1)(tile, buf + SLI_TILE, row, final, sums);
+                SLV_SWEEP(diagonal)
                 (above + SLI_TILE * (ptrdiff_t)row, SLI_TILE, sums + SLI_TILE * (ptrdiff_t)row,
                  d + row, xs + row, buf);
-                SLV_NAME(dots2)(above, tile, buf, first, row, sums);
+                SLV_SWEEP(dots2)(above, tile, buf, first, row, sums);
             }
             tile = above;
         }
@@ -232,32 +238,3 @@ SLV_FUNCTION static void SLV_NAME(backward)(sl_int count, const sli_step *s, con
 #undef SLI_ROW_AT_PART
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
-
-/* See sli_row_kernel. */
-SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
-                                       const double *D, double *xs, double *x, double *buf,
-                                       double *pivot, double *magnitude) {
-    const sl_int columns = sli_min(q, w);
-    double *lq = panel + sli_panel_at(w, q, 0);
-    double d = *pivot, size = *magnitude;
-    sl_int i;
-    for (i = 0; i < columns; i++) { /* y = row of A minus the updates of descendants */
-        buf[i] = lq[SLI_TILE * i] + xs[i];
-        xs[i] = 0.0;
-    }
-    for (; i < SLI_TILE * sli_tiles(q); i++) {
-        buf[i] = 0.0;
-    }
-    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
-    for (i = w; i < q; i++) {
-        x[rows[i - w]] += buf[i];
-    }
-    for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
-        const double l = buf[i] / D[i];
-        lq[SLI_TILE * i] = l;
-        d = SLV_FNMA1(l, buf[i], d);
-        size += fabs(l * buf[i]);
-    }
-    *pivot = d;
-    *magnitude = size;
-}

@@ -11,14 +11,14 @@
 /* The diagonal tile, one column after another; L is stored as 0 on and above its diagonal. */
 #define SLI_COLUMN(k, unused) \
     if ((k) < w) { \
-        SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
+        SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
         SLV_LANE(y##k, a, k) \
         SLV_DOT(a, l + SLI_TILE * (k), y##k) \
     }
 /* A tile below: even and odd columns have a sum each, two independent chains of FMAs. */
 #define SLI_EVEN_ODD(k, unused) \
     if ((k) < w) { \
-        SLI_PREFETCH(l + SLI_TILE * (k), SLI_PREFETCH_DISTANCE); \
+        SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
         if ((k) % 2 == 0) { \
             SLV_DOT(a, l + SLI_TILE * (k), y##k) \
         } else { \
@@ -26,9 +26,9 @@
         } \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_int below,
-                                                            const sl_int *rows, const double *l,
-                                                            double *xs, double *x, double *buf) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_int below,
+                                                             const sl_int *rows, const SLV_VALUE *l,
+                                                             double *xs, double *x, double *buf) {
     sl_int row, i;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
@@ -62,7 +62,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_i
 /* x(j) -= L(rows, j)' x(rows), from the last column to the first: L is read backward in memory. */
 #define SLI_DOT(k) \
     if ((k) < w) { \
-        SLI_PREFETCH(l + SLI_TILE * (k), -SLI_PREFETCH_DISTANCE); \
+        SLV_PREFETCH(l, k, -SLI_PREFETCH_DISTANCE) \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
     }
 #define SLI_DOTS \
@@ -80,19 +80,20 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_forward)(const sl_int w, sl_i
     }
 #define SLI_XT(j, k) \
     if ((j) < (k) && (k) < w) { /* r(j) -= L(k, j) r(k) */ \
-        r##j = SLV_FNMA1(l[SLI_TILE * (j) + (k)], r##k, r##j); \
+        r##j = SLV_FNMA1(t[SLI_TILE * (j) + (k)], r##k, r##j); \
     }
 #define SLI_ROW(k) \
     SLI_XT(6, k) SLI_XT(5, k) SLI_XT(4, k) SLI_XT(3, k) SLI_XT(2, k) SLI_XT(1, k) SLI_XT(0, k)
 
 /* l: the end of the panel */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_backward)(const sl_int w, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             const double *d, double *xs,
-                                                             const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl_int below,
+                                                              const sl_int *rows,
+                                                              const SLV_VALUE *l, const double *d,
+                                                              double *xs, const double *x) {
     const sl_int count = (w + below) % SLI_TILE;
     sl_int row = w + below - count, at = below;
     double r[SLI_TILE];
+    SLV_WIDE(t, SLI_TILE)
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
@@ -117,6 +118,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_backward)(const sl_int w, sl_
         SLV_BELOW(v, w - 1)
         SLI_DOTS
     }
+    SLV_WIDEN(t, l, w, SLI_TILE)
     SLV_LOAD_PART(z, xs, w, 0.0)
     SLV_LOAD_PART(v, d, w, 1.0)
     SLV_DIVIDE(z, z, v)
@@ -134,18 +136,18 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(small_backward)(const sl_int w, sl_
     SLI_EACH8(SLI_GET, 0)
 }
 
-#define SLI_FORWARD(k) SLV_NAME(small_forward)(k, below, rows, l, xs, x, buf)
-#define SLI_BACKWARD(k) SLV_NAME(small_backward)(k, below, rows, l, d, xs, x)
+#define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(forward_small)(sl_int w, sl_int below, const sl_int *rows,
-                                                     const double *l, double *xs, double *x,
-                                                     double *buf) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(forward_small)(sl_int w, sl_int below, const sl_int *rows,
+                                                      const SLV_VALUE *l, double *xs, double *x,
+                                                      double *buf) {
     SLI_CASES(SLI_FORWARD);
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(backward_small)(sl_int w, sl_int below, const sl_int *rows,
-                                                      const double *l, const double *d, double *xs,
-                                                      const double *x) {
+SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, const sl_int *rows,
+                                                       const SLV_VALUE *l, const double *d,
+                                                       double *xs, const double *x) {
     SLI_CASES(SLI_BACKWARD);
 }
 

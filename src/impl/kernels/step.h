@@ -28,14 +28,21 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
 enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
 
 /* x := L^-1 x over the steps in ascending order. rows: positions in x of the rows below, step after
- * step. scratch: sli_sweep_scratch doubles for the tallest and widest step, 64-byte aligned. */
+ * step. L: doubles or floats, 64-byte aligned. scratch: sli_sweep_scratch doubles for the tallest
+ * and widest step, 64-byte aligned. */
 typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
-                                   const double *L, double *x, double *scratch);
+                                   const void *L, double *x, double *scratch);
 
 /* x := L'^-1 D^-1 x over the steps in descending order. rows_end: one past the last position of the
  * last step. */
 typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows_end,
-                                    const double *L, const double *D, double *x, double *scratch);
+                                    const void *L, const double *D, double *x, double *scratch);
+
+/* All sweeps over L of one type. */
+typedef struct sli_sweeps {
+    sli_forward_kernel forward[SLI_NRHS_KINDS];
+    sli_backward_kernel backward[SLI_NRHS_KINDS];
+} sli_sweeps;
 
 /* Row q of a panel in the up-looking factorization. On entry the panel holds the row of A, and
  * x_super and x hold minus the updates so far. Computes the row of L, adds its updates to the rows

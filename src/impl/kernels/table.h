@@ -21,8 +21,7 @@ typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, co
 
 typedef struct sli_kernels {
     sl_isa isa;
-    sli_forward_kernel forward[SLI_NRHS_KINDS];
-    sli_backward_kernel backward[SLI_NRHS_KINDS];
+    sli_sweeps sweeps[2]; /* of sl_storage */
     sli_row_kernel row;
     sli_pivots_kernel pivots;
     sli_rows_kernel rows;

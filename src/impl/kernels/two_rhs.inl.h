@@ -26,12 +26,13 @@
         } \
     }
 
-SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
-                                            const double *L, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(forward2)(sl_int count, const sli_step *s, const sl_int *rows,
+                                             const void *values, double *x, double *buf) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
     for (; count > 0; count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const size_t columns = 2 * (size_t)(w - first);
-        const double *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + 2 * (ptrdiff_t)s->base;
         sl_int row, i, j, k;
         memcpy(buf + 2 * (ptrdiff_t)first, xs, columns * sizeof(double));
@@ -39,7 +40,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
                2 * (size_t)(SLI_TILE * sli_tiles(height) - w) * sizeof(double));
         for (row = first; row < height; row += SLI_TILE) {
             const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
-            const double *l = tile + SLI_TILE * (ptrdiff_t)first;
+            const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first;
             double *p = buf + 2 * (ptrdiff_t)row;
             SLV_DECLARE(e0)
             SLV_DECLARE(e1)
@@ -66,7 +67,7 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
             SLV_STORE(p + SLI_TILE, e1)
             l = tile + SLI_TILE * (ptrdiff_t)row;
             if (inner == SLI_TILE) {
-                SLI_PAIR_TILE(SLV_NAME(tile_forward), l, p)
+                SLI_PAIR_TILE(SLV_SWEEP(tile_forward), l, p)
             } else {
                 for (k = 0; k < inner; k++, l += SLI_TILE) { /* columns inside the tile */
                     SLI_PAIR_AXPY(e, l, p + 2 * k)
@@ -94,13 +95,15 @@ SLV_FUNCTION static void SLV_NAME(forward2)(sl_int count, const sli_step *s, con
     SLV_FNMA(a, t0, v0) \
     SLV_FNMA(a, t1, v1)
 
-SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
-                                             const sl_int *rows_end, const double *L,
-                                             const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
+                                              const sl_int *rows_end, const void *values,
+                                              const double *D, double *x, double *buf) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
-        const double *tile = L + s->panel + sli_panel_size(w, s->below), *d = D + s->column - first;
+        const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+        const double *d = D + s->column - first;
         double *xs = x + 2 * ((ptrdiff_t)s->base - first), *sums = buf + 2 * (ptrdiff_t)padded;
         sl_int row, i, j, k;
         SLV_DECLARE(a)
@@ -122,7 +125,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
         for (row = padded - SLI_TILE; row >= first; row -= SLI_TILE) {
             const sl_int inner = sli_clamp(w - row, SLI_TILE);
             double *p = buf + 2 * (ptrdiff_t)row;
-            const double *l;
+            const SLV_VALUE *l;
             tile -= SLI_TILE * (ptrdiff_t)sli_min(w, row + SLI_TILE);
             l = tile + SLI_TILE * (ptrdiff_t)row;
             SLV_LOAD(v0, p) /* 0 on the columns: only the rows below count here */
@@ -140,7 +143,7 @@ SLV_FUNCTION static void SLV_NAME(backward2)(sl_int count, const sli_step *s,
                 }
             }
             if (inner == SLI_TILE) {
-                SLI_PAIR_TILE(SLV_NAME(tile_backward), l, p)
+                SLI_PAIR_TILE(SLV_SWEEP(tile_backward), l, p)
             } else {
                 for (k = inner - 1; k > 0; k--) { /* x(j) -= L(k, j) x(k) */
                     for (j = 0; j < k; j++) {

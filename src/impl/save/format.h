@@ -186,7 +186,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     SLI_ADD(8, mass, weighted, weighted);
     SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
     SLI_ADD(8, ratios, trees, anchors);
-    SLI_ADD(8, L, panels, panels);
+    SLI_ADD(8, values, panels, panels);
 #undef SLI_ADD
 }
 

@@ -187,6 +187,9 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     if (status != SL_OK) {
         return status;
     }
+    if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
+        return SL_ERR_UNSUPPORTED;
+    }
     memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
     f->header.order_mark = SLI_ORDER_MARK;
     f->header.read_version = SLI_READ_VERSION;

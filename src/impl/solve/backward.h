@@ -3,7 +3,7 @@
 #define SLI_SOLVE_BACKWARD_H
 
 #include "../analysis/reach.h"
-#include "../factor/factor_types.h"
+#include "../factor/storage.h"
 
 /* x := D^-1 x in the columns of 2x2 pivots. A reach begins at a whole tile, and a pair is in one
  * tile, so both of its columns are there or none. */
@@ -32,8 +32,8 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
     if (F->E != NULL) {
         sli_pairs_apply(F, R, x, (sl_int)1 << kind);
     }
-    F->kernels->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->L,
-                               F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
+    sli_backward_sweep(F, kind, R->count, R->steps, R->rows + R->n_rows,
+                       F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
 #endif

@@ -99,12 +99,12 @@ static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
 }
 
 /* Column j of a panel in a product: x(i) += l(i,j) x(j) for its rows i, or x(j) += l(i,j) x(i). */
-static void sli_column_multiply(const double *panel, const sli_step *step, const sl_int *rows,
+static void sli_column_multiply(const sl_factor *F, const sli_step *step, const sl_int *rows,
                                 sl_int j, int is_transposed, double *x, sl_int lanes) {
     double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
     sl_int i, r;
     for (i = j + 1; i < step->width + step->below; i++) {
-        const double l = panel[sli_panel_at(step->width, i, j)];
+        const double l = sli_entry(F, step->panel + sli_panel_at(step->width, i, j));
         double *xi =
             x + (ptrdiff_t)(i < step->width ? step->base + i : rows[i - step->width]) * lanes;
         for (r = 0; r < lanes; r++) {
@@ -126,8 +126,8 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
         s = is_transposed ? at : S->n_supers - 1 - at;
         for (k = 0; k < S->steps[s].width; k++) {
             j = is_transposed ? k : S->steps[s].width - 1 - k;
-            sli_column_multiply(F->L + S->panel_begin[s], &S->steps[s], S->rows + S->rows_begin[s],
-                                j, is_transposed, x, lanes);
+            sli_column_multiply(F, &S->steps[s], S->rows + S->rows_begin[s], j, is_transposed, x,
+                                lanes);
         }
     }
 }
@@ -141,7 +141,7 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
         sli_lower_multiply(F, 1, v->x, lanes);
     }
     if (!p->is_product && p->parts & SL_PART_L) {
-        F->kernels->forward[kind](R->count, R->steps, R->rows, F->L, v->x, v->scratch);
+        sli_forward_sweep(F, kind, R->count, R->steps, R->rows, v->x, v->scratch);
     }
     if (p->parts & (SL_PART_D | SL_PART_SQRT_D)) {
         sli_parts_scale(p, v->x, lanes);
@@ -150,8 +150,8 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
         sli_lower_multiply(F, 0, v->x, lanes);
     }
     if (!p->is_product && p->parts & SL_PART_LT) {
-        F->kernels->backward[kind](R->count, p->steps, R->rows + R->n_rows, F->L, p->ones, v->x,
-                                   v->scratch);
+        sli_backward_sweep(F, kind, R->count, p->steps, R->rows + R->n_rows, p->ones, v->x,
+                           v->scratch);
     }
 }
 

@@ -10,7 +10,7 @@
 
 /* Backward errors up to this are due to rounding alone. Where L has grown they are larger, and L D
  * L' is not A: epsilon / rcond then has to bound the effect of that error, too. */
-#define SLI_ROUNDING_ERROR (64.0 * DBL_EPSILON)
+#define SLI_ROUNDING_ERROR 64.0 /* units of rounding of the type of L */
 
 /* A vector v in pivot order, solved for in place, its signs, and the largest backward error of the
  * solves so far. */
@@ -57,8 +57,7 @@ static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     double sum = 0.0, error;
     sl_int k;
     memcpy(p->residual, p->v, (size_t)n * sizeof(double));
-    F->kernels->forward[SLI_NRHS_1](p->all.count, p->all.steps, p->all.rows, F->L, p->v,
-                                     p->scratch);
+    sli_forward_sweep(F, SLI_NRHS_1, p->all.count, p->all.steps, p->all.rows, p->v, p->scratch);
     sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
     for (k = 0; k < n; k++) {
         sum += fabs(p->v[k]);
@@ -162,7 +161,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     sli_norm_estimate_layout(&p, &b);
     status = sli_work_block(W, &b);
     if (status == SL_OK) {
-        double inverse;
+        double inverse, unit;
         sli_norm_estimate_layout(&p, &b);
         p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
         inverse = sli_inverse_norm(&p);
@@ -170,7 +169,8 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
         *rcond = p.norm > 0.0 && inverse > 0.0
                      ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
                      : 0.0;
-        *rcond *= p.error > SLI_ROUNDING_ERROR ? DBL_EPSILON / p.error : 1.0;
+        unit = F->storage == SL_STORAGE_FLOAT ? (double)FLT_EPSILON : DBL_EPSILON;
+        *rcond *= p.error > SLI_ROUNDING_ERROR * unit ? unit / p.error : 1.0;
     }
     sli_free(&own.allocator, own.block);
     return status;

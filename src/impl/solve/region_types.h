@@ -106,6 +106,7 @@ static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundar
                              const sli_kernels *kernels, int kind, const double *u, double *x,
                              double *vectors, double *scratch) {
     static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const sli_sweeps *sweeps = &kernels->sweeps[SL_STORAGE_DOUBLE]; /* the type of Z */
     const sl_int n = R->extent.n_rows;
     const size_t size = (size_t)n << kind;
     sl_int first;
@@ -118,11 +119,11 @@ static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundar
     for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
         const sli_step step = sli_region_step(R, first);
         if (boundary->b[first / SLI_REGION_COLUMNS]) {
-            kernels->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
+            sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
         }
         if (boundary->x[first / SLI_REGION_COLUMNS]) {
-            kernels->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                                    scratch);
+            sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
+                                   scratch);
         }
     }
     memcpy(x, vectors + size, size * sizeof(double));

@@ -35,7 +35,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
     const sl_int *rows = R->rows;
     sl_int first = 0, s;
     if (F->n_nulls == 0 || F->null_vectors > 1) {
-        F->kernels->forward[kind](R->count, R->steps, rows, F->L, v->y, v->scratch);
+        sli_forward_sweep(F, kind, R->count, R->steps, rows, v->y, v->scratch);
         return;
     }
     for (s = 0; s < R->count; s++) {
@@ -48,7 +48,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
         if (sli_null_dot_next(F, R, first, s, v->y, (sl_int)1 << kind, &m, &dot)) {
             at = sli_reach_index_of(R, dot.null);
         }
-        F->kernels->forward[kind](s + 1 - first, R->steps + first, rows, F->L, v->y, v->scratch);
+        sli_forward_sweep(F, kind, s + 1 - first, R->steps + first, rows, v->y, v->scratch);
         if (at != -1) {
             memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
         }

@@ -35,7 +35,7 @@ class Options(ctypes.Structure):
         ("null_tolerance", _REAL), ("mass", _PTR), ("consistency_tolerance", _REAL),
         ("regularization", _REAL), ("signs", _PTR), ("region", _PTR), ("region_bytes", _SIZE),
         ("null_vector", _PTR), ("growth_limit", _REAL), ("error_limit", _REAL),
-        ("null_vector_count", _SIZE), ("reserved", _PTR * 3)]
+        ("null_vector_count", _SIZE), ("storage", _ENUM), ("reserved", _PTR * 2)]
 
 
 def _struct(name, fields):

@@ -1,0 +1,30 @@
+/* row.inl.h: one row of L in the up-looking factorization */
+
+/* See sli_row_kernel. */
+SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
+                                       const double *D, double *xs, double *x, double *buf,
+                                       double *pivot, double *magnitude) {
+    const sl_int columns = sli_min(q, w);
+    double *lq = panel + sli_panel_at(w, q, 0);
+    double d = *pivot, size = *magnitude;
+    sl_int i;
+    for (i = 0; i < columns; i++) { /* y = row of A minus the updates of descendants */
+        buf[i] = lq[SLI_TILE * i] + xs[i];
+        xs[i] = 0.0;
+    }
+    for (; i < SLI_TILE * sli_tiles(q); i++) {
+        buf[i] = 0.0;
+    }
+    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
+    for (i = w; i < q; i++) {
+        x[rows[i - w]] += buf[i];
+    }
+    for (i = 0; i < columns; i++) { /* l(k, j) = y(j) / d(j), d(k) -= l(k, j) y(j) */
+        const double l = buf[i] / D[i];
+        lq[SLI_TILE * i] = l;
+        d = SLV_FNMA1(l, buf[i], d);
+        size += fabs(l * buf[i]);
+    }
+    *pivot = d;
+    *magnitude = size;
+}

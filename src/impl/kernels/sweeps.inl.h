@@ -1,0 +1,16 @@
+/* sweeps.inl.h: the sweeps for one and two right-hand sides, for one type of L */
+
+#include "unit_triangle.inl.h"
+#if defined(SLV_PAIR) /* else multi_rhs.inl.h has the kernels for two right-hand sides */
+#include "two_rhs.inl.h"
+#endif
+#include "small_supernode.inl.h"
+#include "single_rhs.inl.h"
+
+#if SLV_SINGLE
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#else
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#endif

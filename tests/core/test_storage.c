@@ -1,0 +1,409 @@
+/* test_storage.c: L in float: the bits of a rounded L in every call, refinement, refusals */
+#include "tests/lib/factored.h"
+#include "tests/lib/graph_laplacian.h"
+#include "tests/lib/local_solve.h"
+#include "tests/lib/parallel_for.h"
+
+static sl_options options_float(sl_isa isa) {
+    sl_options opt = options_none();
+    opt.isa = isa;
+    opt.method = SL_METHOD_SUPERNODAL;
+    opt.storage = SL_STORAGE_FLOAT;
+    return opt;
+}
+
+/* L in float is L in double, rounded, and D is the same, with any number of threads. */
+static void the_double_factor_is_rounded(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    int calls = 0;
+    for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
+        for (int k = 0; k < 2 * isas.count; k++) {
+            sl_options opt = options_float(isas.isa[k / 2]);
+            opt.storage = SL_STORAGE_DOUBLE;
+            factored_t y = factored_make((gen_kind_t)kind, 200, 1, kind % GEN_STYLES, &opt);
+            sl_factor *G = NULL;
+            opt.storage = SL_STORAGE_FLOAT;
+            opt.threads.count = k % 2 ? 3 : 0;
+            opt.threads.run = k % 2 ? run_backwards : NULL;
+            opt.threads.context = &calls;
+            SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));
+            const sl_factor_arrays f = sl_factor_view(y.F), g = sl_factor_view(G);
+            assert_null(f.L_float);
+            assert_null(g.L);
+            for (sl_off at = 0; at < panel_doubles(y.F); at++) {
+                assert_true(g.L_float[at] == (float)f.L[at]);
+            }
+            SAME_VALUES(f.D, g.D, (size_t)y.M.view.n_cols);
+            SL_CHECK(sl_factor_refactor(G, &y.M.view, NULL));
+            for (sl_off at = 0; at < panel_doubles(y.F); at++) {
+                assert_true(g.L_float[at] == (float)f.L[at]);
+            }
+            sl_factor_free(G);
+            factored_free(&y);
+        }
+    }
+}
+
+/* ---- a matrix whose L is exact in float: both types give the same bits ---- */
+
+typedef struct exact_t {
+    sl_int n;
+    gen_matrix_t M;
+    sl_symbolic *S;
+    sl_factor *F[2]; /* in double and in float */
+} exact_t;
+
+/* A = L D L' with the entries 1/2 and -1/4 in L and powers of 2 in D: no operation rounds. The last
+ * `dense` columns are full, so that supernodes are wide. */
+static exact_t exact_make(sl_int n, sl_int dense, sl_isa isa) {
+    exact_t e = {n, {NULL, NULL, NULL, {0, 0, NULL, NULL, NULL}}, NULL, {NULL, NULL}};
+    const size_t m = (size_t)n;
+    double *L = test_reals(m * m), *D = test_reals(m);
+    gen_list_t t = gen_list(n);
+    uint64_t random = 11;
+    for (sl_int j = 0; j < n; j++) {
+        D[j] = gen_below(&random, 2) ? 1.0 : 4.0;
+        for (sl_int i = j + 1; i < n; i++) {
+            if (j >= n - dense || gen_below(&random, n) < 2) {
+                L[(size_t)j * m + (size_t)i] = gen_below(&random, 2) ? 0.5 : -0.25;
+            }
+        }
+        L[(size_t)j * m + (size_t)j] = 1.0;
+    }
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int i = j; i < n; i++) {
+            double a = 0.0;
+            for (sl_int k = 0; k <= j; k++) {
+                a += L[(size_t)k * m + (size_t)i] * D[k] * L[(size_t)k * m + (size_t)j];
+            }
+            if (a != 0.0 || i == j) {
+                gen_add(&t, i, j, a);
+            }
+        }
+    }
+    e.M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = options_none();
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&e.S, &e.M.view, &opt, NULL));
+    for (int storage = 0; storage < 2; storage++) {
+        opt = options_float(isa);
+        opt.storage = (sl_storage)storage;
+        SL_CHECK(sl_factor_create(&e.F[storage], e.S, &e.M.view, &opt, NULL));
+    }
+    const sl_factor_arrays f = sl_factor_view(e.F[0]), g = sl_factor_view(e.F[1]);
+    for (sl_off at = 0; at < panel_doubles(e.F[0]); at++) {
+        assert_true((double)g.L_float[at] == f.L[at]);
+    }
+    gen_list_free(&t);
+    free(L);
+    free(D);
+    return e;
+}
+
+static void exact_free(exact_t *e) {
+    sl_factor_free(e->F[0]);
+    sl_factor_free(e->F[1]);
+    sl_symbolic_free(e->S);
+    gen_matrix_free(&e->M);
+}
+
+/* Full solves, half solves and products for 1 to 9 right-hand sides. */
+static void exact_solves(const exact_t *e) {
+    static const unsigned parts[5] = {SL_PART_P | SL_PART_L, SL_PART_LT | SL_PART_PT, SL_PART_L,
+                                      SL_PART_LT, SL_PART_P | SL_PART_L | SL_PART_SQRT_D};
+    const size_t n = (size_t)e->n;
+    double *B = test_reals(9 * n), *X = test_reals(9 * n), *Y = test_reals(9 * n);
+    gen_reals(B, 9 * n, 3);
+    for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+        const size_t count = n * (size_t)nrhs;
+        SL_CHECK(sl_factor_solve(e->F[0], X, n, B, n, nrhs, NULL));
+        SL_CHECK(sl_factor_solve(e->F[1], Y, n, B, n, nrhs, NULL));
+        SAME_VALUES(X, Y, count);
+        for (int p = 0; p < 5; p++) {
+            SL_CHECK(sl_factor_solve_part(e->F[0], parts[p], X, n, B, n, nrhs, NULL));
+            SL_CHECK(sl_factor_solve_part(e->F[1], parts[p], Y, n, B, n, nrhs, NULL));
+            SAME_VALUES(X, Y, count);
+            SL_CHECK(sl_factor_multiply_part(e->F[0], parts[p], X, n, B, n, nrhs, NULL));
+            SL_CHECK(sl_factor_multiply_part(e->F[1], parts[p], Y, n, B, n, nrhs, NULL));
+            SAME_VALUES(X, Y, count);
+        }
+    }
+    free(B);
+    free(X);
+    free(Y);
+}
+
+/* The diagonal of the inverse, a block, bilinear forms, the selected inverse, batches. */
+static void exact_inverses(const exact_t *e) {
+    const size_t n = (size_t)e->n;
+    double *X = test_reals(n * n), *Y = test_reals(n * n);
+    sl_int *rows = test_ints(n);
+    double *const to[2] = {X, Y};
+    gen_set(rows, e->n, e->n, 8);
+    for (int k = 0; k < 2; k++) {
+        SL_CHECK(sl_inverse_diagonal(e->F[k], to[k], NULL, e->n, NULL, NULL));
+    }
+    SAME_VALUES(X, Y, n);
+    for (sl_int count = 1; count <= e->n; count = 3 * count + 1) {
+        for (int k = 0; k < 2; k++) {
+            SL_CHECK(sl_inverse_block(e->F[k], to[k], n, rows, count, rows, count, NULL, NULL));
+        }
+        SAME_VALUES(X, Y, n * (size_t)count);
+        for (int k = 0; k < 2; k++) {
+            SL_CHECK(sl_inverse_diagonal(e->F[k], to[k], rows, count, NULL, NULL));
+        }
+        SAME_VALUES(X, Y, (size_t)count);
+    }
+    for (int k = 0; k < 2; k++) {
+        sl_selected *Z = NULL;
+        SL_CHECK(sl_selected_create(&Z, e->F[k], NULL, 0, NULL, NULL));
+        SL_CHECK(sl_selected_diagonal(Z, to[k], NULL, e->n, NULL));
+        SL_CHECK(sl_selected_refactor(Z, e->F[1 - k], NULL)); /* the other type of L */
+        SL_CHECK(sl_selected_diagonal(Z, to[k] + n, NULL, e->n, NULL));
+        SAME_VALUES(to[k], to[k] + n, n);
+        sl_selected_free(Z);
+    }
+    SAME_VALUES(X, Y, n);
+    free(X);
+    free(Y);
+    free(rows);
+}
+
+static void an_exact_factor_gives_the_same_bits(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    static const sl_int sizes[5] = {1, 7, 40, 90, 150};
+    for (int k = 0; k < 5 * isas.count; k++) {
+        for (sl_int dense = 0; dense <= 40; dense += 9) {
+            exact_t e = exact_make(sizes[k % 5], dense, isas.isa[k / 5]);
+            exact_solves(&e);
+            exact_inverses(&e);
+            exact_free(&e);
+        }
+    }
+}
+
+/* ---- solutions ---- */
+
+static void local_solves_equal_full_ones(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
+        for (int k = 0; k < isas.count; k++) {
+            const sl_options opt = options_float(isas.isa[k]);
+            factored_t y = factored_make((gen_kind_t)kind, 120, 1, 0, &opt);
+            const sl_int n = y.M.view.n_cols;
+            for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
+                const sl_int nb = n < 4 ? -1 : 1 + nrhs % 3, nx = n < 10 ? -1 : nrhs;
+                local_solve_t q =
+                    local_solve_random(y.F, n, nb, nx, nrhs, (uint64_t)(kind + 100 * nrhs));
+                local_solve_check(y.S, y.F, &q, NULL);
+                local_solve_free(&q);
+            }
+            factored_free(&y);
+        }
+    }
+}
+
+/* The backward error is that of float, and two to three refinements make it that of double. */
+static void refinement_brings_the_accuracy_of_double(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
+        const sl_options opt = options_float(isas.isa[kind % isas.count]);
+        factored_t y = factored_make((gen_kind_t)kind, 300, 1, 0, &opt);
+        const size_t n = (size_t)y.M.view.n_cols;
+        double *B = test_reals(3 * n), *X = test_reals(3 * n);
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        gen_reals(B, 3 * n, 6);
+        SL_CHECK(sl_factor_solve(y.F, X, n, B, n, 3, NULL));
+        assert_true(worst_backward(&y.M.view, X, n, B, n, 3) <=
+                    pass_figure((sl_int)n) * (double)FLT_EPSILON / DBL_EPSILON);
+        SL_CHECK(sl_factor_refine(y.F, &y.M.view, X, n, B, n, 3, 3, NULL, &stats));
+        assert_true(stats.refine.backward_error <= 1e-14);
+        BACKWARD_PASSES(&y.M.view, X, n, B, n, 3);
+        free(B);
+        free(X);
+        factored_free(&y);
+    }
+}
+
+/* A Laplacian with weights: x has zero mean and solves A x = b - c m; without, x is 0 in the null
+ * row, and an inconsistent b is refused. */
+static void singular_systems_are_solved(void **state) {
+    (void)state;
+    for (int k = 0; k < LAPLACIAN_KINDS; k++) {
+        sl_int components;
+        gen_matrix_t M = laplacian(laplacian_kinds[k], 400, 0, &components);
+        const size_t n = (size_t)M.view.n_cols;
+        double *mass = test_reals(n), *B = test_reals(n), *X = test_reals(n);
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        for (size_t i = 0; i < n; i++) {
+            mass[i] = 1.0;
+        }
+        for (int weighted = 0; weighted < 2; weighted++) {
+            sl_options opt = options_float(SL_ISA_AUTO);
+            sl_factor *F = NULL;
+            sl_stats stats;
+            memset(&stats, 0, sizeof stats);
+            opt.null_pivots = SL_NULL_PIVOT_SKIP;
+            opt.mass = weighted ? mass : NULL;
+            SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+            assert_int_equal(stats.factor.null, components);
+            gen_reals(X, n, 4); /* b = A x is consistent */
+            SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, B, n, X, n, 1));
+            SL_CHECK(sl_factor_solve(F, X, n, B, n, 1, NULL));
+            assert_true(worst_backward(&M.view, X, n, B, n, 1) <= 1e-5);
+            SL_CHECK(sl_factor_refine(F, &M.view, X, n, B, n, 1, 3, NULL, &stats));
+            assert_true(stats.refine.backward_error <= 1e-13);
+            if (weighted && components == 1) {
+                double sum = 0.0, size = 0.0;
+                for (size_t i = 0; i < n; i++) {
+                    sum += X[i];
+                    size += fabs(X[i]);
+                }
+                assert_true(fabs(sum) <= 1e-6 * size);
+            }
+            B[0] += 1.0;
+            SL_EXPECT(weighted ? SL_OK : SL_ERR_INCONSISTENT,
+                      sl_factor_solve(F, X, n, B, n, 1, NULL));
+            sl_factor_free(F);
+        }
+        sl_symbolic_free(S);
+        free(mass);
+        free(B);
+        free(X);
+        gen_matrix_free(&M);
+    }
+}
+
+/* ---- what float cannot hold ---- */
+
+/* The factorization of A, in natural order, in float. */
+static sl_status factor_in_float(const sl_csc *A, double growth_limit, sl_stats *stats) {
+    sl_options opt = options_float(SL_ISA_AUTO), natural = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    natural.ordering = SL_ORDERING_NATURAL;
+    opt.growth_limit = growth_limit;
+    memset(stats, 0, sizeof *stats);
+    SL_CHECK(sl_symbolic_create(&S, A, &natural, NULL));
+    const sl_status status = sl_factor_create(&F, S, A, &opt, stats);
+    assert_true((F != NULL) == (status == SL_OK));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    return status;
+}
+
+/* The same for [a b; b c]. */
+static sl_status factor_of_two(double a, double b, double c, double limit, sl_stats *stats) {
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double x[3] = {a, b, c};
+    const sl_csc A = {2, 2, p, i, x};
+    return factor_in_float(&A, limit, stats);
+}
+
+static void entries_beyond_float_are_refused(void **state) {
+    (void)state;
+    sl_stats stats;
+    SL_CHECK(factor_of_two(1.0, 3e38, 1e80, 0.0, &stats));
+    SL_EXPECT(SL_ERR_INACCURATE, factor_of_two(1.0, 3.5e38, 1e80, 0.0, &stats));
+    assert_int_equal(stats.error.row, 0);
+    assert_true(stats.error.value == 1.0);
+    SL_CHECK(factor_of_two(1.0, 1e-40, 1.0, 0.0, &stats)); /* underflows, as fill does */
+    SL_CHECK(factor_of_two(1e60, 1e30, 2.0, 0.0, &stats)); /* scaled rows */
+    SL_EXPECT(SL_ERR_INACCURATE, factor_of_two(1e100, 1e50, 2.0, 0.0, &stats));
+    assert_int_equal(stats.error.row, 0);
+    /* growth: beyond 1 / epsilon of float no digit is left */
+    SL_CHECK(factor_of_two(1e-3, 1.0, 1.0, 0.0, &stats));
+    SL_EXPECT(SL_ERR_INACCURATE, factor_of_two(1e-9, 1.0, 1.0, 0.0, &stats));
+    SL_CHECK(factor_of_two(1e-9, 1.0, 1.0, -1.0, &stats));
+}
+
+/* A Laplacian whose null pivot is hidden by a heavier row. The check for constants works in L, or
+ * where L is too short, as here, in scratch. */
+static void a_hidden_null_pivot_is_refused(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 1, 1, 2, 2};
+    const double x[5] = {1e8, -1e8, 1e8 + 0.1, -0.1, 0.1};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_stats stats;
+    SL_EXPECT(SL_ERR_PIVOT, factor_in_float(&A, 0.0, &stats));
+    assert_int_equal(stats.error.row, 2);
+}
+
+/* Calls that change L in place refuse it; those that have another way take that. */
+static void changes_are_factorizations(void **state) {
+    (void)state;
+    const sl_options opt = options_float(SL_ISA_AUTO);
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, &opt);
+    sl_factor *G = NULL;
+    sl_stats stats;
+    const sl_int wp[2] = {0, 1}, wi[1] = {3}, column = 5;
+    const double wx[1] = {0.5}, sigma = 1.0;
+    const sl_csc W = {y.M.view.n_rows, 1, wp, wi, wx};
+    memset(&stats, 0, sizeof stats);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update(y.F, &W, &sigma, NULL, NULL));
+    y.M.x[y.M.p[column]] += 1.0; /* its diagonal entry comes first */
+    SL_CHECK(sl_factor_refactor_changed(y.F, &y.M.view, &column, 1, &stats));
+    SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));
+    assert_memory_equal(sl_factor_view(y.F).L_float, sl_factor_view(G).L_float,
+                        (size_t)panel_doubles(G) * sizeof(float));
+    sl_factor_free(G);
+    factored_free(&y);
+}
+
+/* Half the bytes for L, with whatever else a factor keeps. */
+static void a_factor_takes_less_memory(void **state) {
+    (void)state;
+    sl_options opt = options_float(SL_ISA_AUTO);
+    factored_t y = factored_make(GEN_GRID2, 20000, 1, 0, &opt);
+    sl_factor *G = NULL;
+    sl_stats single, full;
+    memset(&single, 0, sizeof single);
+    memset(&full, 0, sizeof full);
+    opt.storage = SL_STORAGE_DOUBLE;
+    SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, &full));
+    sl_factor_stats(y.F, &single);
+    const size_t saved = sizeof(float) * (size_t)panel_doubles(G);
+    assert_true(full.factor.bytes - single.factor.bytes >= saved * 9 / 10);
+    sl_factor_free(G);
+    factored_free(&y);
+}
+
+/* The estimate is about A, not about the rounding of L. */
+static void the_condition_is_that_of_the_matrix(void **state) {
+    (void)state;
+    for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
+        sl_options opt = options_float(SL_ISA_AUTO);
+        factored_t y = factored_make((gen_kind_t)kind, 200, 1, 0, &opt);
+        sl_factor *G = NULL;
+        double a, b;
+        opt.storage = SL_STORAGE_DOUBLE;
+        SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, NULL));
+        SL_CHECK(sl_factor_rcond(y.F, &y.M.view, &a, NULL));
+        SL_CHECK(sl_factor_rcond(G, &y.M.view, &b, NULL));
+        assert_true(a <= 1.1 * b && b <= 1.1 * a);
+        sl_factor_free(G);
+        factored_free(&y);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_double_factor_is_rounded),
+        cmocka_unit_test(an_exact_factor_gives_the_same_bits),
+        cmocka_unit_test(local_solves_equal_full_ones),
+        cmocka_unit_test(refinement_brings_the_accuracy_of_double),
+        cmocka_unit_test(singular_systems_are_solved),
+        cmocka_unit_test(entries_beyond_float_are_refused),
+        cmocka_unit_test(a_hidden_null_pivot_is_refused),
+        cmocka_unit_test(changes_are_factorizations),
+        cmocka_unit_test(a_factor_takes_less_memory),
+        cmocka_unit_test(the_condition_is_that_of_the_matrix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
