@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 72fcda6b9107e769
+ * FNV-1a of the lines after this comment, without the license: 888f5220efd3ed22
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2112,7 +2112,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_se
  * only and gives the answer of the full solve to rounding. If null pivots were skipped, A^-1 is the
  * generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency of b
  * is then checked only for null rows inside the region, and where components have several null
- * vectors (options.null_vector_count), only in rows of zeros.
+ * vectors (options.null_vector_count), only if the region has no boundary.
  */
 
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
@@ -14786,7 +14786,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   sli_pack(q, v->y, B, at, lanes, nrhs);
   if (F->checks) {
     sli_norms(&q->forward, v->y, lanes, norms);
-    if (F->null_vectors > 1 && q->region == NULL &&
+    if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
       !sli_null_dots_are_small(F, &q->forward, v->y, lanes, norms)) {
       return 0;
     }

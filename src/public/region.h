@@ -15,7 +15,7 @@
  * only and gives the answer of the full solve to rounding. If null pivots were skipped, A^-1 is the
  * generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency of b
  * is then checked only for null rows inside the region, and where components have several null
- * vectors (options.null_vector_count), only in rows of zeros.
+ * vectors (options.null_vector_count), only if the region has no boundary.
  */
 
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.

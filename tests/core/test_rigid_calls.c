@@ -294,9 +294,31 @@ static void check_region(bodies_t *f, const sl_options *opt) {
     free(X);
 }
 
+/* A region without a boundary holds whole bodies: right-hand sides are checked as usual. */
+static void check_whole_region(bodies_t *f, const sl_options *opt) {
+    const sl_int row = body_row(f, 0), set[2] = {row, row + 1};
+    const double b[2] = {1.0, 0.0};
+    double x[2] = {-7.5, -7.5};
+    sl_options bytes = options_none(), in = options_none();
+    sl_region *region = NULL;
+    sl_plan *P = NULL;
+    sl_stats stats;
+    (void)opt;
+    bytes.region_bytes = 1;
+    SL_CHECK(sl_region_create(&region, f->F, set, 2, NULL, &bytes, &stats));
+    assert_int_equal(stats.region.boundary, 0);
+    in.region = region;
+    SL_CHECK(sl_plan_create(&P, f->S, set, 2, set, 2, &in, NULL));
+    SL_EXPECT(SL_ERR_INCONSISTENT, sl_plan_solve(P, f->F, x, 2, b, 2, 1, NULL));
+    assert_true(x[0] == -7.5 && x[1] == -7.5);
+    sl_plan_free(P);
+    sl_region_free(region);
+}
+
 static void regions_give_the_same_solutions(void **state) {
     (void)state;
     for_all(check_region);
+    for_all(check_whole_region);
 }
 
 static void check_parts(bodies_t *f, const sl_options *opt) {

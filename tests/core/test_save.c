@@ -131,8 +131,9 @@ static void every_way_has_what_it_stands_for(void **state) {
         sl_stats stats;
         sl_symbolic_stats(c.y.S, &stats);
         sl_factor_stats(c.y.F, &stats);
-        const int is_pivoted = way >= SAVED_PIVOTED;
-        const int skips = way == SAVED_SKIPPED || way == SAVED_WEIGHTED;
+        const int is_pivoted = way == SAVED_PIVOTED || way == SAVED_PIVOTED_REGULARIZED;
+        const int skips =
+            way == SAVED_SKIPPED || way == SAVED_WEIGHTED || way == SAVED_VECTORS;
         assert_true((stats.symbolic.pairs > 10) == is_pivoted);
         assert_true(stats.factor.negative > 10 || !is_pivoted);
         assert_true((stats.factor.null > 0) == skips);

@@ -30,6 +30,7 @@ static const option_t options[] = {
     {"growth_limit", READS_FACTOR},
     {"error_limit", READS_FACTOR},
     {"null_vector", READS_FACTOR},
+    {"null_vector_count", READS_FACTOR},
     {"region", READS_REGION},
     {"region_bytes", READS_REGION_BYTES},
 };
@@ -110,6 +111,9 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.null_vector = mass;
         break;
     case 19:
+        opt.null_vector_count = 1;
+        break;
+    case 20:
         opt.region = f->region;
         break;
     default:

@@ -46,12 +46,13 @@ enum {
     SAVED_SIGNED,
     SAVED_PIVOTED,
     SAVED_PIVOTED_REGULARIZED,
+    SAVED_VECTORS, /* skipped, and several null vectors are given */
     SAVED_WAYS
 };
 
 typedef struct saved_case_t {
     factored_t y;
-    double *mass;
+    double *mass, *vectors;
     sl_int *signs;
     sl_options opt; /* of the factor */
 } saved_case_t;
@@ -72,7 +73,8 @@ static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size
     memset(&c, 0, sizeof c);
     c.opt = options_for_factor(from);
     const int is_pivoted = way == SAVED_PIVOTED || way == SAVED_PIVOTED_REGULARIZED;
-    if (way == SAVED_SKIPPED || way == SAVED_WEIGHTED) {
+    const int skips = way == SAVED_SKIPPED || way == SAVED_WEIGHTED || way == SAVED_VECTORS;
+    if (skips) {
         c.y.M = laplacian(kind, size, style, &components);
     } else {
         gen_list_t t = gen_make(kind, size, 1, 42);
@@ -84,14 +86,19 @@ static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size
     }
     sl_int n = c.y.M.view.n_rows;
     c.mass = test_reals((size_t)n);
+    c.vectors = test_reals(3 * (size_t)n); /* the second and the third one make a constant */
     c.signs = test_ints((size_t)n);
     for (sl_int k = 0; k < n; k++) {
         c.mass[k] = 1 + k % 7;
+        c.vectors[n + k] = 2.0 - k % 7;
+        c.vectors[2 * n + k] = k % 7;
         c.signs[k] = k % 5 == 0 ? -1 : k % 3 == 0 ? 0 : 1;
     }
-    if (way == SAVED_SKIPPED || way == SAVED_WEIGHTED) {
+    if (skips) {
         c.opt.null_pivots = SL_NULL_PIVOT_SKIP;
         c.opt.mass = way == SAVED_WEIGHTED ? c.mass : NULL;
+        c.opt.null_vector = way == SAVED_VECTORS ? c.vectors : NULL;
+        c.opt.null_vector_count = way == SAVED_VECTORS ? 3 : 0;
         c.opt.consistency_tolerance = -1;
     } else if (way == SAVED_PIVOTED) {
         c.opt.growth_limit = 1e15;
@@ -110,6 +117,7 @@ static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size
 static inline void saved_case_free(saved_case_t *c) {
     factored_free(&c->y);
     free(c->mass);
+    free(c->vectors);
     free(c->signs);
 }
 

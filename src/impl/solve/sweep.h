@@ -67,7 +67,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     sli_pack(q, v->y, B, at, lanes, nrhs);
     if (F->checks) {
         sli_norms(&q->forward, v->y, lanes, norms);
-        if (F->null_vectors > 1 && q->region == NULL &&
+        if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
             !sli_null_dots_are_small(F, &q->forward, v->y, lanes, norms)) {
             return 0;
         }
