@@ -70,7 +70,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .SECONDARY:
 .PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
-	figures format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
+	figures bench-eigenpairs deps-arpack format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
 	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm deps-mpi cluster test-cluster
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
@@ -147,6 +147,9 @@ deps-cxx: ## g++
 deps-peers: deps-cxx ## CHOLMOD with OpenBLAS, Eigen
 	@tools/build/deps.sh suitesparse/cholmod.h=libsuitesparse-dev /usr/include/eigen3/Eigen/Sparse=libeigen3-dev \
 	/usr/share/doc/libopenblas-dev=libopenblas-dev
+
+deps-arpack: ## ARPACK with OpenBLAS
+	@tools/build/deps.sh arpack/arpack.h=libarpack2-dev /usr/share/doc/libopenblas-dev=libopenblas-dev
 
 deps-clang: ## clang with its sanitizers and fuzzer
 	@tools/build/deps.sh clang=clang '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a=libclang-rt-dev'
@@ -462,6 +465,12 @@ bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmon
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
 
+ARPACK_OBJECTS = $(patsubst %.c,build/arpack/obj/%.o,$(wildcard bench/eigen/*.c))
+ARPACK_BENCH = B=build/arpack BENCH_ENV='$(PEER_ENV) OPENBLAS_NUM_THREADS=1' CFLAGS='-DSL_BENCH_ARPACK $(OPENMP) $(CFLAGS)' \
+	PEER_LIBS='-larpack -lopenblas' PEER_OBJECTS='$(ARPACK_OBJECTS)'
+bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigenpairs of ARPACK, with our factor as its solver: digits and time
+	@+$(SUB_MAKE) run-bench QUESTION_DEFAULT=eigenpairs $(ARPACK_BENCH)
+
 readme-table: ## prints the measurements of the last bench-peers as Markdown tables
 	@awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv)
@@ -490,10 +499,10 @@ test-cluster: deps-mpi deps-png ## build/cluster-mpi with 1 to 4 ranks, one of t
 # ---- the paper ----
 
 FIGURES = build/figures$(if $(MESH),/$(firstword $(subst ., ,$(notdir $(MESH)))))
-# The bench is built as for `make bench`, the program as for the tests.
-figures: deps deps-png sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
-	@$(MAKE) --no-print-directory build/timed/bench B=build/timed CFLAGS='$(OPENMP) $(CFLAGS)'
-	@tools/build/figures.sh $(B)/sparse-local build/timed/bench '$(FIGURES)' '$(MESH)'
+# The bench is that of bench-eigenpairs, the program that of the tests.
+figures: deps deps-png deps-arpack sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
+	@$(MAKE) --no-print-directory build/arpack/bench $(ARPACK_BENCH)
+	@tools/build/figures.sh $(B)/sparse-local build/arpack/bench '$(FIGURES)' '$(MESH)'
 
 # ---- other languages and build systems ----
 

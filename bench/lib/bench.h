@@ -42,6 +42,9 @@ void bench_shifted(bench_run *run);
 void bench_neumann(bench_run *run);
 void bench_saved(bench_run *run);
 void bench_change(bench_run *run);
+#ifdef SL_BENCH_ARPACK
+void bench_eigenpairs(bench_run *run);
+#endif
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);
@@ -154,6 +157,7 @@ void bench_machine_write(const bench_run *run, const char *name);
 typedef struct bench_system {
     char name[64];
     sl_int n;
+    double t;          /* of M + t L; 0 for other matrices */
     sl_matrix *matrix; /* lower triangle */
     sl_csc A;
     sl_symbolic *S;

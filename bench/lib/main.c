@@ -58,6 +58,11 @@ static const question questions[] = {
     {"shifted", "M + t L for eight t: factors, one plan on all of them, heat kernel signatures",
      bench_shifted},
     {"saved", "factors in files: saved, loaded, mapped, shared by processes", bench_saved},
+#ifdef SL_BENCH_ARPACK
+    {"eigenpairs",
+     "auto-diffusion and heat kernel signatures by ARPACK's eigenpairs: digits and time",
+     bench_eigenpairs},
+#endif
 #ifdef SL_BENCH_PEERS
     {"peers", "CHOLMOD and Eigen: setup, refactorization, full and local solves", bench_peers},
     {"peers_harmonic", "the same steps on harmonic, biharmonic and triharmonic systems",

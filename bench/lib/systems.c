@@ -94,11 +94,14 @@ static double smoothing_time(const mesh *m) {
 
 static const bench_system *add_mesh(const char *name, mesh *m) {
     sl_matrix *matrix;
-    if (!laplacian_system(&matrix, m, smoothing_time(m))) {
+    const double t = smoothing_time(m);
+    if (!laplacian_system(&matrix, m, t)) {
         bench_must(SL_ERR_MEMORY, "assembling the matrix of a mesh");
     }
     mesh_free(m);
-    return add_system(name, matrix);
+    const bench_system *system = add_system(name, matrix);
+    systems[n_systems - 1]->t = t;
+    return system;
 }
 
 static void make_grid(mesh *m, sl_int side) {

@@ -4,8 +4,9 @@
 #     tools/build/figures.sh PROGRAM BENCH FOLDER [MESH]
 #
 # Uses generated surfaces, or MESH. FOLDER receives pictures (PNG, SVG), the numbers behind them
-# (CSV) and the output of the programs (TXT). Figures 4 to 6 show times that the bench measures;
-# BENCH=quick in the environment shortens them. PATCH and CENTER change the patch.
+# (CSV) and the output of the programs (TXT). BENCH is that of make bench-eigenpairs: figures 4 to 6
+# and eigenpairs.svg show what it measures. BENCH=quick in the environment shortens them. PATCH and
+# CENTER change the patch.
 
 program=$1 bench=$2 folder=$3 mesh=$4
 mkdir -p "$folder" || exit 1
@@ -47,7 +48,8 @@ draw heat heat "$surface" --from "$center" --scaled-time 10 --png "$folder/heat.
 draw histogram pairs "${mesh:-hills:447x447}" --count 10000 --svg "$folder/histogram.svg" \
     --csv "$folder/histogram.csv"
 
-BENCH_OUT=$folder MESH=$mesh "$bench" patches scaling amortize multi_rhs >"$folder/bench.txt" ||
+OPENBLAS_NUM_THREADS=1 BENCH_OUT=$folder MESH=$mesh \
+    "$bench" patches scaling amortize multi_rhs eigenpairs >"$folder/bench.txt" ||
     { echo "  bench FAILED, see $folder/bench.txt" >&2; failed=1; }
 # rename PLOT FIGURE: gives a plot of the bench, if it was drawn, the name of the figure.
 rename() {
@@ -58,6 +60,7 @@ rename patches_by_patch.svg figure5.svg
 rename scaling.svg figure6_left.svg
 rename amortize.svg figure6_right.svg
 awk -f "$(dirname "$0")/paper_table.awk" "$folder"/patches.csv "$folder"/multi_rhs.csv \
-    "$folder"/adf_53k.txt "$folder"/histogram.txt >"$folder/paper.md" && cat "$folder/paper.md"
+    "$folder"/eigenpairs_errors.csv "$folder"/adf_53k.txt "$folder"/histogram.txt \
+    >"$folder/paper.md" && cat "$folder/paper.md"
 echo "figures are in $folder"
 exit $failed
