@@ -6,10 +6,10 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "bench/lib/bench.h"
+#include "bench/lib/saved_inverses.h"
 
 /* A factor is saved beside the CSV files. Saving and loading are compared with a plain copy of the
  * file to the device and a plain read of it; a mapped factor with the one in memory. Children of
@@ -30,12 +30,6 @@ typedef struct saved_case {
     sl_factor *F;
     sl_work *W;
 } saved_case;
-
-static double processor_seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- contenders ---- */
 
@@ -172,10 +166,10 @@ static void time_files(bench_report *report, saved_case *c) {
     for (int round = -1; round < ROUNDS; round++) { /* the first one is a warm-up */
         for (int k = 0; k < 4; k++) {
             remove_copy(c);
-            const double start = bench_now(), spent = processor_seconds();
+            const double start = bench_now(), spent = bench_processor_seconds();
             calls[k](c);
             times[k][round < 0 ? 0 : round] = bench_now() - start;
-            processor[k][round < 0 ? 0 : round] = processor_seconds() - spent;
+            processor[k][round < 0 ? 0 : round] = bench_processor_seconds() - spent;
         }
     }
     for (int k = 0; k < 4; k++) {
@@ -203,10 +197,10 @@ static void time_maps(bench_report *report, saved_case *c) {
     bench_sample found[3];
     for (int round = -1; round < OPENS; round++) { /* the first one is a warm-up */
         for (int k = 0; k < 3; k++) {
-            const double start = processor_seconds();
+            const double start = bench_processor_seconds();
             c->checks = checks[k];
             call_map(c);
-            times[k][round < 0 ? 0 : round] = processor_seconds() - start;
+            times[k][round < 0 ? 0 : round] = bench_processor_seconds() - start;
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -223,12 +217,12 @@ static void time_first_solves(bench_report *report, saved_case *c) {
     bench_sample found[2];
     for (int k = 0; k < FIRST_SOLVES; k++) {
         map_again(c);
-        const double start = processor_seconds();
+        const double start = bench_processor_seconds();
         call_first_solve(c);
-        const double middle = processor_seconds();
+        const double middle = bench_processor_seconds();
         call_memory_solve(c);
         times[0][k] = middle - start;
-        times[1][k] = processor_seconds() - middle;
+        times[1][k] = bench_processor_seconds() - middle;
     }
     found[0] = bench_sample_of(times[0], FIRST_SOLVES);
     found[1] = bench_sample_of(times[1], FIRST_SOLVES);
@@ -273,12 +267,12 @@ static void be_child(const saved_case *c, int solves, child_result *out) {
         (void)solve_at(F, bench_random_below(&rng, c->system->n), W);
     }
     out->private_bytes = private_bytes() - before - (double)sl_work_bytes(W);
-    const double start = bench_now(), processor = processor_seconds();
+    const double start = bench_now(), processor = bench_processor_seconds();
     for (int k = 0; k < solves; k++) {
         (void)solve_at(F, bench_random_below(&rng, c->system->n), W);
     }
     out->seconds = bench_now() - start;
-    out->processor = processor_seconds() - processor;
+    out->processor = bench_processor_seconds() - processor;
     _exit(0);
 }
 
@@ -364,6 +358,7 @@ void bench_saved(bench_run *run) {
         time_maps(report, &c);
         time_first_solves(report, &c);
         time_processes(run, report, &c);
+        bench_saved_inverses(run, report, c.system);
         bench_report_close(report);
     }
     sl_factor_free(c.F);
