@@ -26,8 +26,11 @@ static int by_position(const void *a, const void *b) {
 bool mesh_build_weld(mesh_build *b, sl_int first_vertex, sl_int first_face) {
     mesh *m = &b->result;
     size_t first = (size_t)first_vertex, n = (size_t)m->n_vertices - first;
-    position *points = (position *)malloc((n + 1) * sizeof *points);
-    sl_int *number = (sl_int *)malloc((n + 1) * sizeof *number);
+    if (n == 0) {
+        return true; /* there may be no arrays */
+    }
+    position *points = (position *)malloc(n * sizeof *points);
+    sl_int *number = (sl_int *)malloc(n * sizeof *number);
     if (points == NULL || number == NULL) {
         free(points);
         free(number);
