@@ -12,28 +12,38 @@ static const struct {
     int (*command)(int argc, char **argv);
     const char *name;    /* the words before the mesh */
     const char *options; /* and after it */
+    const char *file;    /* which the options name; NULL: none */
 } commands[] = {
-    {command_heat, "heat", ""},        {command_adf, "adf", "--at 1"},
-    {command_hks, "hks", "--times 2"}, {command_pairs, "pairs", "--count 3"},
-    {command_info, "info", ""},        {command_geodesic, "geodesic", ""},
-    {command_param, "param", ""},      {command_arap, "arap", ""},
-    {command_scp, "scp", ""},          {command_geodesic, "geodesic", "--voronoi --from 0,30"},
-    {command_save, "save", "--out"},   {command_geodesic, "geodesic", "--raw"},
+    {command_heat, "heat", "", NULL},
+    {command_adf, "adf", "--at 1", NULL},
+    {command_hks, "hks", "--times 2", NULL},
+    {command_pairs, "pairs", "--count 3", NULL},
+    {command_info, "info", "", NULL},
+    {command_geodesic, "geodesic", "", NULL},
+    {command_param, "param", "", NULL},
+    {command_arap, "arap", "", NULL},
+    {command_scp, "scp", "", NULL},
+    {command_geodesic, "geodesic", "--voronoi --from 0,30", NULL},
+    {command_geodesic, "geodesic", "--raw", NULL},
+    {command_save, "save", "--out", "s.slf"},
+    {command_edit, "edit", "--edits 4", NULL},
+    {command_deform, "deform", "--script", "script.txt"},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 /* Counts the commands that warn of inaccurate solutions on m, and of them those with `text`. */
 static int warnings_on(const mesh *m, const char *text, int *with_text) {
     int count = 0;
-    char message[300], line[1500], file[FILE_PATH_SIZE + 100], out[FILE_PATH_SIZE + 100];
+    char message[300], line[1500], file[FILE_PATH_SIZE + 100];
     (void)snprintf(file, sizeof file, "%s", files_path("m.ply"));
-    (void)snprintf(out, sizeof out, "%s", files_path("s.slf"));
     assert_true(mesh_write(file, m, NULL, message, sizeof message));
+    (void)files_put_text("script.txt", "grab 0\nmove 0 0 0 1\nframe\n");
     *with_text = 0;
     for (int k = 0; k < COMMANDS; k++) {
         int status;
         (void)snprintf(line, sizeof line, "%s %s %s %s", commands[k].name, file,
-                       commands[k].options, commands[k].command == command_save ? out : "");
+                       commands[k].options,
+                       commands[k].file != NULL ? files_path(commands[k].file) : "");
         char *output = run_command(commands[k].command, line, &status);
         assert_true(status == 0 || status == 1);
         const char *warning = strstr(output, "makes solutions inaccurate");

@@ -6,6 +6,7 @@
 #include "app.h"
 #include "command.h"
 #include "handle_script.h"
+#include "solve_accuracy.h"
 #include "tools/geometry/deformer.h"
 #include "tools/io/output_file.h"
 
@@ -310,6 +311,7 @@ static void open_command(deform_command *cmd, const char *operand) {
     printf("factor     order and analyze %.1f ms, factor %.1f ms, %.3g entries of L\n",
            1e3 * (s->symbolic.seconds_order + s->symbolic.seconds_analyze), 1e3 * s->factor.seconds,
            (double)s->symbolic.nnz_panels);
+    accuracy_warn_poisson(&cmd->m, NULL, 1);
     if (s->factor.weak > 0) {
         app_warn("%d pivots are within rounding of 0: parts of the mesh are joined weakly",
                  (int)s->factor.weak);

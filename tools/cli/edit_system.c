@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app.h"
+#include "solve_accuracy.h"
 #include "tools/geometry/laplacian.h"
 
 /* A place is looked for this many times. */
@@ -72,6 +73,8 @@ void edit_system_create(edit_system *out, const mesh *m, double t, sl_int patch,
             out->typical += A.i[k] == j ? 0 : fabs(A.x[k]) / (double)A.p[A.n_cols];
         }
     }
+    const accuracy_faces faces = accuracy_of_faces(m, NULL);
+    accuracy_warn(&faces, NULL, &A);
     sl_matrix_free(system);
     renew(out);
 }
