@@ -27,6 +27,7 @@ static void one_system(bench_run *run, bench_report *report, const bench_system 
     const double solved = bench_now();
     peers_local(run, report, cmp);
     peers_inverse(run, report, cmp);
+    peers_change(run, report, cmp);
     comparison_free(cmp);
     bench_progress("[%s: created %.0f s, factor %.0f s, full solves %.0f s, local %.0f s]\n",
                    system->name, created - start, factored - created, solved - factored,

@@ -57,6 +57,38 @@ double peer_cholmod_peak(const peer_cholmod *peer);
 /** Entries of the simplicial L. */
 double peer_cholmod_nnz(const peer_cholmod *peer);
 
+/** CHOLMOD's changes of a factor: updates, downdates and rows deleted and added, on a copy of the
+ *  simplicial factor. CHOLMOD takes them in the order of the pivots; changes are prepared once, so
+ *  that no time is spent on the permutation.
+ */
+typedef struct peer_change peer_change;
+
+/** A must be the matrix of the peer, which must outlive the result, as must A. Room for `count`
+ *  prepared updates and rows. */
+peer_change *peer_change_create(peer_cholmod *peer, const sl_csc *A, int count);
+void peer_change_free(peer_change *c);
+
+/** Prepares update k: the sum over r of w (e_i - e_j)(e_i - e_j)' with i = rows[r], j = others[r];
+ *  others NULL: w e_i e_i'. */
+void peer_change_prepare(peer_change *c, int k, const sl_int *rows, const sl_int *others, int ranks,
+                         double w);
+
+/** cholmod_updown with update k. */
+void peer_change_update(peer_change *c, int k, int is_update);
+
+/** Prepares row k: the row and column of A. */
+void peer_change_prepare_row(peer_change *c, int k, sl_int row);
+
+/** cholmod_rowdel: row k of the matrix becomes that of the identity; cholmod_rowadd: it returns. */
+void peer_change_delete_row(peer_change *c, int k);
+void peer_change_add_row(peer_change *c, int k);
+
+/** x(row) of the solution for b = e_row, by cholmod_solve2 with Bset. */
+double peer_change_local(peer_change *c, sl_int row);
+
+/** A full solve; valid until the next call. b has n entries. */
+const double *peer_change_solve(peer_change *c, const double *b);
+
 /** Name of the processor core that OpenBLAS chose its kernels for. */
 const char *peer_cholmod_kernels(void);
 

@@ -1,31 +1,12 @@
 /* peers_cholmod.c: CHOLMOD in a given permutation and with orderings of its own */
-#include "peers.h"
+#include "peers_cholmod.h"
 
 #include <cblas.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <suitesparse/cholmod.h>
 
-typedef struct cholmod_solver {
-    cholmod_common common;
-    cholmod_factor *L;
-    cholmod_dense *X, *Y, *E; /* kept from one solve to the next */
-} cholmod_solver;
-
-struct peer_cholmod {
-    cholmod_sparse A;
-    sl_int *perm;
-    cholmod_solver supernodal, simplicial;
-    cholmod_factor *analysis; /* supernodal, analyzed only */
-    cholmod_factor *first;    /* supernodal, the latest first factorization */
-    cholmod_dense *b;         /* n x 1, read only at Bset */
-    double peak;              /* bytes of the supernodal analysis and factorization */
-    cholmod_sparse *bset;     /* a column of n rows */
-    cholmod_sparse *xset;
-};
-
-static void must(int passed, const char *doing) {
+void peer_must(int passed, const char *doing) {
     if (!passed) {
         fprintf(stderr, "bench: CHOLMOD failed: %s\n", doing);
         exit(2);
@@ -52,13 +33,13 @@ static cholmod_sparse wrap(const sl_csc *A) {
 
 static cholmod_factor *analyze(peer_cholmod *peer, cholmod_solver *s) {
     cholmod_factor *L = cholmod_analyze_p(&peer->A, peer->perm, NULL, 0, &s->common);
-    must(L != NULL, "analysis");
+    peer_must(L != NULL, "analysis");
     return L;
 }
 
 static void factor(peer_cholmod *peer, cholmod_solver *s) {
-    must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
-         "factorization");
+    peer_must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
+              "factorization");
 }
 
 static void set_up(cholmod_solver *s, int supernodal) {
@@ -79,30 +60,30 @@ static void set_up(cholmod_solver *s, int supernodal) {
 static void make_simplicial(peer_cholmod *peer) {
     cholmod_common *c = &peer->simplicial.common;
     cholmod_factor *L = cholmod_copy_factor(peer->supernodal.L, c);
-    must(L != NULL, "memory");
-    must(cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, L, c) &&
-             cholmod_resymbol(&peer->A, NULL, 0, 1, L, c),
-         "from supernodal to simplicial");
+    peer_must(L != NULL, "memory");
+    peer_must(cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, L, c) &&
+                  cholmod_resymbol(&peer->A, NULL, 0, 1, L, c),
+              "from supernodal to simplicial");
     peer->simplicial.L = L;
-    must(!L->is_super && !L->is_ll && L->xtype == CHOLMOD_REAL, "a simplicial LDL' is needed");
-    must((double)L->nzmax <= 1.001 * peer->supernodal.common.lnz + 1, "a packed L is needed");
+    peer_must(!L->is_super && !L->is_ll && L->xtype == CHOLMOD_REAL, "a simplicial LDL' is needed");
+    peer_must((double)L->nzmax <= 1.001 * peer->supernodal.common.lnz + 1, "a packed L is needed");
 }
 
 peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
     peer_cholmod *peer = calloc(1, sizeof *peer);
-    must(peer != NULL, "memory");
+    peer_must(peer != NULL, "memory");
     size_t n = (size_t)A->n_rows;
     openblas_set_num_threads(1);
     peer->A = wrap(A);
     peer->perm = malloc((n + 1) * sizeof *peer->perm);
-    must(peer->perm != NULL, "memory");
+    peer_must(peer->perm != NULL, "memory");
     memcpy(peer->perm, perm, n * sizeof *perm);
     set_up(&peer->supernodal, 1);
     set_up(&peer->simplicial, 0);
     peer->supernodal.L = analyze(peer, &peer->supernodal);
     const size_t before = peer->supernodal.common.memory_inuse;
     peer->analysis = cholmod_copy_factor(peer->supernodal.L, &peer->supernodal.common);
-    must(peer->analysis != NULL, "memory");
+    peer_must(peer->analysis != NULL, "memory");
     const size_t analysis = peer->supernodal.common.memory_inuse - before;
     factor(peer, &peer->supernodal);
     peer->peak = (double)(peer->supernodal.common.memory_usage - analysis);
@@ -110,7 +91,7 @@ peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
     peer->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &peer->simplicial.common);
     peer->bset =
         cholmod_allocate_sparse(n, 1, n, 0, 1, 0, CHOLMOD_PATTERN, &peer->simplicial.common);
-    must(peer->b && peer->bset, "memory");
+    peer_must(peer->b && peer->bset, "memory");
     if (n > 0) {
         /* the first call allocates the inverse permutation and the workspaces */
         sl_int first = 0;
@@ -164,11 +145,12 @@ void peer_cholmod_factor_simplicial(peer_cholmod *peer) {
 void peer_cholmod_first_ready(peer_cholmod *peer) {
     cholmod_free_factor(&peer->first, &peer->supernodal.common);
     peer->first = cholmod_copy_factor(peer->analysis, &peer->supernodal.common);
-    must(peer->first != NULL, "memory");
+    peer_must(peer->first != NULL, "memory");
 }
 
 void peer_cholmod_first(peer_cholmod *peer) {
-    must(cholmod_factorize(&peer->A, peer->first, &peer->supernodal.common), "first factorization");
+    peer_must(cholmod_factorize(&peer->A, peer->first, &peer->supernodal.common),
+              "first factorization");
 }
 
 void peer_cholmod_threads(int count) {
@@ -184,7 +166,8 @@ static const double *solve(cholmod_solver *s, const double *B, sl_int nrhs) {
     memcpy(&b.x, &B, sizeof B);
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
-    must(cholmod_solve2(CHOLMOD_A, s->L, &b, NULL, &s->X, NULL, &s->Y, &s->E, &s->common), "solve");
+    peer_must(cholmod_solve2(CHOLMOD_A, s->L, &b, NULL, &s->X, NULL, &s->Y, &s->E, &s->common),
+              "solve");
     return s->X->x;
 }
 
@@ -207,9 +190,9 @@ const double *peer_cholmod_local(peer_cholmod *peer, const sl_int *bset, sl_int 
         i[k] = bset[k];
         values[bset[k]] = b[k];
     }
-    must(cholmod_solve2(CHOLMOD_A, s->L, peer->b, peer->bset, &s->X, &peer->xset, &s->Y, &s->E,
-                        &s->common),
-         "solve with Bset");
+    peer_must(cholmod_solve2(CHOLMOD_A, s->L, peer->b, peer->bset, &s->X, &peer->xset, &s->Y, &s->E,
+                             &s->common),
+              "solve with Bset");
     return s->X->x;
 }
 
@@ -230,7 +213,7 @@ struct peer_cholmod_own {
 
 peer_cholmod_own *peer_cholmod_own_create(const sl_csc *A, peer_cholmod_ordering ordering) {
     peer_cholmod_own *peer = calloc(1, sizeof *peer);
-    must(peer != NULL, "memory");
+    peer_must(peer != NULL, "memory");
     cholmod_solver *s = &peer->solver;
     openblas_set_num_threads(1);
     peer->A = wrap(A);
@@ -240,7 +223,7 @@ peer_cholmod_own *peer_cholmod_own_create(const sl_csc *A, peer_cholmod_ordering
         s->common.method[0].ordering = CHOLMOD_METIS;
     }
     s->L = cholmod_analyze(&peer->A, &s->common);
-    must(s->L != NULL, "analysis with its own ordering");
+    peer_must(s->L != NULL, "analysis with its own ordering");
     peer_cholmod_own_factor(peer);
     return peer;
 }
@@ -254,8 +237,8 @@ void peer_cholmod_own_free(peer_cholmod_own *peer) {
 
 void peer_cholmod_own_factor(peer_cholmod_own *peer) {
     cholmod_solver *s = &peer->solver;
-    must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
-         "factorization with its own ordering");
+    peer_must(cholmod_factorize(&peer->A, s->L, &s->common) && s->common.status == CHOLMOD_OK,
+              "factorization with its own ordering");
 }
 
 const double *peer_cholmod_own_solve(peer_cholmod_own *peer, const double *B, sl_int nrhs) {

@@ -91,6 +91,9 @@ void peers_solve(bench_run *run, bench_report *report, comparison *cmp, sl_int n
 /** Local solves: one vertex, a pair of vertices, patches (peers_local.c). */
 void peers_local(bench_run *run, bench_report *report, comparison *cmp);
 
+/** Updates, downdates and pins, on factors of their own (peers_change.c). */
+void peers_change(bench_run *run, bench_report *report, comparison *cmp);
+
 /** Entries of the inverse, on and off the diagonal (peers_inverse.c). */
 void peers_inverse(bench_run *run, bench_report *report, comparison *cmp);
 

@@ -26,6 +26,11 @@ BEGIN {
     add_step("vertex, 1 rhs, plan + solve", "one vertex, plan + solve")
     add_step("patch 1000, 2 rhs, solve on a plan", "patch of 1000, 2 rhs, solve on a plan")
     add_step("patch 1000, 2 rhs, plan + solve", "patch of 1000, 2 rhs, plan + solve")
+    add_step("edge update", "weight of an edge changed")
+    add_step("rank-8 update", "8 vertices changed")
+    add_step("pin, solve, release", "vertex pinned, solved beside it, released")
+    letters["CHOLMOD updown"] = "U"
+    letters["CHOLMOD rowdel/rowadd"] = "R"
     letters["CHOLMOD METIS"] = "M"
     letters["CHOLMOD defaults"] = "C"
     letters["CHOLMOD supernodal"] = "S"
@@ -87,7 +92,8 @@ END {
     print "needs at least, to read L or to do the operations. Peers run in their best and in their"
     print "default settings, and the fastest counts. CHOLMOD with its own ordering: `M` METIS, `C`"
     print "nothing set. CHOLMOD in our ordering: `S` supernodal, `s` simplicial, `B` cholmod_solve2"
-    print "with Bset, `F` a full solve in its fastest setting. Eigen SimplicialLDLT: `A` with AMD,"
+    print "with Bset, `F` a full solve in its fastest setting, `U` cholmod_updown on vectors that"
+    print "were permuted before, `R` cholmod_rowdel and rowadd. Eigen SimplicialLDLT: `A` with AMD,"
     print "its default, `E` in our ordering."
     for (t = 1; t <= n_tables; t++) table(t)
 }
