@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 888f5220efd3ed22
+ * FNV-1a of the lines after this comment, without the license: c4dae7a8246ce6c6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -63,17 +63,17 @@
  *  18637 update.h  18987 rank.h  19313 edges.h  19467 choose.h  19655 pins.h
  * (save: factors in files)
  *  20227 format.h  20516 decode.h  20660 check.h  20992 write.h  21293 load.h  21558 load_inverse.h
- *  21892 load_calls.h
+ *  21890 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  22091 batch_solve.h  22300 batch_factor.h  22501 batch_diagonal.h
+ *  22089 batch_solve.h  22298 batch_factor.h  22499 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  22641 hermitian.h  22786 complex_rows.h
+ *  22639 hermitian.h  22784 complex_rows.h
  * (last: undefine every internal macro)
- *  22954 undef.h
+ *  22952 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  23113 multi_rhs.inl.h  23496 sweeps.inl.h  23498 unit_triangle.inl.h  23535 two_rhs.inl.h
- *  23704 small_supernode.inl.h  23863 single_rhs.inl.h  24107 kernel_set.inl.h  24109 product.inl.h
- *  24237 front.inl.h  24451 inverse_front.inl.h  24736 row.inl.h  24766 change.inl.h
+ *  23111 multi_rhs.inl.h  23494 sweeps.inl.h  23496 unit_triangle.inl.h  23533 two_rhs.inl.h
+ *  23702 small_supernode.inl.h  23861 single_rhs.inl.h  24105 kernel_set.inl.h  24107 product.inl.h
+ *  24235 front.inl.h  24449 inverse_front.inl.h  24734 row.inl.h  24764 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21577,8 +21577,8 @@ static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S,
     return status;
   }
   return S->n_pairs == 0 && sli_count_is_valid(part->count, most) &&
-           (F == NULL || (part->identity[0] == F->identity.a &&
-                  part->identity[1] == F->identity.b))
+           (F == NULL ||
+          (part->identity[0] == F->identity.a && part->identity[1] == F->identity.b))
          ? SL_OK
          : SL_ERR_IO;
 }
@@ -21651,9 +21651,8 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
      !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
     return SL_ERR_IO;
   }
-  status = r->is_mapped
-         ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
-         : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
+  status = r->is_mapped ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
+              : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
   if (status == SL_OK) {
     values = (*out)->Z;
     status = sli_read_section(r, k + 3, &values);
@@ -21803,8 +21802,7 @@ static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *se
   sl_int m;
   for (m = 0; m < set->n_regions; m++) {
     sl_region *R = set->regions[m];
-    const size_t bytes =
-      sizeof(double) * (size_t)R->begin[sli_region_chunks(R->extent.n_rows)];
+    const size_t bytes = sizeof(double) * (size_t)R->begin[sli_region_chunks(R->extent.n_rows)];
     if (r->is_mapped) {
       R->Z = (double *)(uintptr_t)(r->memory + r->at);
       R->bytes += bytes;

@@ -135,8 +135,7 @@ static void a_selected_inverse_is_saved_without_its_factor(void **state) {
             saved_free(&again);
             SL_CHECK(sl_factor_create(&F, got.symbolic, &q.c.y.M.view, &q.c.opt, NULL));
             SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
-            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE,
-                      sl_selected_refactor(got.selected, F, NULL));
+            SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE, sl_selected_refactor(got.selected, F, NULL));
             assert_same_selected(q.set.selected, got.selected);
             SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE,
                       sl_region_create(&R, F, &row, 1, got.selected, NULL, NULL));
@@ -306,8 +305,7 @@ static void parts_of_another_factor_are_refused(void **state) {
         if (id != SAVED_REGIONS && id != SAVED_SELECTED) {
             continue;
         }
-        unsigned char *identity =
-            m.bytes + saved_u64(saved_entry(m.bytes, s) + SAVED_OFFSET) + 8;
+        unsigned char *identity = m.bytes + saved_u64(saved_entry(m.bytes, s) + SAVED_OFFSET) + 8;
         identity[found] ^= 1;
         saved_repair(m.bytes, m.size);
         for (int k = 0; k < 2; k++) {
@@ -335,8 +333,7 @@ static void every_allocation_of_a_load_may_fail(void **state) {
                 sl_saved_set got;
                 counter.fail_at = at;
                 opt.threads.count = 2;
-                const sl_status status =
-                    calls[call](&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
+                const sl_status status = calls[call](&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
                 done = status == SL_OK;
                 assert_true(done || (status == SL_ERR_MEMORY && got.symbolic == NULL &&
                                      got.regions == NULL));

@@ -197,8 +197,8 @@ static void every_flipped_bit_is_noticed_or_harmless(void **state) {
 /* Replaces every 32-bit word of what version 2 adds by values that overflow or point elsewhere. */
 static void every_replaced_word_is_noticed_or_harmless(void **state) {
     (void)state;
-    static const uint32_t values[] = {0, 1, 2, 3, 8, 15, 16, 0x7fffffffu, 0x80000000u, 0xffffffffu,
-                                      0x01000000u, 0x7ffffff8u};
+    static const uint32_t values[] = {
+        0, 1, 2, 3, 8, 15, 16, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0x01000000u, 0x7ffffff8u};
     for (int way = 0; way < 4; way++) {
         target_t t;
         target_make(&t, way % 2, way / 2);
@@ -259,7 +259,7 @@ static void lists_must_be_those_of_regions(void **state) {
     refuse(&t, 98, 0, (uint32_t)v.n_supers);
     refuse(&t, 98, 0, UINT32_MAX);
     refuse(&t, 99, 0, UINT32_MAX);
-    refuse(&t, 99, 0, (uint32_t)v.iperm[r.boundary[1]]);   /* a row twice */
+    refuse(&t, 99, 0, (uint32_t)v.iperm[r.boundary[1]]);    /* a row twice */
     refuse(&t, 99, 0, (uint32_t)v.super_first[r.roots[0]]); /* a row of a subtree */
     int tried = 0; /* other roots, whose rows below are not in the boundary */
     for (sl_int s = 0; s < v.n_supers && r.n_roots == 1; s++) {
@@ -290,7 +290,7 @@ static void lists_must_be_those_of_a_selected_inverse(void **state) {
     refuse(&t, 104, 0, (uint32_t)z.count - 1);
     refuse(&t, 104, 0, (uint32_t)v.n_supers + 1);
     refuse(&t, 105, 0, UINT32_MAX);
-    refuse(&t, 105, 0, (uint32_t)z.supers[1]);                       /* twice */
+    refuse(&t, 105, 0, (uint32_t)z.supers[1]);                        /* twice */
     refuse(&t, 105, 4 * (size_t)(z.count - 1), (uint32_t)v.n_supers); /* out of range */
     refuse(&t, 105, 4 * (size_t)(z.count - 1), (uint32_t)z.supers[z.count - 1] - 1); /* no root */
     refuse(&t, 106, 0, 8);

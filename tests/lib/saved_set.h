@@ -31,8 +31,8 @@ static inline set_case_t set_case_make(int way, gen_kind_t kind, sl_int size, in
     q.set.symbolic = q.c.y.S;
     q.set.factor = q.c.y.F;
     gen_set(rows, count, n, 8);
-    status = sl_selected_create(&q.set.selected, F, is_whole ? NULL : rows, count,
-                                FOR_REGION(from), NULL);
+    status = sl_selected_create(&q.set.selected, F, is_whole ? NULL : rows, count, FOR_REGION(from),
+                                NULL);
     assert_true(status == SL_OK || way >= SAVED_PIVOTED);
     /* a few rows, all rows, one row out of the selected inverse, and none */
     const sl_int counts[SETS_REGIONS] = {count, n, n > 0, 0};

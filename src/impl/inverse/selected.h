@@ -19,7 +19,7 @@ struct sl_selected {
     double *Z;
     int is_mapped;    /* begin, Z and the list of supernodes are in mapped memory */
     int is_immutable; /* mapped, or of a file that this version reads in part */
-    double seconds; /* of the last computation, and of sl_selected_create its whole */
+    double seconds;   /* of the last computation, and of sl_selected_create its whole */
     size_t bytes;
 };
 

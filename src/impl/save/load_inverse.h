@@ -27,8 +27,8 @@ static sl_status sli_read_part(sli_reading *r, uint32_t k, const sl_symbolic *S,
         return status;
     }
     return S->n_pairs == 0 && sli_count_is_valid(part->count, most) &&
-                   (F == NULL || (part->identity[0] == F->identity.a &&
-                                  part->identity[1] == F->identity.b))
+                   (F == NULL ||
+                    (part->identity[0] == F->identity.a && part->identity[1] == F->identity.b))
                ? SL_OK
                : SL_ERR_IO;
 }
@@ -110,9 +110,8 @@ static sl_status sli_read_selected_arrays(sli_reading *r, sl_selected **out, sl_
          !sli_check_selected(draft->traversal.S, (const sl_int *)supers, ends, count))) {
         return SL_ERR_IO;
     }
-    status = r->is_mapped
-                 ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
-                 : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
+    status = r->is_mapped ? sli_selected_of_memory(out, draft, (sl_int *)supers, (sl_off *)begin)
+                          : sli_selected_of_list(out, draft, (const sl_int *)supers, seeds);
     if (status == SL_OK) {
         values = (*out)->Z;
         status = sli_read_section(r, k + 3, &values);
@@ -271,8 +270,7 @@ static sl_status sli_read_regions_numbers(sli_reading *r, const sl_saved_set *se
     sl_int m;
     for (m = 0; m < set->n_regions; m++) {
         sl_region *R = set->regions[m];
-        const size_t bytes =
-            sizeof(double) * (size_t)R->begin[sli_region_chunks(R->extent.n_rows)];
+        const size_t bytes = sizeof(double) * (size_t)R->begin[sli_region_chunks(R->extent.n_rows)];
         if (r->is_mapped) {
             R->Z = (double *)(uintptr_t)(r->memory + r->at);
             R->bytes += bytes;
