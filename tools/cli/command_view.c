@@ -7,6 +7,7 @@
 #include "command.h"
 #include "tools/draw/view_page.h"
 #include "tools/io/field_table.h"
+#include "tools/mesh/repeated_faces.h"
 
 enum { MOST_TABLES = 31 };
 
@@ -85,12 +86,17 @@ int command_view(int argc, char **argv) {
     if (strcmp(up, "y") != 0 && strcmp(up, "z") != 0 && strcmp(up, "auto") != 0) {
         app_die_usage("--up %s: expected y, z or auto", up);
     }
-    mesh m;
+    mesh given, m;
     view_fields f;
-    app_mesh(&m, operands[0], true);
+    sl_int removed = 0;
+    app_mesh(&given, operands[0], true);
     if (out == NULL) {
         app_die_usage("view: --out FILE is missing");
     }
+    if (!mesh_without_repeated_faces(&m, &given, &removed)) {
+        app_die("out of memory");
+    }
+    mesh_free(&given);
     read_tables(&f, operands + 1, m.n_vertices);
     app_stage("writing the page");
     FILE *file = app_create(out);
@@ -100,6 +106,9 @@ int command_view(int argc, char **argv) {
     app_progress_end();
     printf("%s: %d vertices, %d faces, %d fields\n", out, (int)m.n_vertices, (int)m.n_faces,
            (int)f.n_fields);
+    if (removed > 0) {
+        printf("%d faces with the vertices of others are left out\n", (int)removed);
+    }
     free_tables(&f);
     mesh_free(&m);
     return 0;
