@@ -37,6 +37,8 @@ static const question questions[] = {
      bench_neumann},
     {"change", "entries changed by rank-one updates against refactorizations; pins", bench_change},
     /* by name, or of BENCH=quick and BENCH=full */
+    {"change_patch", "the weights of a patch changed: the way that is chosen against each way",
+     bench_change_patch},
     {"scaling", "ordering, analysis, factorization and nnz(L) as n grows ([HDA17] Figure 6)",
      bench_scaling},
     {"amortize",
