@@ -108,6 +108,8 @@ gives 0 'pins       3 grabbed, .* ms each; 2 released' deform sphere:2 --script 
     --check --steps "$dir/steps.csv" --frames "$dir/frame"
 [ "$(wc -l <"$dir/steps.csv")" -eq 7 ] && [ -s "$dir/frame0000.png" ] && [ -s "$dir/frame0001.png" ]
 record $? "deform writes a row per step and a picture per frame"
+printf 'grab 0,5\nmove 0 0 0 0.1\n' >"$dir/moves"
+gives 0 '^upward     z, because' deform hills:9x9 --script "$dir/moves" --png "$dir/deform.png"
 
 # Edits (test_edit.c).
 

@@ -285,6 +285,7 @@ static void check_options(const deform_command *cmd) {
 static void open_command(deform_command *cmd, const char *operand) {
     char message[512];
     app_mesh(&cmd->m, operand, true);
+    app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL || cmd->frames != NULL);
     if (cmd->script_path == NULL) {
         app_die_usage("deform: --script FILE is missing");
     }
