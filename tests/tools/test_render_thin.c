@@ -255,6 +255,54 @@ static void lone_needles_have_their_area(void **state) {
     }
 }
 
+/* Edges and isolines darken the picture by their width times their length, whatever their slope. */
+static void lines_have_their_width(void **state) {
+    (void)state;
+    for (int k = 0; k < 8;
+         k++) { /* a square with its diagonal, turned a little further each time */
+        const double c = 70 * cos(0.1 * k), s = 70 * sin(0.1 * k);
+        double xyz[12] = {-c, -s, 0, s, -c, 0, c, s, 0, -s, c, 0}, value[4] = {0, 0, 1, 1};
+        sl_int faces[6] = {0, 1, 2, 0, 2, 3};
+        const mesh m = {4, 2, xyz, faces};
+        const rgb black = {0, 0, 0}, plain[2] = {{250, 250, 250}, {250, 250, 250}};
+        render_style style;
+        memset(&style, 0, sizeof style);
+        style.unlit = true;
+        style.face_color = plain;
+        style.edge_color = black;
+        double dark[2] = {0, 0};
+        picture p[2];
+        p[0] = draw(&m, &style, 0);
+        style.edges = 0.7;
+        p[1] = draw(&m, &style, 0);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            dark[0] += p[0].at[i].g / 250.0 - p[1].at[i].g / 250.0;
+        }
+        picture_free(&p[0]);
+        picture_free(&p[1]);
+        style.edges = 0;
+        style.face_color = NULL;
+        style.scalar = value;
+        style.low = -1e9; /* one color everywhere */
+        style.high = 1e9 + 1;
+        p[0] = draw(&m, &style, 0);
+        style.isolines = 1; /* at 0.5, from the middle of one side to that of the opposite one */
+        p[1] = draw(&m, &style, 0);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            const rgb base = p[0].at[i], line = {0x20, 0x20, 0x20};
+            dark[1] += base.g - p[1].at[i].g > 0 && base.g > line.g + 50
+                           ? (base.g - p[1].at[i].g) / (double)(base.g - line.g)
+                           : 0;
+        }
+        picture_free(&p[0]);
+        picture_free(&p[1]);
+        const double scale = fmin(0.92 * WIDTH, 0.92 * HEIGHT) / (2 * (c > s ? c : s));
+        const double side = 70 * sqrt(2) * scale, want = 0.7 * (140 * scale + 0.5 * 4 * side);
+        assert_true(fabs(dark[0] - want) < 0.08 * want);
+        assert_true(fabs(dark[1] - side) < 0.08 * side);
+    }
+}
+
 /* A sphere whose faces all lie on opposed copies looks as it does without them, whether they share
  * their vertices or not; copies of another color give the mean color, everywhere. */
 static void opposed_faces_are_drawn_without_speckles(void **state) {
@@ -314,6 +362,7 @@ int main(void) {
         cmocka_unit_test(needles_show_their_mean_color),
         cmocka_unit_test(needles_hide_what_is_behind),
         cmocka_unit_test(lone_needles_have_their_area),
+        cmocka_unit_test(lines_have_their_width),
         cmocka_unit_test(opposed_faces_are_drawn_without_speckles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

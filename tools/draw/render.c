@@ -212,7 +212,7 @@ static void draw_part(void *context, const cover_part *part) {
     const size_t width = (size_t)f->s->pixels.width;
     render_cell *cell = &f->cells[(size_t)(part->y - f->top) * width + (size_t)part->x];
     if (!render_cell_hides(cell, part->depth)) {
-        rgb color = render_shade_point(&f->s->shade, &f->tri, part->w);
+        rgb color = render_shade_part(&f->s->shade, &f->tri, part->w, part->area);
         render_cell_add(cell, part->area, part->mask, part->depth, color);
     }
 }

@@ -1,4 +1,4 @@
-/* render_shade.c: the color of a surface point: color map, checkerboard, isolines, light */
+/* render_shade.c: the color of a part of a face: color map, checkerboard, isolines, light */
 #include "render_shade.h"
 
 #include <math.h>
@@ -203,21 +203,32 @@ static rgb checked(const render_shade *s, const render_triangle *tri, const doub
     return odd != 0 ? dark : light;
 }
 
-/* Whether the value is within half a line width of an isoline. Their levels are
+/* How much of a part of a face a line covers, 0..1. `distance` is that of the part's center from
+ * the middle of the line, `reach` half the part's width. */
+static double line_share(double half_width, double distance, double reach) {
+    return fmax(0, fmin(1, 0.5 + 0.5 * (half_width - distance) / reach));
+}
+
+/* How much of a part with this value at its center an isoline covers. Their levels are
  * low + k (high - low) / (isolines + 1) for k = 1..isolines. Where lines would be closer than two
  * widths, there are none: they would hide the color. */
-static bool on_isoline(const render_shade *s, const render_triangle *tri, double value) {
+static double isoline_share(const render_shade *s, const render_triangle *tri, double value,
+                            double reach) {
     int count = s->style->isolines;
     double step = (s->high - s->low) / (count + 1);
     if (count < 1 || !(step > 0)) {
-        return false;
+        return 0;
     }
     double level = floor((value - s->low) / step + 0.5), width = isoline_width * s->pixel;
-    return level >= 1 && level <= count && width * tri->slope <= 0.5 * step &&
-           fabs(value - s->low - level * step) <= 0.5 * width * tri->slope;
+    if (!(level >= 1 && level <= count && width * tri->slope <= 0.5 * step)) {
+        return 0;
+    }
+    double off = fabs(value - s->low - level * step);
+    return tri->slope > 0 ? line_share(0.5 * width, off / tri->slope, reach) : off == 0;
 }
 
-static rgb base_color(const render_shade *s, const render_triangle *tri, const double w[3]) {
+static rgb base_color(const render_shade *s, const render_triangle *tri, const double w[3],
+                      double reach) {
     static const rgb plain = {0xd9, 0xd4, 0xcc}, line = {0x20, 0x20, 0x20};
     const render_style *style = s->style;
     const sl_int *f = s->m->faces + 3 * (size_t)tri->face;
@@ -228,12 +239,10 @@ static rgb base_color(const render_shade *s, const render_triangle *tri, const d
     if (style->scalar != NULL) {
         double x =
             w[0] * style->scalar[f[0]] + w[1] * style->scalar[f[1]] + w[2] * style->scalar[f[2]];
-        if (on_isoline(s, tri, x)) {
-            return line;
-        }
-        return color_map(!isfinite(x)       ? NAN
-                         : s->high > s->low ? (x - s->low) / (s->high - s->low)
-                                            : 0.5);
+        rgb color = color_map(!isfinite(x)       ? NAN
+                              : s->high > s->low ? (x - s->low) / (s->high - s->low)
+                                                 : 0.5);
+        return color_mix(color, line, isoline_share(s, tri, x, reach));
     }
     if (style->vertex_color != NULL) {
         if (style->nearest) {
@@ -268,17 +277,19 @@ static rgb lit(const render_shade *s, const render_triangle *tri, const double w
     return color_mix(black, color, intensity);
 }
 
-rgb render_shade_point(const render_shade *s, const render_triangle *tri, const double w[3]) {
-    rgb color = base_color(s, tri, w);
+rgb render_shade_part(const render_shade *s, const render_triangle *tri, const double w[3],
+                      double area) {
+    const double reach = 0.5 * sqrt(area);
+    rgb color = base_color(s, tri, w, reach);
     if (!s->style->unlit) {
         color = lit(s, tri, w, color);
     }
     /* Thin faces have no lines along them, which would hide their color. */
-    double half_width = 0.5 * s->style->edges * s->pixel;
+    double half_width = 0.5 * s->style->edges * s->pixel, share = 0;
     for (int c = 0; half_width > 0 && c < 3; c++) {
-        if (tri->height[c] > 6 * half_width && w[c] * tri->height[c] <= half_width) {
-            return s->style->edge_color;
+        if (tri->height[c] > 6 * half_width) {
+            share = fmax(share, line_share(half_width, w[c] * tri->height[c], reach));
         }
     }
-    return color;
+    return share > 0 ? color_mix(color, s->style->edge_color, share) : color;
 }

@@ -1,4 +1,4 @@
-/* render_shade.h: the color of a surface point: color map, checkerboard, isolines, light */
+/* render_shade.h: the color of a part of a face: color map, checkerboard, isolines, light */
 #ifndef TOOLS_RENDER_SHADE_H
 #define TOOLS_RENDER_SHADE_H
 
@@ -35,7 +35,12 @@ void render_shade_end(render_shade *s);
 void render_shade_face(render_triangle *tri, const render_shade *s, sl_int face, const double *a,
                        const double *b, const double *c);
 
-/** The color of the point with barycentric coordinates w. */
-rgb render_shade_point(const render_shade *s, const render_triangle *tri, const double w[3]);
+/** The color of a part of a face.
+ *
+ *  w     [in]  barycentric coordinates of its center.
+ *  area  [in]  above 0, in squares of the cells of the raster: how sharp lines are.
+ */
+rgb render_shade_part(const render_shade *s, const render_triangle *tri, const double w[3],
+                      double area);
 
 #endif
