@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c4dae7a8246ce6c6
+ * FNV-1a of the lines after this comment, without the license: 53136d3b6bf5c728
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -60,20 +60,20 @@
  *  16960 bilinear.h  17137 entries.h  17418 block.h  17658 reserve.h  17850 selected.h
  *  18060 selected_query.h  18162 region_choose.h  18389 region.h
  * (change: a factor that follows changes of its matrix)
- *  18637 update.h  18987 rank.h  19313 edges.h  19467 choose.h  19655 pins.h
+ *  18637 update.h  18987 rank.h  19313 edges.h  19467 choose.h  19666 pins.h
  * (save: factors in files)
- *  20227 format.h  20516 decode.h  20660 check.h  20992 write.h  21293 load.h  21558 load_inverse.h
- *  21890 load_calls.h
+ *  20238 format.h  20527 decode.h  20671 check.h  21003 write.h  21304 load.h  21569 load_inverse.h
+ *  21901 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  22089 batch_solve.h  22298 batch_factor.h  22499 batch_diagonal.h
+ *  22100 batch_solve.h  22309 batch_factor.h  22510 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  22639 hermitian.h  22784 complex_rows.h
+ *  22650 hermitian.h  22795 complex_rows.h
  * (last: undefine every internal macro)
- *  22952 undef.h
+ *  22963 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  23111 multi_rhs.inl.h  23494 sweeps.inl.h  23496 unit_triangle.inl.h  23533 two_rhs.inl.h
- *  23702 small_supernode.inl.h  23861 single_rhs.inl.h  24105 kernel_set.inl.h  24107 product.inl.h
- *  24235 front.inl.h  24449 inverse_front.inl.h  24734 row.inl.h  24764 change.inl.h
+ *  23122 multi_rhs.inl.h  23505 sweeps.inl.h  23507 unit_triangle.inl.h  23544 two_rhs.inl.h
+ *  23713 small_supernode.inl.h  23872 single_rhs.inl.h  24116 kernel_set.inl.h  24118 product.inl.h
+ *  24246 front.inl.h  24460 inverse_front.inl.h  24745 row.inl.h  24775 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -19474,7 +19474,9 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 typedef struct sli_way {
   sl_int *columns;
+  sl_int n_columns;
   uint64_t *seeds, *scratch;
+  uint64_t *keys;
   sl_int n_seeds;
   double flops_update, flops_changed, flops_refactor;
   double update, changed, refactor;
@@ -19550,7 +19552,15 @@ static void sli_way_columns(sli_way *c, const sli_rank *q) {
   sl_int k;
   for (k = 0; k < q->n_entries; k++) {
     const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
-    c->columns[k] = is_upper ? sli_max(i, j) : sli_min(i, j);
+    c->keys[k] = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
+  }
+  sli_sort(c->keys, q->n_entries, c->keys + q->n_entries);
+  c->n_columns = 0;
+  for (k = 0; k < q->n_entries; k++) {
+    const sl_int column = sli_key(c->keys[k]);
+    if (c->n_columns == 0 || c->columns[c->n_columns - 1] != column) {
+      c->columns[c->n_columns++] = column;
+    }
   }
 }
 
@@ -19571,7 +19581,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
   if (status != SL_OK) {
     return status;
   }
-  c->n_seeds = sli_changed_seeds(F->S, A, c->columns, q->n_entries, c->seeds, c->scratch);
+  c->n_seeds = sli_changed_seeds(F->S, A, c->columns, c->n_columns, c->seeds, c->scratch);
   *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
   if (*method == SL_CHANGE_UPDATE) {
     q->status = SL_OK;
@@ -19582,7 +19592,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     }
   }
   if (*method == SL_CHANGE_REACH) {
-    status = sl_factor_refactor_changed(F, A, c->columns, q->n_entries, q->stats);
+    status = sl_factor_refactor_changed(F, A, c->columns, c->n_columns, q->stats);
   } else if (*method == SL_CHANGE_REFACTOR) {
     status = sl_factor_refactor(F, A, q->stats);
   }
@@ -19613,13 +19623,14 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     c.columns = SLI_TAKE(&b, sl_int, count);
+    c.keys = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
     status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
   }
   sli_way_columns(&c, &q);
-  for (k = 0; k < count; k++) {
+  for (k = 0; k < c.n_columns; k++) {
     entries += (uint64_t)(A->p[c.columns[k] + 1] - A->p[c.columns[k]]);
   }
   own = sli_work_own(&F->allocator);

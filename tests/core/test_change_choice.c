@@ -126,6 +126,27 @@ static void patches_of_all_sizes_give_the_factor(void **state) {
     grid_free(&g);
 }
 
+/* However often an entry is named, the columns that it reaches are recomputed, and no others: a
+ * complete factorization would forget the rank-one change before. */
+static void repeated_entries_have_the_reach_of_one(void **state) {
+    (void)state;
+    grid_t g = grid_make(60, 0, NULL);
+    list_t *l = (list_t *)test_array(1, sizeof *l);
+    sl_stats stats;
+    list_add(l, &g, 1830, 1830, 0.5);
+    assert_int_equal(change(&g, l, &stats), SL_CHANGE_UPDATE);
+    l->count = 0;
+    for (sl_int k = 0; k < 40 * 100; k++) {
+        const sl_int v = 60 * (k % 10) + k / 10 % 10;
+        list_add(l, &g, v, v, 0.01);
+    }
+    assert_int_equal(change(&g, l, &stats), SL_CHANGE_REACH);
+    assert_int_equal(stats.change.updates, 1);
+    assert_is_factor_of(&g);
+    free(l);
+    grid_free(&g);
+}
+
 /* A change that makes A indefinite is factored; a failed factor is, too. */
 static void refused_updates_are_refactored(void **state) {
     (void)state;
@@ -253,6 +274,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_way_is_taken_where_it_is_cheap),
         cmocka_unit_test(patches_of_all_sizes_give_the_factor),
+        cmocka_unit_test(repeated_entries_have_the_reach_of_one),
         cmocka_unit_test(refused_updates_are_refactored),
         cmocka_unit_test(singular_laplacians_are_recomputed),
         cmocka_unit_test(drift_ends_in_a_refactorization),

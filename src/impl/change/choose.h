@@ -16,8 +16,10 @@
 
 /* A choice between the three ways. */
 typedef struct sli_way {
-    sl_int *columns; /* count: the columns of A that store changed entries */
-    uint64_t *seeds, *scratch;
+    sl_int *columns; /* n_columns: the columns of A that store changed entries, ascending */
+    sl_int n_columns;
+    uint64_t *seeds, *scratch; /* for the entries of these columns */
+    uint64_t *keys;            /* 2 count: for sorting them */
     sl_int n_seeds;
     double flops_update, flops_changed, flops_refactor;
     double update, changed, refactor; /* seconds */
@@ -92,13 +94,21 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
 }
 
-/* The columns of A that store the changed entries. */
+/* The columns of A that store the changed entries, each once: many entries share a column. */
 static void sli_way_columns(sli_way *c, const sli_rank *q) {
     const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
     sl_int k;
     for (k = 0; k < q->n_entries; k++) {
         const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
-        c->columns[k] = is_upper ? sli_max(i, j) : sli_min(i, j);
+        c->keys[k] = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
+    }
+    sli_sort(c->keys, q->n_entries, c->keys + q->n_entries);
+    c->n_columns = 0;
+    for (k = 0; k < q->n_entries; k++) {
+        const sl_int column = sli_key(c->keys[k]);
+        if (c->n_columns == 0 || c->columns[c->n_columns - 1] != column) {
+            c->columns[c->n_columns++] = column;
+        }
     }
 }
 
@@ -120,7 +130,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     if (status != SL_OK) {
         return status;
     }
-    c->n_seeds = sli_changed_seeds(F->S, A, c->columns, q->n_entries, c->seeds, c->scratch);
+    c->n_seeds = sli_changed_seeds(F->S, A, c->columns, c->n_columns, c->seeds, c->scratch);
     *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
     if (*method == SL_CHANGE_UPDATE) {
         q->status = SL_OK;
@@ -131,7 +141,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
         }
     }
     if (*method == SL_CHANGE_REACH) {
-        status = sl_factor_refactor_changed(F, A, c->columns, q->n_entries, q->stats);
+        status = sl_factor_refactor_changed(F, A, c->columns, c->n_columns, q->stats);
     } else if (*method == SL_CHANGE_REFACTOR) {
         status = sl_factor_refactor(F, A, q->stats);
     }
@@ -162,13 +172,14 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         c.columns = SLI_TAKE(&b, sl_int, count);
+        c.keys = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
     sli_way_columns(&c, &q);
-    for (k = 0; k < count; k++) {
+    for (k = 0; k < c.n_columns; k++) {
         entries += (uint64_t)(A->p[c.columns[k] + 1] - A->p[c.columns[k]]);
     }
     own = sli_work_own(&F->allocator);
