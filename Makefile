@@ -422,7 +422,7 @@ cov: deps deps-cov deps-png sparse_local.h ## line and branch coverage of the he
 	--fail-under-line $(COV_LINES) --fail-under-branch $(COV_BRANCHES) build/cov/obj 2>>build/cov/gcovr.log >build/cov/summary.txt; found=$$?; cat build/cov/summary.txt; [ $$found -eq 0 ] || { tail -n 5 build/cov/gcovr.log; exit 1; }; exit $$status
 
 fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/fuzz/corpus
-	@+$(SUB_MAKE) run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
+	@+$(SUB_MAKE) run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY -DSL_NO_CLOCK \
 	-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all' \
 	IMPL_COMPILE='$$(CC) $$(C_FLAGS) -fno-sanitize-coverage=trace-cmp -fsanitize-coverage-ignorelist=tests/fuzz/kernels.ignore'
 

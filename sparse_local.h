@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 53136d3b6bf5c728
+ * FNV-1a of the lines after this comment, without the license: 514b4fcf63a2405f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -4786,7 +4786,7 @@ static sl_isa sli_cpu_best(void) {
 }
 
 static const sli_kernels *sli_kernels_select(sl_isa isa) {
-  const sl_isa best = sli_cpu_best();
+  const sl_isa best = isa == SL_ISA_SCALAR ? SL_ISA_SCALAR : sli_cpu_best();
   if (isa == SL_ISA_AUTO) {
     isa = best;
   }
@@ -8757,7 +8757,7 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
   w.by_metis = by_metis;
   w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
   w.d.a = a;
-  w.d.mindeg.has_popcnt = sli_cpu_best() != SL_ISA_SCALAR;
+  w.d.mindeg.has_popcnt = G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_nd_layout(&w, &b);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;

@@ -57,6 +57,7 @@ typedef struct case_t {
     sl_int p[MOST + 1], i[ENTRIES], perm[MOST], bset[MOST], xset[MOST];
     sl_int signs[MOST];
     double x[ENTRIES], B[MOST * RHS], full[MOST * RHS], X[MOST * RHS], mass[MOST];
+    double vectors[2 * MOST];
     sl_int nb, nx, nrhs;
     stage_t stage;
     part_t part;
@@ -117,6 +118,13 @@ static void take_null_pivots(case_t *c, input_t *in, int which) {
         for (sl_int k = 0; more & 1 && k < c->A.n_cols; k++) {
             c->mass[k] = take_value(in);
         }
+        if (more & 8) { /* one null vector or two */
+            c->for_factor.null_vector = c->vectors;
+            c->for_factor.null_vector_count = (size_t)(more / 16 % 3);
+            for (sl_int k = 0; k < 2 * c->A.n_cols; k++) {
+                c->vectors[k] = k < c->A.n_cols ? 1.0 : take_value(in);
+            }
+        }
     } else if (which == 2) {
         c->for_factor.regularization = more / 256.0;
         c->for_factor.signs = more & 1 ? c->signs : NULL;
@@ -128,13 +136,17 @@ static void take_null_pivots(case_t *c, input_t *in, int which) {
 }
 
 static void take_options(case_t *c, input_t *in) {
+    /* CPUID takes as long as a run, so most runs do without. Unsupported ones end early */
+    static const sl_isa isas[10] = {
+        SL_ISA_SCALAR, SL_ISA_SCALAR, SL_ISA_AVX2, SL_ISA_AVX512, SL_ISA_SCALAR,
+        SL_ISA_AUTO,   SL_ISA_AUTO,   SL_ISA_NEON, SL_ISA_NEON,   SL_ISA_AUTO};
     const int choices = take(in), more = take(in);
     const sl_int n = c->A.n_cols;
     memset(&c->for_analysis, 0, sizeof c->for_analysis);
     memset(&c->for_factor, 0, sizeof c->for_factor);
     c->for_analysis.ordering = (sl_ordering)(choices % 6);
     c->for_analysis.relaxation = (sl_relaxation)(choices / 4 % 2);
-    c->for_factor.isa = (sl_isa)(choices / 8 % 5);
+    c->for_factor.isa = isas[choices / 8 % 5 + (more == 9 ? 5 : 0)];
     c->for_factor.method = (sl_method)(choices / 40 % 3);
     c->for_factor.threads.count = more % 5;
     c->for_factor.threads.run = run_backwards;

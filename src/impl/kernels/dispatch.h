@@ -70,7 +70,7 @@ static sl_isa sli_cpu_best(void) {
 /* The kernel table of an instruction set; SL_ISA_AUTO: of the best one. NULL if the instruction set
  * is not compiled in or not supported here. */
 static const sli_kernels *sli_kernels_select(sl_isa isa) {
-    const sl_isa best = sli_cpu_best();
+    const sl_isa best = isa == SL_ISA_SCALAR ? SL_ISA_SCALAR : sli_cpu_best();
     if (isa == SL_ISA_AUTO) {
         isa = best;
     }
