@@ -60,6 +60,8 @@ static const question questions[] = {
     {"shifted", "M + t L for eight t: factors, one plan on all of them, heat kernel signatures",
      bench_shifted},
     {"saved", "factors in files: saved, loaded, mapped, shared by processes", bench_saved},
+    {"storage", "L in float against L in double: time, memory, accuracy after refinement",
+     bench_storage},
 #ifdef SL_BENCH_ARPACK
     {"eigenpairs",
      "auto-diffusion and heat kernel signatures by ARPACK's eigenpairs: digits and time",

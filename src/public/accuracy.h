@@ -10,8 +10,10 @@
  *  For each column: computes the residual, solves for a correction and adds it, until the
  *  componentwise backward error max_i |b - A x|_i / (|A| |x| + |b|)_i is at most epsilon, a
  *  correction does not halve it, or the steps are used up. A correction that increases it is
- *  discarded. With a regularized factor, of A + E, this turns the solution of (A + E) x = b into
- *  that of A x = b. If null pivots were skipped, B has to be consistent.
+ *  discarded. With SL_STORAGE_FLOAT it takes two such corrections in a row, and the first is kept
+ *  even if it doubles the error: x gains digits before the error shows it. With a regularized
+ *  factor, of A + E, this turns the solution of (A + E) x = b into that of A x = b. If null pivots
+ *  were skipped, B has to be consistent.
  *
  *  The call says whether the result is good: if the backward error that remains in some column is
  *  above options.error_limit of the factor, 1e-8 by default, it returns SL_ERR_INACCURATE. X then

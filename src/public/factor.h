@@ -31,10 +31,22 @@
  *  to float when it is done. D, null pivots, growth and log-determinant are those of double, and
  *  every solve computes in double. L D L' is P (A + E) P' with |E| <= 1.2e-7 |L| |D| |L'|:
  *  solutions and entries of the inverse have a backward error of about 6e-8 * growth. The pivots
- *  are not rounded, so a definite matrix stays definite, and the relative error of a solution is
- *  about 1e-7 sqrt(condition), not 1e-7 condition.
- *  - Full solves: sl_factor_refine brings a backward error of double, in 2 steps up to a condition
- *    of about 1e9, in 3 to 6 up to 1e12. If sl_factor_rcond is below 1e-13, expect no digit.
+ *  are not rounded, so a definite matrix stays definite.
+ *  - Full solves: each step of sl_factor_refine multiplies the error of x, in the energy norm of a
+ *    definite matrix, by about 1e-7 sqrt(condition): 2 to 5 steps up to a condition of 1e9, more up
+ *    to about 1e11. Beyond that, as sl_factor_rcond shows, use double: refinement then returns
+ *    SL_ERR_INACCURATE, and a solution without it has no digit. Measured on grids for M + t (L
+ *    M^-1)^(k-1) L, smoothing over a tenth of the grid, backward error and largest error of x:
+ *
+ *    | k, rows          | condition | no step    | 1 step     | 2 steps    | L in double |
+ *    |------------------|-----------|------------|------------|------------|-------------|
+ *    | 1 harmonic, 1e4  | 3e3       | 5e-8, 4e-7 | 2e-14, 2e-14 | 2e-16, 6e-15 | 5e-16, 7e-15 |
+ *    | 1 harmonic, 1e6  | 3e5       | 1e-7, 5e-6 | 6e-13, 4e-13 | 3e-16, 5e-14 | 2e-15, 1e-13 |
+ *    | 2 biharmonic, 1e4  | 9e6     | 4e-8, 8e-4 | 3e-11, 3e-10 | 3e-16, 6e-12 | 7e-16, 8e-12 |
+ *    | 2 biharmonic, 1e5  | 2e9     | 6e-8, 2e-2 | 1e-9, 5e-8 | 1e-15, 5e-10 | 2e-15, 4e-10 |
+ *    | 3 triharmonic, 1e4 | 3e10    | 3e-8, 0.9  | 3e-8, 7e-6 | 2e-13, 3e-7 | 1e-15, 2e-8 |
+ *    | 3 triharmonic, 1e5 | 6e13    | 4e-8, 300  | 4e-8, 300  | 4e-8, 300  | 2e-15, 6e-6 |
+ *
  *  - Local solves cannot be refined, as the residual needs all of x.
  *  - The method is supernodal. sl_factor_update and _update_entries return SL_ERR_UNSUPPORTED: each
  *    change would round L again. sl_factor_change and sl_factor_refactor_changed refactor

@@ -230,6 +230,63 @@ static void refinement_brings_the_accuracy_of_double(void **state) {
     }
 }
 
+/* T^k for the second differences T of n points: integers, and the condition is about (0.4 n^2)^k.
+ * Returns the status of a refinement of at most 8 steps. */
+static sl_status refine_differences(sl_int n, int k, sl_stats *stats) {
+    const size_t m = (size_t)n;
+    const sl_options opt = options_float(SL_ISA_AUTO);
+    double *T = test_reals(m * m), *B = test_reals(m), *X = test_reals(m);
+    gen_list_t t = gen_list(n);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    for (sl_int j = 0; j < n; j++) { /* column j of T^k, by k products with T */
+        double *x = T + m * (size_t)j;
+        x[j] = 1.0;
+        for (int power = 0; power < k; power++) {
+            double before = 0.0;
+            for (sl_int i = 0; i < n; i++) {
+                const double here = x[i], after = i + 1 < n ? x[i + 1] : 0.0;
+                x[i] = 2.0 * here - before - after;
+                before = here;
+            }
+        }
+        for (sl_int i = j; i < n && i <= j + k; i++) {
+            gen_add(&t, i, j, x[i]);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    gen_reals(X, m, 9);
+    SL_CHECK(sl_csc_multiply(&M.view, SL_AS_SYMMETRIC, B, m, X, m, 1));
+    SL_CHECK(sl_factor_solve(F, X, m, B, m, 1, NULL));
+    const sl_status status = sl_factor_refine(F, &M.view, X, m, B, m, 1, 8, NULL, stats);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(T);
+    free(B);
+    free(X);
+    return status;
+}
+
+/* Refinement converges for conditions of 6e4, 1e9 and 3e9. At 3e14 it says that it does not. */
+static void refinement_says_how_far_it_came(void **state) {
+    (void)state;
+    static const sl_int sizes[3] = {400, 300, 60};
+    for (int k = 1; k <= 3; k++) {
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        SL_CHECK(refine_differences(sizes[k - 1], k, &stats));
+        assert_true(stats.refine.backward_error <= 1e-14);
+        assert_in_range(stats.refine.steps, 1, 6);
+    }
+    sl_stats stats;
+    memset(&stats, 0, sizeof stats);
+    SL_EXPECT(SL_ERR_INACCURATE, refine_differences(400, 3, &stats));
+}
+
 /* A Laplacian with weights: x has zero mean and solves A x = b - c m; without, x is 0 in the null
  * row, and an inconsistent b is refused. */
 static void singular_systems_are_solved(void **state) {
@@ -398,6 +455,7 @@ int main(void) {
         cmocka_unit_test(an_exact_factor_gives_the_same_bits),
         cmocka_unit_test(local_solves_equal_full_ones),
         cmocka_unit_test(refinement_brings_the_accuracy_of_double),
+        cmocka_unit_test(refinement_says_how_far_it_came),
         cmocka_unit_test(singular_systems_are_solved),
         cmocka_unit_test(entries_beyond_float_are_refused),
         cmocka_unit_test(a_hidden_null_pivot_is_refused),

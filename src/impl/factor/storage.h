@@ -8,11 +8,11 @@
  * done, so L exists in float only. Everything else is double: D, the update matrices, null pivots,
  * the growth, and the arithmetic of sweeps.
  *
- * L + E, |E| <= u |L|, u = 2^-24, is the factor of A + F, |F| <= 2 u |L| |D| |L'| and smaller
- * terms: a backward error of u times the growth. For a definite A more holds. With C = D^(1/2) L',
- * C + G and |G| <= u |C|, (C + G)' (C + G) = C' (I + H)' (I + H) C where H = G C^-1. Refinement
- * converges by about 2 ||H|| a step, and ||H|| is of the order of u sqrt(cond A): the pivots, which
- * hold the smallest eigenvalues, are not rounded. */
+ * L + G, |G| <= u |L|, u = 2^-24, is the factor of A + E, |E| <= 2 u |L| |D| |L'| and smaller
+ * terms: a backward error of u times the growth. For a definite A more holds. With C = D^(1/2) L'
+ * and H = D^(1/2) G' C^-1, A + E = C' (I + H)' (I + H) C. Refinement multiplies the error, in the
+ * energy norm, by about 2 ||H||, which is of the order of u sqrt(cond A), not u cond A: the pivots,
+ * which hold the smallest eigenvalues, are not rounded. */
 
 /* The sweeps of F's factorization: x := L^-1 x over steps, and x := L'^-1 D^-1 x. */
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,

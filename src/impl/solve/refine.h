@@ -17,7 +17,8 @@ typedef struct sli_refinement {
     unsigned char *memory; /* vectors of the sweeps */
     double error[SLI_TILE];
     int is_done[SLI_TILE];
-    sl_int steps; /* the most that a column has taken */
+    int is_slow[SLI_TILE]; /* the last correction did not halve the error */
+    sl_int steps;          /* the most that a column has taken */
 } sli_refinement;
 
 static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
@@ -73,23 +74,27 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
 }
 
 /* Applies the correction of column c, already in R. The column is done once a correction does not
- * halve its error. Returns whether the correction was kept. */
+ * halve its error. With L in float that takes two in a row, and the first may double it: where a
+ * high condition leaves x without a digit, the first correction is as large as x, and its own
+ * backward error is again that of float. Returns whether the correction was kept. */
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
     const size_t n = (size_t)f->F->S->n;
     double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
+    const int may_wait = f->F->storage == SL_STORAGE_FLOAT && !f->is_slow[c];
     size_t i;
-    int is_better;
+    int is_kept;
     for (i = 0; i < n; i++) {
         t[i] = x[i] + r[i];
     }
     error = sli_row_error(f, r, t, b);
-    is_better = error < f->error[c];
-    f->is_done[c] = !(error <= 0.5 * f->error[c]) || error <= DBL_EPSILON;
-    if (is_better) {
+    is_kept = error < f->error[c] || (may_wait && error <= 2.0 * f->error[c]);
+    f->is_slow[c] = !(error <= 0.5 * f->error[c]);
+    f->is_done[c] = error <= DBL_EPSILON || (f->is_slow[c] && !(may_wait && is_kept));
+    if (is_kept) {
         memcpy(x, t, n * sizeof(double));
         f->error[c] = error;
     }
-    return is_better;
+    return is_kept;
 }
 
 static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const double *B, size_t ldb,
@@ -100,6 +105,7 @@ static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const dou
         f->error[c] =
             sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
         f->is_done[c] = f->error[c] <= DBL_EPSILON;
+        f->is_slow[c] = 0;
         todo += !f->is_done[c];
     }
     for (step = 1; step <= steps && todo > 0; step++) {
