@@ -1,79 +1,81 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f3df5b0d3df59c56
+ * FNV-1a of the lines after this comment, without the license: 8575b164f220f552
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     81 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    149 config.h     macros that a user may define before the include, the version, and the integer types
- *    228 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    380 options.h    options of all calls, threads, and the allocator
- *    517 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    659 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    831 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    957 factor.h     the numerical factorization P A P' = L D L'
- *   1204 solve.h      full solves, and the workspace of all solves
- *   1314 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1408 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1521 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1634 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1770 batch.h      many independent solves by one call, distributed over threads
- *   1820 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   1998 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2117 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2221 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2360 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2478 change.h     a factor that follows small changes of its matrix
- *   2565 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2655 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *     83 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    152 config.h     macros that a user may define before the include, the version, and the integer types
+ *    231 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    383 options.h    options of all calls, threads, and the allocator
+ *    520 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    673 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    845 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    971 factor.h     the numerical factorization P A P' = L D L'
+ *   1218 solve.h      full solves, and the workspace of all solves
+ *   1328 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1422 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1535 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1648 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1784 batch.h      many independent solves by one call, distributed over threads
+ *   1834 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2012 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2131 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2235 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2374 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2492 change.h     a factor that follows small changes of its matrix
+ *   2579 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2669 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2794 restrict.h   the factor of a principal submatrix, from that of the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2790 base.h   3015 status.h   3076 options.h   3134 alloc.h   3244 hash.h   3374 file_map.h
- *   3470 sort.h   3534 parallel.h
+ *   2853 base.h   3078 status.h   3139 options.h   3197 alloc.h   3307 hash.h   3437 file_map.h
+ *   3533 sort.h   3597 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3567 panel.h   3589 step.h   3630 pivot_rule.h   3697 front.h   3741 pairs.h
- *   3948 inverse_front.h   4020 table.h   4044 simd.h   4114 simd_scalar.h   4243 simd_avx2.h
- *   4444 simd_avx512.h   4553 simd_neon.h   4748 dispatch.h
+ *   3630 panel.h   3652 step.h   3693 pivot_rule.h   3760 front.h   3804 pairs.h
+ *   4011 inverse_front.h   4083 table.h   4107 simd.h   4177 simd_scalar.h   4306 simd_avx2.h
+ *   4507 simd_avx512.h   4616 simd_neon.h   4811 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4828 csc.h   4942 csc_build.h   5076 csc64.h   5147 csc_triangle.h   5213 csc_products.h
- *   5330 permute.h   5396 sum.h   5478 output_file.h   5687 matrix_market.h
+ *   4891 csc.h   5005 csc_build.h   5139 csc64.h   5210 csc_triangle.h   5276 csc_products.h
+ *   5393 permute.h   5459 sum.h   5541 output_file.h   5750 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6133 graph.h   6282 coarsen.h   6531 labels.h   6725 subgraph.h   6920 heap.h   6980 bisect.h
- *   7210 separator.h   7472 mindeg.h   7655 dissect.h   7969 levelset.h   8084 geometric.h
- *   8274 septree.h   8334 metis.h   8483 metis_refined.h   8597 nd.h   8789 compress.h
- *   8910 quotient.h   9324 order.h
+ *   6196 graph.h   6345 coarsen.h   6594 labels.h   6788 subgraph.h   6983 heap.h   7043 bisect.h
+ *   7273 separator.h   7535 mindeg.h   7718 dissect.h   8032 levelset.h   8147 geometric.h
+ *   8337 septree.h   8397 metis.h   8546 metis_refined.h   8660 nd.h   8852 compress.h
+ *   8973 quotient.h   9387 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9572 symbolic_types.h   9608 etree.h   9681 counts.h   9738 supernodes.h   9960 structure.h
- *  10081 schedule.h  10270 symbolic.h  10633 reach.h
+ *   9635 symbolic_types.h   9671 etree.h   9744 counts.h   9801 supernodes.h  10023 structure.h
+ *  10144 schedule.h  10333 symbolic.h  10696 reach.h
  * (factor: the numbers of L and D)
- *  10904 factor_types.h  11231 storage.h  11302 pivot_search.h  11648 pivoted.h  11716 scatter.h
- *  11874 uplooking.h  11946 null_product.h  12150 null_dense.h  12227 null_basis.h
- *  12549 null_vectors.h  12693 multifrontal.h  12929 nullspace.h  13129 growth.h
- *  13205 factor_setup.h  13497 factor.h  13703 leftlooking.h  13879 factor_query.h
- *  14014 combination.h
+ *  10967 factor_types.h  11294 storage.h  11365 pivot_search.h  11711 pivoted.h  11779 scatter.h
+ *  11937 uplooking.h  12009 null_product.h  12213 null_dense.h  12290 null_basis.h
+ *  12612 null_vectors.h  12756 multifrontal.h  12992 nullspace.h  13192 growth.h
+ *  13268 factor_setup.h  13560 factor.h  13766 leftlooking.h  13950 factor_query.h
+ *  14085 combination.h
  * (solve: full and local solves)
- *  14075 region_types.h  14179 work.h  14276 query.h  14450 singular.h  14717 backward.h
- *  14747 sweep.h  14933 compile.h  15126 plan.h  15233 local.h  15383 parts.h  15670 refine.h
- *  15849 refine_local.h  16064 rcond.h  16221 defects.h
+ *  14146 region_types.h  14250 work.h  14347 query.h  14521 singular.h  14788 backward.h
+ *  14818 sweep.h  15004 compile.h  15197 plan.h  15304 local.h  15454 parts.h  15741 refine.h
+ *  15920 refine_local.h  16135 rcond.h  16292 defects.h
  * (inverse: entries of the inverse, regions)
- *  16298 traversal.h  16543 traversal_run.h  16726 row_sets.h  16753 unit_vectors.h
- *  16978 bilinear.h  17155 entries.h  17436 block.h  17676 reserve.h  17868 selected.h
- *  18078 selected_query.h  18180 region_choose.h  18407 region.h
+ *  16369 traversal.h  16614 traversal_run.h  16797 row_sets.h  16824 unit_vectors.h
+ *  17049 bilinear.h  17226 entries.h  17507 block.h  17747 reserve.h  17939 selected.h
+ *  18149 selected_query.h  18251 region_choose.h  18478 region.h
  * (change: a factor that follows changes of its matrix)
- *  18655 update.h  19005 rank.h  19331 edges.h  19485 choose.h  19684 pins.h
+ *  18726 update.h  19076 rank.h  19402 edges.h  19556 choose.h  19755 pins.h  20326 subset.h
+ *  20433 restrict_analysis.h  20728 restrict_anew.h  20782 restrict_symbolic.h  20963 restrict.h
  * (save: factors in files)
- *  20256 format.h  20545 decode.h  20689 check.h  21021 write.h  21322 load.h  21587 load_inverse.h
- *  21919 load_calls.h
+ *  21312 format.h  21601 decode.h  21745 check.h  22077 write.h  22378 load.h  22643 load_inverse.h
+ *  22975 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  22118 batch_solve.h  22327 batch_factor.h  22528 batch_diagonal.h
+ *  23174 batch_solve.h  23383 batch_factor.h  23584 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  22668 hermitian.h  22813 complex_rows.h
+ *  23724 hermitian.h  23869 complex_rows.h
  * (last: undefine every internal macro)
- *  22981 undef.h
+ *  24037 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  23140 multi_rhs.inl.h  23523 sweeps.inl.h  23525 unit_triangle.inl.h  23562 two_rhs.inl.h
- *  23731 small_supernode.inl.h  23890 single_rhs.inl.h  24134 kernel_set.inl.h  24136 product.inl.h
- *  24264 front.inl.h  24478 inverse_front.inl.h  24763 row.inl.h  24793 change.inl.h
+ *  24196 multi_rhs.inl.h  24579 sweeps.inl.h  24581 unit_triangle.inl.h  24618 two_rhs.inl.h
+ *  24787 small_supernode.inl.h  24946 single_rhs.inl.h  25190 kernel_set.inl.h  25192 product.inl.h
+ *  25320 front.inl.h  25534 inverse_front.inl.h  25819 row.inl.h  25849 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -136,6 +138,7 @@
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
  *            method, 1989.
  *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
+ *  [HA18]    Herholz, Alexa: Factor once: reusing Cholesky factorizations on sub-meshes, 2018.
  *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
  *  [Hager89] Hager: Updating the inverse of a matrix, 1989.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
@@ -636,6 +639,16 @@ typedef struct sl_change_info {
     double seconds;        /* processor seconds */
 } sl_change_info;
 
+/** The factor of a principal submatrix: sl_factor_restrict. */
+typedef struct sl_restrict_info {
+    sl_int kept;     /* columns of L that were copied */
+    sl_int computed; /* the others */
+    sl_off entries;  /* doubles of L that were copied */
+    int is_anew;     /* 1: too few columns to copy: the submatrix was extracted and analyzed */
+    int padding;     /* not written */
+    double seconds;  /* processor seconds, analysis included */
+} sl_restrict_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -649,8 +662,9 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     sl_change_info change;
+    sl_restrict_info restriction;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[19];
+    sl_off reserved[15];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -2776,6 +2790,55 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
  */
 SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
                                                   double *sign);
+
+/* src/public/restrict.h: the factor of a principal submatrix, from that of the whole matrix */
+
+/** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
+ *
+ *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
+ *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
+ *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
+ *  If only few columns can be kept, A[R, R] is extracted, analyzed and factored instead
+ *  (stats.restriction.is_anew).
+ *
+ *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
+ *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
+ *  work as with any factor. The numbers stay as they are: refactorizations, changes and saving give
+ *  SL_ERR_STATE. What compares a matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement,
+ *  sl_factor_rcond, another factor over S. Where a supernode lost rows, parent and counts of
+ *  sl_symbolic_view are an ancestor of the parent and an upper bound.
+ *
+ *  G refuses null pivots, also if F skips them: a singular Laplacian is regular without one of the
+ *  rows of each component. A component that is in R as a whole gives SL_ERR_PIVOT. Only
+ *  null_tolerance decides which other pivots are null. The rest of F's options apply to G:
+ *  instruction set, null_tolerance, regularization with its signs, growth_limit, error_limit.
+ *
+ *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
+ *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  F      [in]   a factor of A.
+ *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
+ *                computed anew; its pattern is not compared with the analyzed one.
+ *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
+ *           SL_ERR_PATTERN: A has not the size or the number of entries of the analyzed matrix, or
+ *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
+ *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
+ *           pivots, several null vectors or L in float, or is a restriction itself;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     linear in the entries of A and the rows of supernodes in R, a copy of the kept entries
+ *           of L, and the flops of the other columns. For a patch of a mesh a little more than half
+ *           the time of analyzing and factoring A[R, R] in a given order. If nothing can be kept,
+ *           the time of its extraction more than that.
+ *  Threads  reads F; one thread.
+ *  Source   [HA18]
+ *  Example  tests/core/test_restrict.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G,
+                                                   const sl_factor *F, const sl_csc *A,
+                                                   const sl_int *rows, sl_int count,
+                                                   const sl_options *opt, sl_stats *stats);
 
 #ifdef __cplusplus
 }
@@ -13712,15 +13775,15 @@ static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbol
   p->relative = SLI_TAKE(b, sl_int, S->tallest);
 }
 
-static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_front *f, sl_int d,
-              sl_int first, sl_int last) {
+static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+              sl_int d, sl_int first, sl_int last, double *update) {
   const sl_symbolic *S = F->S;
   const sl_int *rows = S->rows + S->rows_begin[d];
   sli_front from = sli_front_of(F, d, 0);
   const sl_int w = from.width, tiles = sli_front_tiles(&from);
   const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
-  sl_int t, r, j;
-  from.update = F->stack;
+  sl_int t, r;
+  from.update = update;
   for (t = c0; t < tiles; t++) {
     memset(from.update + sli_triangle_offset(t - c0), 0,
          (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
@@ -13731,6 +13794,13 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
   }
   F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
              from.below - first);
+}
+
+static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+                sl_int d, sl_int first, sl_int last) {
+  const sli_front from = sli_front_of(F, d, 0);
+  const sl_int w = from.width;
+  sl_int r, j;
   for (r = first; r < last; r++) {
     const double *l = from.panel + sli_panel_at(w, w + r, 0);
     double *magnitude = f->magnitude + p->relative[r - first];
@@ -13769,7 +13839,8 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
     const sl_int first = sli_lower_bound(of, below, start);
     const sl_int last = first + sli_lower_bound(of + first, below - first, end);
     if (first < last) {
-      sli_left_update(F, p, &f, d, first, last);
+      sli_left_update(F, p, &f, d, first, last, F->stack);
+      sli_left_magnitudes(F, p, &f, d, first, last);
       d--;
     } else {
       d = S->first_descendant[d] - 1;
@@ -20249,6 +20320,991 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     }
   }
   sli_free(&own.allocator, own.block);
+  return status;
+}
+
+/* src/impl/change/subset.h: a set of rows of A as a sorted list of columns of L, and a map from columns to ranks */
+
+#define SLI_PAGE_BITS 4
+#define SLI_PAGE_COLUMNS (1 << SLI_PAGE_BITS)
+#define SLI_PAGES_PER_COLUMN 8
+
+typedef struct sli_subset {
+  sl_int count;
+  sl_int *columns;
+  sl_int *row_of;
+  sl_int n_pages, most_pages;
+  int is_hashed;
+  int shift;
+  uint32_t mask;
+  sl_int *slots;
+  sl_int *numbers;
+  sl_int *ranks;
+} sli_subset;
+
+static void sli_subset_layout(sli_subset *R, sli_block *b, sl_int n) {
+  const sl_int pages = n / SLI_PAGE_COLUMNS + 1;
+  const sl_off count = R->count;
+  int bits = 1;
+  R->most_pages = sli_min(R->count, pages);
+  R->is_hashed = pages > SLI_PAGES_PER_COLUMN * count;
+  while (((sl_off)1 << bits) < (R->is_hashed ? 2 * count : pages)) {
+    bits++;
+  }
+  R->mask = ((uint32_t)1 << bits) - 1;
+  R->shift = 32 - bits;
+  R->columns = SLI_TAKE(b, sl_int, R->count);
+  R->row_of = SLI_TAKE(b, sl_int, R->count);
+  R->slots = SLI_TAKE(b, sl_int, R->is_hashed ? (uint64_t)R->mask + 1 : (uint64_t)pages);
+  R->numbers = SLI_TAKE(b, sl_int, R->most_pages);
+  R->ranks = SLI_TAKE(b, sl_int, (uint64_t)R->most_pages * SLI_PAGE_COLUMNS);
+}
+
+SLI_INLINE sl_int *sli_subset_slot(const sli_subset *R, sl_int page) {
+  uint32_t k;
+  if (!R->is_hashed) {
+    return &R->slots[page];
+  }
+  k = ((uint32_t)page * 2654435769u) >> R->shift;
+  while (R->slots[k] != -1 && R->numbers[R->slots[k]] != page) {
+    k = (k + 1) & R->mask;
+  }
+  return &R->slots[k];
+}
+
+SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
+  const sl_int at = *sli_subset_slot(R, column >> SLI_PAGE_BITS);
+  return at == -1 ? -1 : R->ranks[(ptrdiff_t)at * SLI_PAGE_COLUMNS + column % SLI_PAGE_COLUMNS];
+}
+
+static sl_int *sli_subset_place(sli_subset *R, sl_int column) {
+  sl_int *slot = sli_subset_slot(R, column >> SLI_PAGE_BITS);
+  if (*slot == -1) {
+    sl_int *page = R->ranks + (ptrdiff_t)R->n_pages * SLI_PAGE_COLUMNS;
+    sl_int m;
+    *slot = R->n_pages;
+    R->numbers[R->n_pages++] = column >> SLI_PAGE_BITS;
+    for (m = 0; m < SLI_PAGE_COLUMNS; m++) {
+      page[m] = -1;
+    }
+  }
+  return &R->ranks[(ptrdiff_t)*slot * SLI_PAGE_COLUMNS + column % SLI_PAGE_COLUMNS];
+}
+
+SLI_INLINE void sli_subset_append(sli_subset *R, sl_int rank, sl_int column, sl_int *place) {
+  R->columns[rank] = column;
+  R->row_of[rank] = *place;
+  *place = rank;
+}
+
+static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
+                 uint64_t *list, uint64_t *scratch, sl_stats *stats) {
+  const sl_int pages = S->n / SLI_PAGE_COLUMNS + 1;
+  sl_int k, m, rank = 0;
+  R->n_pages = 0;
+  memset(R->slots, 0xff,
+       (R->is_hashed ? (size_t)R->mask + 1 : (size_t)pages) * sizeof(sl_int));
+  for (k = 0; k < R->count; k++) {
+    const sl_int row = rows[k];
+    sl_int *place = row < 0 || row >= S->n ? NULL : sli_subset_place(R, S->iperm[row]);
+    if (place == NULL || *place != -1) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+    }
+    *place = k;
+    list[k] = sli_keyed(S->iperm[row], k);
+  }
+  if (R->is_hashed) {
+    sli_sort(list, R->count, scratch);
+  }
+  for (k = 0; k < R->count && R->is_hashed; k++) {
+    sli_subset_append(R, rank++, sli_key(list[k]), sli_subset_place(R, sli_key(list[k])));
+  }
+  for (k = 0; k < pages && !R->is_hashed; k++) {
+    for (m = 0; m < SLI_PAGE_COLUMNS && R->slots[k] != -1; m++) {
+      sl_int *place = R->ranks + (ptrdiff_t)R->slots[k] * SLI_PAGE_COLUMNS + m;
+      if (*place != -1) {
+        sli_subset_append(R, rank++, k * SLI_PAGE_COLUMNS + m, place);
+      }
+    }
+  }
+  return SL_OK;
+}
+
+/* src/impl/change/restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
+
+typedef struct sli_restriction {
+  const sl_symbolic *S;
+  const sl_csc *A;
+  const sl_int *rows;
+  sli_subset R;
+  uint64_t *list, *scratch;
+
+  sl_int n_kept;
+  sl_int *kept;
+  sl_int *first_rank;
+  sl_int *kept_new;
+  sl_int *next;
+  sl_int n_fresh;
+  sl_int *fresh;
+  sl_int *fresh_of;
+  sl_int *number_of;
+
+  sl_off *below_begin;
+  sl_int *below;
+  sl_int n_entries;
+  sl_int *entry_row, *entry_column;
+  sl_int *entry_from;
+
+  sli_analysis w;
+  sl_symbolic T;
+  sl_int *T_new, *head;
+  sl_int *column_of;
+  sl_off copied;
+  void *blocks[4];
+} sli_restriction;
+
+static void sli_restriction_free(sli_restriction *r, const sl_allocator *a) {
+  int k;
+  for (k = 0; k < 4; k++) {
+    sli_free(a, r->blocks[k]);
+  }
+}
+
+SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
+  return r->kept[root] - r->S->first_descendant[r->kept[root]] + 1;
+}
+
+SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
+  const sl_int up = r->S->super_parent[r->kept[q]];
+  const sl_int rank = up == -1 ? -1 : sli_subset_find(&r->R, r->S->super_first[up]);
+  return rank == -1 || r->fresh_of[rank] != -1;
+}
+
+static void sli_restriction_split(sli_restriction *r) {
+  const sl_symbolic *S = r->S;
+  const sl_int *columns = r->R.columns;
+  sl_int k = 0;
+  while (k < r->R.count) {
+    const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
+    const sl_int low = S->super_first[S->first_descendant[s]];
+    const sl_int last = sli_min(k + (end - S->super_first[s]), r->R.count) - 1;
+    const sl_int first = last + 1 - (end - low);
+    if (columns[last] == end - 1 && first >= 0 && columns[first] == low) {
+      r->kept[r->n_kept] = s;
+      r->first_rank[r->n_kept++] = k;
+      for (; k <= last; k++) {
+        r->fresh_of[k] = -1;
+      }
+    } else {
+      for (; k < r->R.count && columns[k] < end; k++) {
+        r->fresh_of[k] = r->n_fresh;
+        r->fresh[r->n_fresh++] = k;
+      }
+    }
+  }
+}
+
+static void sli_restriction_filter(sli_restriction *r) {
+  const sl_symbolic *S = r->S;
+  sl_off at = 0, p;
+  sl_int q;
+  for (q = 0; q < r->n_kept; q++) {
+    r->below_begin[q] = at;
+    for (p = S->rows_begin[r->kept[q]]; p < S->rows_begin[r->kept[q] + 1]; p++) {
+      const sl_int rank = sli_subset_find(&r->R, S->rows[p]);
+      if (rank != -1) {
+        r->below[at++] = rank;
+      }
+    }
+  }
+  r->below_begin[q] = at;
+}
+
+SLI_INLINE void sli_restriction_enter(sli_restriction *r, sl_int a, sl_int b, sl_int from) {
+  r->entry_row[r->n_entries] = sli_max(a, b);
+  r->entry_column[r->n_entries] = sli_min(a, b);
+  r->entry_from[r->n_entries++] = from;
+}
+
+static void sli_restriction_graph(sli_restriction *r) {
+  const sl_csc *A = r->A;
+  const sl_triangle triangle = r->S->stats.symbolic.triangle;
+  sl_int q, k, p;
+  sl_off at;
+  for (q = 0; q < r->n_kept; q++) {
+    if (sli_restriction_is_root(r, q)) {
+      for (at = r->below_begin[q] + 1; at < r->below_begin[q + 1]; at++) {
+        sli_restriction_enter(r, r->fresh_of[r->below[at]],
+                    r->fresh_of[r->below[r->below_begin[q]]], -1);
+      }
+    }
+  }
+  for (k = 0; k < r->R.count; k++) {
+    const sl_int j = r->rows[k], own = r->number_of[k];
+    for (p = own == -1 ? A->p[j + 1] : A->p[j]; p < A->p[j + 1]; p++) {
+      const sl_int i = A->i[p];
+      const sl_int rank =
+        sli_is_read(triangle, i, j) ? sli_subset_find(&r->R, r->S->iperm[i]) : -1;
+      if (rank != -1 && r->fresh_of[rank] != -1) {
+        sli_restriction_enter(r, r->fresh_of[rank], own, p);
+      }
+    }
+  }
+}
+
+static sl_status sli_restriction_column(const sl_csc *A, sl_int j, sl_stats *stats) {
+  const sl_int end = A->p[j + 1];
+  sl_int p = A->p[j];
+  if (p < 0 || end < p || end > sli_nnz(A)) {
+    return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+  }
+  for (; p < end; p++) {
+    if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
+      return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+  const sl_symbolic *S = r->S;
+  uint64_t rows = 0, entries = 0;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int q, k;
+  int pass;
+  for (q = 0; q < r->n_kept; q++) {
+    const sl_off here = S->rows_begin[r->kept[q] + 1] - S->rows_begin[r->kept[q]];
+    rows += (uint64_t)here;
+    entries += sli_restriction_is_root(r, q) ? (uint64_t)here : 0;
+  }
+  for (k = 0; k < r->R.count; k++) {
+    r->number_of[r->R.row_of[k]] = r->fresh_of[k];
+  }
+  for (k = 0; k < r->R.count; k++) {
+    const sl_int j = r->rows[k];
+    if (r->number_of[k] != -1) {
+      status = sli_restriction_column(r->A, j, stats);
+      if (status != SL_OK) {
+        return status;
+      }
+      entries += (uint64_t)(r->A->p[j + 1] - r->A->p[j]);
+    }
+  }
+  if (entries > INT32_MAX) {
+    return SL_ERR_TOO_LARGE;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);
+    r->below = SLI_TAKE(&b, sl_int, rows);
+    r->entry_row = SLI_TAKE(&b, sl_int, entries);
+    r->entry_column = SLI_TAKE(&b, sl_int, entries);
+    r->entry_from = SLI_TAKE(&b, sl_int, entries);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[1] = b.base;
+  return status;
+}
+
+static void sli_restriction_sort(sli_restriction *r) {
+  sli_pattern *rows = &r->w.rows, *columns = &r->w.columns;
+  const size_t bytes = ((size_t)r->n_fresh + 1) * sizeof(sl_int);
+  sl_int e;
+  memset(rows->begin, 0, bytes);
+  memset(columns->begin, 0, bytes);
+  for (e = 0; e < r->n_entries; e++) {
+    rows->begin[r->entry_row[e]]++;
+    columns->begin[r->entry_column[e]]++;
+  }
+  sli_pattern_starts(rows, r->n_fresh);
+  sli_pattern_starts(columns, r->n_fresh);
+  for (e = 0; e < r->n_entries; e++) {
+    const sl_int at = rows->begin[r->entry_row[e]]++;
+    rows->to[at] = r->entry_column[e];
+    rows->from[at] = r->entry_from[e];
+    columns->to[columns->begin[r->entry_column[e]]++] = r->entry_row[e];
+  }
+  memmove(rows->begin + 1, rows->begin, bytes - sizeof(sl_int));
+  memmove(columns->begin + 1, columns->begin, bytes - sizeof(sl_int));
+  rows->begin[0] = columns->begin[0] = 0;
+}
+
+static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator *a,
+                     sl_stats *stats) {
+  sli_analysis *w = &r->w;
+  sl_symbolic *T = &r->T;
+  sl_options given = sli_options_with(a);
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  uint64_t rows = 0;
+  sl_int t;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_analysis_layout(w, &b, r->n_fresh, r->n_entries);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[2] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_restriction_sort(r);
+  given.ordering = SL_ORDERING_GIVEN;
+  sli_analyze_tree(w, &given, stats);
+  T->n = r->n_fresh;
+  T->n_supers = w->amalgamation.count;
+  T->super_of = w->super_of;
+  T->super_first = w->amalgamation.first;
+  T->super_parent = w->amalgamation.parent;
+  for (t = 0; t < T->n_supers; t++) {
+    rows += (uint64_t)w->amalgamation.below[t];
+  }
+  memset(&b, 0, sizeof b);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
+    T->rows = SLI_TAKE(&b, sl_int, rows);
+    T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
+    T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
+    T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
+    T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
+    r->T_new = SLI_TAKE(&b, sl_int, T->n_supers);
+    r->head = SLI_TAKE(&b, sl_int, (uint64_t)T->n_supers + 1);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[3] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  T->rows_begin[0] = T->panel_begin[0] = 0;
+  for (t = 0; t < T->n_supers; t++) {
+    const sl_int below = w->amalgamation.below[t];
+    T->rows_begin[t + 1] = T->rows_begin[t] + below;
+    T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
+  }
+  sli_scatter_map_count(T, &w->columns, w->old_of);
+  sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, (sl_off *)(void *)w->list,
+             (sl_int *)(void *)(w->list + T->n));
+  return SL_OK;
+}
+
+static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+  const uint64_t count = (uint64_t)r->R.count;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_subset_layout(&r->R, &b, r->S->n);
+    r->list = SLI_TAKE(&b, uint64_t, count);
+    r->scratch = SLI_TAKE(&b, uint64_t, count);
+    r->kept = SLI_TAKE(&b, sl_int, count);
+    r->first_rank = SLI_TAKE(&b, sl_int, count);
+    r->kept_new = SLI_TAKE(&b, sl_int, count);
+    r->next = SLI_TAKE(&b, sl_int, count);
+    r->fresh = SLI_TAKE(&b, sl_int, count);
+    r->fresh_of = SLI_TAKE(&b, sl_int, count);
+    r->number_of = SLI_TAKE(&b, sl_int, count);
+    r->column_of = SLI_TAKE(&b, sl_int, count);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[0] = b.base;
+  status = status == SL_OK ? sli_subset_fill(&r->R, r->S, r->rows, r->list, r->scratch, stats)
+               : status;
+  if (status == SL_OK) {
+    sli_restriction_split(r);
+  }
+  return status;
+}
+
+static sl_status sli_restriction_run(sli_restriction *r, const sl_allocator *a, sl_stats *found,
+                   sl_stats *stats) {
+  const sl_status status = sli_restriction_room(r, a, stats);
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_restriction_filter(r);
+  sli_restriction_graph(r);
+  return sli_restriction_analyze(r, a, found);
+}
+
+/* src/impl/change/restrict_anew.h: the factor of A[R, R] where too little of L can be kept: extracts it first */
+
+static sl_status sli_restrict_matrix(sl_matrix **M, sli_restriction *r, const sl_allocator *a,
+                   sl_stats *stats) {
+  sl_int k, e, *begin;
+  sl_status status;
+  r->n_kept = 0;
+  r->n_fresh = r->R.count;
+  for (k = 0; k < r->R.count; k++) {
+    r->fresh_of[k] = r->R.row_of[k];
+  }
+  status = sli_restriction_room(r, a, stats);
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_restriction_graph(r);
+  status = sli_matrix_new(M, r->R.count, r->R.count, r->n_entries, 1, a);
+  if (status != SL_OK) {
+    return status;
+  }
+  begin = (*M)->p;
+  memset(begin, 0, ((size_t)r->R.count + 1) * sizeof(sl_int));
+  for (e = 0; e < r->n_entries; e++) {
+    begin[r->entry_column[e] + 1]++;
+  }
+  for (k = 0; k < r->R.count; k++) {
+    begin[k + 1] += begin[k];
+    r->next[k] = begin[k];
+  }
+  for (e = 0; e < r->n_entries; e++) {
+    const sl_int at = r->next[r->entry_column[e]]++;
+    (*M)->i[at] = r->entry_row[e];
+    (*M)->x[at] = r->A->x[r->entry_from[e]];
+  }
+  return SL_OK;
+}
+
+static sl_status sli_restrict_anew(sl_symbolic **S, sl_factor **G, sli_restriction *r,
+                   const sl_options *rules, sl_stats *stats) {
+  sl_options given = sli_options_with(&rules->allocator);
+  sl_matrix *M = NULL;
+  sl_csc B;
+  sl_status status = sli_restrict_matrix(&M, r, &rules->allocator, stats);
+  if (status == SL_OK) {
+    B = sl_matrix_view(M);
+    given.ordering = SL_ORDERING_GIVEN;
+    given.perm = r->R.row_of;
+    status = sl_symbolic_create(S, &B, &given, NULL);
+    status = status == SL_OK ? sl_factor_create(G, *S, &B, rules, stats) : status;
+    sl_matrix_free(M);
+  }
+  return status;
+}
+
+/* src/impl/change/restrict_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
+
+typedef struct sli_joint {
+  sl_symbolic *S;
+  sl_int super, column;
+  sl_off rows, panel;
+} sli_joint;
+
+static void sli_joint_add(sli_joint *j, sl_int width, sl_off below) {
+  sl_symbolic *S = j->S;
+  sl_int k;
+  S->super_first[j->super] = j->column;
+  S->rows_begin[j->super] = j->rows;
+  S->panel_begin[j->super] = j->panel;
+  for (k = 0; k < width; k++) {
+    S->super_of[j->column++] = j->super;
+  }
+  j->rows += below;
+  j->panel += sli_panel_size(width, (sl_int)below);
+  j->super++;
+}
+
+static void sli_joint_add_kept(sli_joint *j, sli_restriction *r, sl_int root) {
+  for (; root != -1; root = r->next[root]) {
+    sl_int q, k;
+    for (q = root + 1 - sli_restriction_size(r, root); q <= root; q++) {
+      const sl_int s = r->kept[q], width = r->S->super_first[s + 1] - r->S->super_first[s];
+      for (k = 0; k < width; k++) {
+        r->column_of[r->first_rank[q] + k] = j->column + k;
+      }
+      r->kept_new[q] = j->super;
+      sli_joint_add(j, width, r->below_begin[q + 1] - r->below_begin[q]);
+    }
+  }
+}
+
+static void sli_joint_number(sli_joint *j, sli_restriction *r) {
+  const sl_symbolic *T = &r->T;
+  sl_int q, t, k;
+  for (t = 0; t <= T->n_supers; t++) {
+    r->head[t] = -1;
+  }
+  for (q = r->n_kept - 1; q >= 0; q--) {
+    if (sli_restriction_is_root(r, q)) {
+      t = T->n_supers;
+      if (r->below_begin[q] < r->below_begin[q + 1]) {
+        t = T->super_of[r->w.new_of[r->fresh_of[r->below[r->below_begin[q]]]]];
+      }
+      r->next[q] = r->head[t];
+      r->head[t] = q;
+    }
+  }
+  sli_joint_add_kept(j, r, r->head[T->n_supers]);
+  for (t = 0; t < T->n_supers; t++) {
+    const sl_int first = T->super_first[t], width = T->super_first[t + 1] - first;
+    sli_joint_add_kept(j, r, r->head[t]);
+    for (k = 0; k < width; k++) {
+      r->column_of[r->fresh[r->w.old_of[first + k]]] = j->column + k;
+    }
+    r->T_new[t] = j->super;
+    sli_joint_add(j, width, T->rows_begin[t + 1] - T->rows_begin[t]);
+  }
+  j->S->super_first[j->super] = j->column;
+  j->S->rows_begin[j->super] = j->rows;
+  j->S->panel_begin[j->super] = j->panel;
+}
+
+static void sli_joint_fill_kept(sl_symbolic *S, const sli_restriction *r, sl_int q) {
+  const sl_symbolic *from = r->S;
+  const sl_int s = r->kept[q], to = r->kept_new[q], up = from->super_parent[s];
+  const sl_int first = from->super_first[s], end = from->super_first[s + 1];
+  const sl_int base = S->super_first[to] - first;
+  const sl_off begin = S->rows_begin[to];
+  const sl_int below = (sl_int)(S->rows_begin[to + 1] - begin);
+  sl_int k;
+  for (k = 0; k < below; k++) {
+    S->rows[begin + k] = r->column_of[r->below[r->below_begin[q] + k]];
+  }
+  S->super_parent[to] = below == 0 ? -1 : S->super_of[S->rows[begin]];
+  SLI_ASSERT(up == -1 || sli_restriction_is_root(r, q) || S->super_parent[to] == to + up - s);
+  for (k = first; k < end; k++) {
+    const sl_int parent = from->parent[k];
+    const sl_int rank = parent < end ? -1 : sli_subset_find(&r->R, parent);
+    S->parent[k + base] = parent != -1 && parent < end ? parent + base
+                : rank != -1                 ? r->column_of[rank]
+                : below > 0                  ? S->rows[begin]
+                               : -1;
+    S->counts[k + base] = sli_min(from->counts[k], end - k + below);
+  }
+  (void)up;
+}
+
+static void sli_joint_fill_fresh(sl_symbolic *S, const sli_restriction *r, sl_int t, sl_off *at) {
+  const sl_symbolic *T = &r->T;
+  const sl_int to = r->T_new[t], base = S->super_first[to] - T->super_first[t];
+  const sl_int *old_of = r->w.old_of;
+  sl_off p;
+  sl_int k;
+  for (p = 0; p < T->rows_begin[t + 1] - T->rows_begin[t]; p++) {
+    S->rows[S->rows_begin[to] + p] =
+      r->column_of[r->fresh[old_of[T->rows[T->rows_begin[t] + p]]]];
+  }
+  S->super_parent[to] = T->super_parent[t] == -1 ? -1 : r->T_new[T->super_parent[t]];
+  for (k = T->super_first[t]; k < T->super_first[t + 1]; k++) {
+    const sl_int parent = r->w.parent[k];
+    S->parent[k + base] = parent == -1 ? -1 : r->column_of[r->fresh[old_of[parent]]];
+    S->counts[k + base] = r->w.counts[k];
+  }
+  for (p = T->scatter_begin[t]; p < T->scatter_begin[t + 1]; p++) {
+    if (T->scatter_from[p] != -1) {
+      S->scatter_from[*at] = T->scatter_from[p];
+      S->scatter_to[(*at)++] = T->scatter_to[p] - T->panel_begin[t] + S->panel_begin[to];
+    }
+  }
+}
+
+static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) {
+  sl_int *scratch = (sl_int *)(void *)r->list;
+  sl_int s, q, k;
+  sl_off at = 0;
+  for (k = 0; k < S->n; k++) {
+    S->perm[r->column_of[k]] = r->R.row_of[k];
+  }
+  for (k = 0; k < S->n; k++) {
+    S->iperm[S->perm[k]] = k;
+  }
+  for (q = 0; q < r->n_kept; q++) {
+    sli_joint_fill_kept(S, r, q);
+  }
+  memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
+  for (q = 0; q < r->T.n_supers; q++) {
+    const sl_off before = at;
+    sli_joint_fill_fresh(S, r, q, &at);
+    S->scatter_begin[r->T_new[q] + 1] = at - before;
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    S->scatter_begin[s + 1] += S->scatter_begin[s];
+  }
+  sli_fill_steps(S);
+  sli_fill_descendants(S);
+  sli_fill_relative(S, scratch);
+  sli_fill_identity(S, stats->symbolic.triangle);
+  stats->symbolic.nnz_a = at;
+  sli_analyze_stats(S, scratch, stats);
+}
+
+static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
+                sl_stats *stats) {
+  sl_symbolic draft;
+  sli_block b = {NULL, 0, 0};
+  sli_joint j;
+  sl_status status = SL_OK;
+  int pass;
+  memset(&draft, 0, sizeof draft);
+  draft.allocator = *a;
+  draft.n = r->R.count;
+  draft.n_supers = r->n_kept + r->T.n_supers;
+  draft.nnz_input = -1;
+  draft.pattern = sli_hash_ints(r->S->identity, r->rows, r->R.count);
+  draft.is_pivoted = r->S->is_pivoted;
+  draft.is_partial = 1;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    (void)sli_take(&b, 1, sizeof(sl_symbolic));
+    sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
+              r->n_entries);
+    stats->symbolic.bytes = b.used;
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(&j, 0, sizeof j);
+  j.S = &draft;
+  sli_joint_number(&j, r);
+  sli_joint_fill(&draft, r, stats);
+  draft.stats = *stats;
+  *out = (sl_symbolic *)(void *)b.base;
+  **out = draft;
+  return SL_OK;
+}
+
+/* src/impl/change/restrict.h: sl_factor_restrict: the factor of A[R, R] from that of A */
+
+static void sli_restrict_rows(double *to, const double *from, sl_int w, const sl_int *keep,
+                sl_int count) {
+  const sl_int tiles = sli_tiles(w + count);
+  sl_int t, j, r;
+  for (t = w / SLI_TILE; t < tiles; t++) {
+    const double *at[SLI_TILE];
+    double *tile = to + sli_tile_offset(w, t);
+    for (r = 0; r < SLI_TILE; r++) {
+      const sl_int local = SLI_TILE * t + r, row = local < w           ? local
+                             : local < w + count ? keep[local - w]
+                                       : -1;
+      at[r] = row == -1 ? NULL : from + sli_panel_at(w, row, 0);
+    }
+    for (j = 0; j < w; j++) {
+      for (r = 0; r < SLI_TILE; r++) {
+        tile[j * SLI_TILE + r] = at[r] == NULL ? 0.0 : at[r][j * SLI_TILE];
+      }
+    }
+  }
+}
+
+static void sli_restrict_copy(sl_factor *G, const sl_factor *F, sli_restriction *r, sl_int q,
+                sl_int *keep) {
+  const sl_symbolic *S = F->S, *T = G->S;
+  const sl_int s = r->kept[q], to = r->kept_new[q];
+  const sli_step *step = &S->steps[s], *own = &T->steps[to];
+  const sl_int w = step->width;
+  const double *from = (const double *)F->values + step->panel;
+  double *panel = (double *)G->values + own->panel;
+  sl_int k, m;
+  if (own->below == step->below) {
+    memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
+  } else {
+    for (k = 0, m = 0; k < own->below; k++, m++) {
+      const sl_int rank = r->below[r->below_begin[q] + k];
+      while (S->rows[S->rows_begin[s] + m] != r->R.columns[rank]) {
+        m++;
+      }
+      keep[k] = w + m;
+    }
+    memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
+    sli_restrict_rows(panel, from, w, keep, own->below);
+  }
+  r->copied += sli_panel_size(w, own->below);
+  memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
+  if (F->rule.shifts != NULL) {
+    memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
+         (size_t)w * sizeof(double));
+  }
+  G->extents[to] = F->extents[s];
+  if (G->extents[to].pivot != -1) {
+    G->extents[to].pivot += own->column - step->column;
+  }
+}
+
+static void sli_restrict_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
+                  sl_int s, int has_one_sign) {
+  sl_int k;
+  sli_front_update(G->kernels, f, G->buffer);
+  for (k = 0; k < f->below && !has_one_sign; k++) {
+    p->relative[k] = f->width + k;
+  }
+  if (!has_one_sign) {
+    sli_left_magnitudes(G, p, f, s, 0, f->below);
+  }
+}
+
+static void sli_restrict_update(const sl_factor *G, const sli_left_work *p, sl_int s,
+                int has_one_sign, double *update) {
+  const sl_symbolic *S = G->S;
+  const sli_front f = sli_front_of(G, s, 0);
+  const sl_int *rows = S->rows + S->rows_begin[s];
+  const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
+  sl_int k, d;
+  for (k = 0; k < f.below; k++) {
+    p->local[rows[k]] = f.width + k;
+  }
+  for (k = 0; k < SLI_TILE * tiles; k++) {
+    f.magnitude[k] = 0.0;
+  }
+  memset(f.update, 0,
+       (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
+  sli_restrict_update_own(G, p, &f, s, has_one_sign);
+  for (d = s - 1; d >= S->first_descendant[s];) {
+    const sl_int below = S->steps[d].below;
+    const sl_int first =
+      sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
+    if (first < below) {
+      sli_left_update(G, p, &f, d, first, below, update);
+      if (!has_one_sign) {
+        sli_left_magnitudes(G, p, &f, d, first, below);
+      }
+      d--;
+    } else {
+      d = S->first_descendant[d] - 1;
+    }
+  }
+  for (k = f.width; k < f.width + f.below && has_one_sign; k++) {
+    const sl_int tile = k / SLI_TILE - whole, column = k - SLI_TILE * whole;
+    f.magnitude[k] =
+      fabs(f.update[sli_triangle_offset(tile) + (sl_off)column * SLI_TILE + k % SLI_TILE]);
+  }
+  sli_front_hand_over(&f);
+}
+
+typedef struct sli_restrict_work {
+  sli_left_work left;
+  double *update;
+  unsigned char *is_kept;
+} sli_restrict_work;
+
+static sl_status sli_restrict_work_make(sli_restrict_work *w, sli_block *b, const sl_symbolic *S,
+                    const sli_restriction *r, const sl_allocator *a) {
+  sl_status status = SL_OK;
+  sl_off most = 0;
+  sl_int q;
+  int pass;
+  for (q = 0; q < r->n_kept; q++) {
+    const sli_step *step = &S->steps[r->kept_new[q]];
+    const sl_off size = sli_triangle_offset(sli_update_tiles(step->width, step->below));
+    most = size > most ? size : most;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_left_work_layout(&w->left, b, S);
+    w->update = SLI_TAKE(b, double, most);
+    w->is_kept = SLI_TAKE(b, unsigned char, S->n_supers);
+    status = pass == 0 ? sli_block_alloc(b, a) : SL_OK;
+  }
+  return status;
+}
+
+static sl_status sli_restrict_eliminate(sl_factor *G, const sli_restrict_work *w, int has_one_sign,
+                    const sli_source *from, sli_failure *failure) {
+  const sl_symbolic *S = G->S;
+  sl_status status = SL_OK;
+  sl_int s;
+  for (s = 0; s < S->n_supers && status == SL_OK; s++) {
+    if (!w->is_kept[s]) {
+      status = sli_front_factor(G, from, s, 0, failure);
+    } else if (S->super_parent[s] != -1 && !w->is_kept[S->super_parent[s]]) {
+      sli_restrict_update(G, &w->left, s, has_one_sign, w->update);
+    }
+  }
+  return status;
+}
+
+static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
+                  sli_failure *failure) {
+  sl_int q, k;
+  for (q = 0; q < r->n_kept && F->n_nulls > 0; q++) {
+    const sl_int s = r->kept[q];
+    for (k = F->S->super_first[s]; k < F->S->super_first[s + 1]; k++) {
+      if (sli_is_skipped(F, k)) {
+        return sli_fail(failure, SL_ERR_PIVOT, r->kept_new[q],
+                r->column_of[r->first_rank[q] + k - F->S->super_first[s]], -1, 0.0);
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
+                    sl_stats *stats) {
+  const double started = sli_seconds();
+  const sli_source from = sli_source_matrix(r->A);
+  sli_restrict_work w;
+  sli_failure failure;
+  sli_block b = {NULL, 0, 0};
+  sl_int q;
+  sl_status status = sli_restrict_work_make(&w, &b, G->S, r, &G->allocator);
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(&failure, 0, sizeof failure);
+  memset(w.is_kept, 0, (size_t)G->S->n_supers);
+  sli_factor_begin(G);
+  G->identity = sli_hash_bytes(F->identity, &G->S->identity, sizeof(sli_hash));
+  status = sli_restrict_check(F, r, &failure);
+  for (q = 0; q < r->n_kept && status == SL_OK; q++) {
+    w.is_kept[r->kept_new[q]] = 1;
+    sli_restrict_copy(G, F, r, q, w.left.relative);
+  }
+  if (status == SL_OK) {
+    const sl_factor_info *info = &F->stats.factor;
+    (void)sli_restrict_eliminate(G, &w, info->positive == 0 || info->negative == 0, &from,
+                   &failure);
+  }
+  sli_free(&G->allocator, b.base);
+  return sli_factor_done(G, &from, &failure, started, stats);
+}
+
+static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction *r,
+                     const sl_allocator *a, sl_int *signs) {
+  sl_options opt = sli_options_with(a);
+  sl_int k;
+  opt.isa = F->kernels->isa;
+  opt.null_tolerance = F->rule.null_tolerance;
+  opt.regularization = F->rule.regularization;
+  opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
+  opt.error_limit = sli_is_finite(F->error_limit) ? F->error_limit : -1.0;
+  if (opt.regularization != 0.0 && F->rule.signs != NULL) {
+    for (k = 0; k < r->R.count; k++) {
+      signs[r->R.row_of[k]] = F->rule.signs[r->R.columns[k]];
+    }
+    opt.signs = signs;
+  }
+  return opt;
+}
+
+static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
+                   sli_restriction *r, const sl_options *rules, sl_stats *stats) {
+  sl_options opt = *rules;
+  sl_factor *G = NULL;
+  sl_status status;
+  opt.method = SL_METHOD_SUPERNODAL;
+  status = sli_factor_new(&G, S, &opt, stats);
+  status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
+  if (status == SL_OK) {
+    *out = G;
+  } else {
+    sl_factor_free(G);
+  }
+  return status;
+}
+
+static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
+  sl_factor counted = *G;
+  sli_block b = {NULL, 0, 0};
+  sli_free(&G->allocator, G->stack);
+  sli_free(&G->allocator, G->scratch);
+  G->stack = NULL;
+  G->scratch = NULL;
+  (void)sli_take(&b, 1, sizeof(sl_factor));
+  sli_factor_layout(&counted, &b, 0);
+  G->stats.factor.bytes = b.used;
+  G->is_immutable = 1;
+  S->is_partial = 1;
+  S->nnz_input = -1;
+  memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
+}
+
+static void sli_restrict_report(const sli_restriction *r, sl_status status, int is_anew,
+                sl_stats *stats) {
+  const int is_entry = status == SL_ERR_NOT_FINITE && stats->error.column != -1;
+  if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
+    (status == SL_ERR_NOT_FINITE && (is_anew || !is_entry))) {
+    stats->error.row = r->rows[stats->error.row];
+    stats->error.column = stats->error.column == -1 ? -1 : r->rows[stats->error.column];
+  }
+}
+
+#define SLI_RESTRICT_KEPT 0.25
+
+static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+                  sli_restriction *r, int is_anew, const sl_allocator *a,
+                  sl_stats *stats) {
+  const double started = sli_seconds();
+  const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
+  sl_stats found;
+  sl_status status;
+  if (is_anew) {
+    return sli_restrict_anew(S, G, r, &rules, stats);
+  }
+  memset(&found, 0, sizeof found);
+  found.symbolic.triangle = F->S->stats.symbolic.triangle;
+  status = sli_restriction_run(r, a, &found, stats);
+  status = status == SL_OK ? sli_joint_make(S, r, a, &found) : status;
+  if (status == SL_OK) {
+    (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
+    status = sli_restrict_factor(G, *S, F, r, &rules, stats);
+  }
+  return status;
+}
+
+static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, const sl_int *rows,
+                    sl_int count, const sl_options *opt) {
+  if (F == NULL || A == NULL || count < 0 || (count > 0 && rows == NULL) ||
+    !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+    return SL_ERR_STATE;
+  }
+  if (F->E != NULL || F->S->nnz_input < 0 || F->storage != SL_STORAGE_DOUBLE ||
+    F->null_vectors > 1) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  if (A->n_cols > 0 && A->p == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (A->n_rows != F->S->n || A->n_cols != F->S->n || sli_nnz(A) != F->S->nnz_input) {
+    return SL_ERR_PATTERN;
+  }
+  return sli_nnz(A) > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_factor *F,
+                  const sl_csc *A, const sl_int *rows, sl_int count,
+                  const sl_options *opt, sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  const double started = sli_seconds();
+  sli_restriction r;
+  sl_status status;
+  int is_anew;
+  sli_stats_clear_error(stats);
+  if (S == NULL || G == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *S = NULL;
+  *G = NULL;
+  status = sli_restrict_arguments(F, A, rows, count, opt);
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(&r, 0, sizeof r);
+  r.S = F->S;
+  r.A = A;
+  r.rows = rows;
+  r.R.count = count;
+  status = sli_restriction_begin(&r, &a, stats);
+  is_anew = count - r.n_fresh < SLI_RESTRICT_KEPT * count;
+  if (status == SL_OK) {
+    status = sli_restrict_run(S, G, F, &r, is_anew, &a, stats);
+    if (stats != NULL) {
+      sli_restrict_report(&r, status, is_anew, stats);
+    }
+  }
+  if (status == SL_OK) {
+    sli_restrict_done(*S, *G);
+  } else {
+    sl_symbolic_free(*S);
+    *S = NULL;
+  }
+  if (status == SL_OK && stats != NULL) {
+    sl_restrict_info *info = &stats->restriction;
+    stats->factor.bytes = (*G)->stats.factor.bytes;
+    info->is_anew = is_anew;
+    info->kept = count - r.n_fresh;
+    info->computed = count - info->kept;
+    info->entries = r.copied;
+    info->seconds = sli_seconds() - started;
+  }
+  sli_restriction_free(&r, &a);
   return status;
 }
 

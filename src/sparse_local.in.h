@@ -27,6 +27,7 @@ extern "C" {
 #include "public/change.h"
 #include "public/pins.h"
 #include "public/complex.h"
+#include "public/restrict.h"
 #ifdef __cplusplus
 }
 #endif
@@ -150,6 +151,11 @@ extern "C" {
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"
 #include "impl/change/pins.h"
+#include "impl/change/subset.h"
+#include "impl/change/restrict_analysis.h"
+#include "impl/change/restrict_anew.h"
+#include "impl/change/restrict_symbolic.h"
+#include "impl/change/restrict.h"
 /* save: factors in files */
 #include "impl/save/format.h"
 #include "impl/save/decode.h"

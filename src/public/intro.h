@@ -58,6 +58,7 @@
  *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
  *            method, 1989.
  *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
+ *  [HA18]    Herholz, Alexa: Factor once: reusing Cholesky factorizations on sub-meshes, 2018.
  *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
  *  [Hager89] Hager: Updating the inverse of a matrix, 1989.
  *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.

@@ -124,6 +124,16 @@ typedef struct sl_change_info {
     double seconds;        /* processor seconds */
 } sl_change_info;
 
+/** The factor of a principal submatrix: sl_factor_restrict. */
+typedef struct sl_restrict_info {
+    sl_int kept;     /* columns of L that were copied */
+    sl_int computed; /* the others */
+    sl_off entries;  /* doubles of L that were copied */
+    int is_anew;     /* 1: too few columns to copy: the submatrix was extracted and analyzed */
+    int padding;     /* not written */
+    double seconds;  /* processor seconds, analysis included */
+} sl_restrict_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -137,8 +147,9 @@ typedef struct sl_stats {
     sl_region_info region;
     sl_refine_info refine;
     sl_change_info change;
+    sl_restrict_info restriction;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[19];
+    sl_off reserved[15];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

@@ -152,6 +152,17 @@ static sl_status batch_solve(arguments_t *a) {
     return sl_batch_solve(a->F, &request, 1, NULL, NULL, NULL);
 }
 
+static sl_status restriction(arguments_t *a) {
+    sl_symbolic *S = (sl_symbolic *)(void *)a;
+    sl_factor *G = (sl_factor *)(void *)a;
+    const sl_status status =
+        sl_factor_restrict(&S, &G, a->F, a->A, a->xset, a->nx, NULL, &a->stats);
+    assert_true((S != NULL) == (status == SL_OK) && (G != NULL) == (status == SL_OK));
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    return status;
+}
+
 CALL(check, sl_csc_check(a->A, &a->stats))
 CALL(refactor, sl_factor_refactor(a->F, a->A, &a->stats))
 CALL(changed, sl_factor_refactor_changed(a->F, a->A, a->xset, a->nx, &a->stats))
@@ -210,6 +221,7 @@ static const struct {
     {"sl_factor_refactor_changed", changed, A_ | SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_refine", refine, A_ | SQUARE_ | VALUES_ | SOLVE_ | STEPS_},
     {"sl_factor_rcond", rcond, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
+    {"sl_factor_restrict", restriction, SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_logdet", logdet, F_ | FAILED_},
     {"sl_factor_null_rows", null_rows, F_ | FAILED_},
     {"sl_factor_lower", lower, F_ | FAILED_},

@@ -239,6 +239,32 @@ static int64_t run(fixture_t *f, scenario_t scenario) {
     return k - 1;
 }
 
+/* rows of bset: too few to keep columns; rows 0 .. 99: some are kept */
+static sl_status restriction(fixture_t *f, const sl_int *rows, sl_int count,
+                             const sl_options *opt) {
+    sl_symbolic *S = GARBAGE(sl_symbolic);
+    sl_factor *G = GARBAGE(sl_factor);
+    const sl_status status =
+        sl_factor_restrict(&S, &G, f->y.F, &f->y.M.view, rows, count, opt, NULL);
+    MADE_OR_NULL(status, S);
+    MADE_OR_NULL(status, G);
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    return status;
+}
+
+static sl_status restrict_half(fixture_t *f, const sl_options *opt) {
+    sl_int rows[100];
+    for (sl_int k = 0; k < 100; k++) {
+        rows[k] = k;
+    }
+    return restriction(f, rows, 100, opt);
+}
+
+static sl_status restrict_few(fixture_t *f, const sl_options *opt) {
+    return restriction(f, f->bset, 20, opt);
+}
+
 static void fixture_make(fixture_t *f, int style) {
     uint64_t seed = 2;
     f->y = factored_make(GEN_GRID2, 225, 1, style, NULL);
@@ -273,6 +299,8 @@ static void every_allocation_may_fail(void **state) {
         {"sl_factor_create", factor},
         {"sl_factor_create, in float", factor_float},
         {"sl_factor_lower", lower},
+        {"sl_factor_restrict", restrict_half},
+        {"sl_factor_restrict, few rows", restrict_few},
         {"sl_plan_create", plan},
         {"sl_work_create", work},
         {"sl_work_reserve_factor", reserve_factor},

@@ -135,6 +135,25 @@ static inline sl_status option_save_set(option_fixture_t *f, const sl_options *o
     return sl_save_set_file(NOWHERE, &set, opt);
 }
 
+static inline sl_status option_restrict(option_fixture_t *f, const sl_options *opt) {
+    sl_symbolic *S = OPTION_GARBAGE(sl_symbolic);
+    sl_factor *G = OPTION_GARBAGE(sl_factor);
+    double *x = test_reals((size_t)f->U.p[f->U.n_cols]);
+    sl_csc A = f->U; /* with the values of the unit matrix */
+    A.x = x;
+    for (sl_int j = 0; j < A.n_cols; j++) {
+        for (sl_int p = A.p[j]; p < A.p[j + 1]; p++) {
+            x[p] = A.i[p] == j ? 1.0 : 0.0;
+        }
+    }
+    const sl_status status = sl_factor_restrict(&S, &G, f->F, &A, f->perm, 2, opt, NULL);
+    assert_true((S != NULL) == (status == SL_OK) && (G != NULL) == (status == SL_OK));
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    free(x);
+    return status;
+}
+
 static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) {
     return sl_save_file(NOWHERE, f->pair.S, f->F, opt);
 }
@@ -207,6 +226,7 @@ static const struct {
     {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_create_combination", option_combination, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
+    {"sl_factor_restrict", option_restrict, READS_NOTHING},
     {"sl_work_create", option_work, READS_NOTHING},
     {"sl_plan_create", option_plan, READS_REGION},
     {"sl_selected_create", option_selected, READS_NOTHING},

@@ -12,10 +12,11 @@
 
 struct sl_symbolic {
     sl_allocator allocator;
-    sl_stats stats;           /* its symbolic group */
-    sl_int n;                 /* rows of A */
-    sl_int n_supers;          /* supernodes, in postorder */
-    sl_int nnz_input;         /* entries stored in A, read or not */
+    sl_stats stats;  /* its symbolic group */
+    sl_int n;        /* rows of A */
+    sl_int n_supers; /* supernodes, in postorder */
+    /* entries stored in A, read or not; -1: a restriction, which has no map of entries */
+    sl_int nnz_input;
     sli_hash pattern;         /* of A's arrays p and i; a refactorization must match it */
     sli_hash identity;        /* of the pattern, the triangle read, the order and the supernodes */
     sl_int tallest, widest;   /* largest height (columns and rows below) and width of a supernode */
@@ -50,7 +51,8 @@ struct sl_symbolic {
     sl_int *node_of;                  /* n: the node of each column */
     sl_int *node_parent, *node_level; /* n_nodes */
     sli_mapping mapping;              /* the mapped file that holds the arrays; empty: none */
-    int is_partial;                   /* made from a file that has more than this library reads */
+    /* made from a file that has more than this library reads, or a restriction: it is not saved */
+    int is_partial;
 };
 
 #endif

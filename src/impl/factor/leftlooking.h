@@ -18,17 +18,17 @@ static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbol
     p->relative = SLI_TAKE(b, sl_int, S->tallest);
 }
 
-/* Adds the update of descendant d to supernode s, whose front is f. Rows first, first+1, .. of d
- * are rows of s; those before `last` are columns of s. */
-static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_front *f, sl_int d,
-                            sl_int first, sl_int last) {
+/* Adds the update of descendant d to the front f of a supernode. Rows first, first+1, .. of d are
+ * rows of f; the columns of the update are those before `last`. update: room for d's triangle. */
+static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+                            sl_int d, sl_int first, sl_int last, double *update) {
     const sl_symbolic *S = F->S;
     const sl_int *rows = S->rows + S->rows_begin[d];
     sli_front from = sli_front_of(F, d, 0);
     const sl_int w = from.width, tiles = sli_front_tiles(&from);
     const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
-    sl_int t, r, j;
-    from.update = F->stack; /* the update stack is empty: no other update matrix exists now */
+    sl_int t, r;
+    from.update = update;
     for (t = c0; t < tiles; t++) {
         memset(from.update + sli_triangle_offset(t - c0), 0,
                (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
@@ -39,7 +39,16 @@ static void sli_left_update(sl_factor *F, const sli_left_work *p, const sli_fron
     }
     F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
                          from.below - first);
-    for (r = first; r < last; r++) { /* add |l d l| to the magnitudes of the pivots */
+}
+
+/* Adds |l d l| of rows first .. last-1 of descendant d to the magnitudes of f. The relative indices
+ * are those of its update. */
+static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+                                sl_int d, sl_int first, sl_int last) {
+    const sli_front from = sli_front_of(F, d, 0);
+    const sl_int w = from.width;
+    sl_int r, j;
+    for (r = first; r < last; r++) {
         const double *l = from.panel + sli_panel_at(w, w + r, 0);
         double *magnitude = f->magnitude + p->relative[r - first];
         for (j = 0; j < w; j++, l += SLI_TILE) {
@@ -80,7 +89,9 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
         const sl_int first = sli_lower_bound(of, below, start);
         const sl_int last = first + sli_lower_bound(of + first, below - first, end);
         if (first < last) {
-            sli_left_update(F, p, &f, d, first, last);
+            /* the update stack is empty: no other update matrix exists now */
+            sli_left_update(F, p, &f, d, first, last, F->stack);
+            sli_left_magnitudes(F, p, &f, d, first, last);
             d--;
         } else {
             d = S->first_descendant[d] - 1;

@@ -71,6 +71,9 @@ _ChangeInfo = _struct("_ChangeInfo", [
     ("method", _ENUM), ("reason", _ENUM), ("ranks", _INT), ("padding", _INT), ("entries", _OFF),
     ("updates", _OFF), ("drift", _REAL), ("flops_update", _REAL), ("flops_changed", _REAL),
     ("flops_refactor", _REAL), ("seconds", _REAL)])
+_RestrictInfo = _struct("_RestrictInfo", [
+    ("kept", _INT), ("computed", _INT), ("entries", _OFF), ("is_anew", ctypes.c_int),
+    ("padding", ctypes.c_int), ("seconds", _REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", _INT), ("backward_error", _REAL)])
 
 
@@ -79,7 +82,8 @@ class Stats(ctypes.Structure):
     _fields_ = [("error", _Error), ("symbolic", _Symbolic), ("factor", _FactorInfo),
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
                 ("region", _RegionInfo), ("refine", _RefineInfo),
-                ("change", _ChangeInfo), ("reserved", _OFF * 19)]
+                ("change", _ChangeInfo), ("restriction", _RestrictInfo),
+                ("reserved", _OFF * 15)]
 
 
 class SymbolicArrays(ctypes.Structure):

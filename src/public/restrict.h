@@ -1,0 +1,55 @@
+/* restrict.h: the factor of a principal submatrix, from that of the whole matrix */
+#ifndef SL_PUBLIC_RESTRICT_H
+#define SL_PUBLIC_RESTRICT_H
+
+#include "options.h"
+#include "stats.h"
+
+/** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
+ *
+ *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
+ *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
+ *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
+ *  If only few columns can be kept, A[R, R] is extracted, analyzed and factored instead
+ *  (stats.restriction.is_anew).
+ *
+ *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
+ *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
+ *  work as with any factor. The numbers stay as they are: refactorizations, changes and saving give
+ *  SL_ERR_STATE. What compares a matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement,
+ *  sl_factor_rcond, another factor over S. Where a supernode lost rows, parent and counts of
+ *  sl_symbolic_view are an ancestor of the parent and an upper bound.
+ *
+ *  G refuses null pivots, also if F skips them: a singular Laplacian is regular without one of the
+ *  rows of each component. A component that is in R as a whole gives SL_ERR_PIVOT. Only
+ *  null_tolerance decides which other pivots are null. The rest of F's options apply to G:
+ *  instruction set, null_tolerance, regularization with its signs, growth_limit, error_limit.
+ *
+ *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
+ *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
+ *  F      [in]   a factor of A.
+ *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
+ *                computed anew; its pattern is not compared with the analyzed one.
+ *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
+ *           SL_ERR_PATTERN: A has not the size or the number of entries of the analyzed matrix, or
+ *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
+ *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
+ *           pivots, several null vectors or L in float, or is a restriction itself;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     linear in the entries of A and the rows of supernodes in R, a copy of the kept entries
+ *           of L, and the flops of the other columns. For a patch of a mesh a little more than half
+ *           the time of analyzing and factoring A[R, R] in a given order. If nothing can be kept,
+ *           the time of its extraction more than that.
+ *  Threads  reads F; one thread.
+ *  Source   [HA18]
+ *  Example  tests/core/test_restrict.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G,
+                                                   const sl_factor *F, const sl_csc *A,
+                                                   const sl_int *rows, sl_int count,
+                                                   const sl_options *opt, sl_stats *stats);
+
+#endif
