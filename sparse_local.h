@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8575b164f220f552
+ * FNV-1a of the lines after this comment, without the license: 95df03a3ecbb2e69
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,74 +8,74 @@
  *    152 config.h     macros that a user may define before the include, the version, and the integer types
  *    231 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    383 options.h    options of all calls, threads, and the allocator
- *    520 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    673 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    845 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    971 factor.h     the numerical factorization P A P' = L D L'
- *   1218 solve.h      full solves, and the workspace of all solves
- *   1328 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1422 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1535 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1648 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1784 batch.h      many independent solves by one call, distributed over threads
- *   1834 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2012 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2131 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2235 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2374 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2492 change.h     a factor that follows small changes of its matrix
- *   2579 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2669 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2794 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *    521 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    674 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    846 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    972 factor.h     the numerical factorization P A P' = L D L'
+ *   1219 solve.h      full solves, and the workspace of all solves
+ *   1329 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1423 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1536 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1649 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1785 batch.h      many independent solves by one call, distributed over threads
+ *   1835 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2013 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2132 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2236 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2375 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2493 change.h     a factor that follows small changes of its matrix
+ *   2580 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2670 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2795 restrict.h   the factor of a principal submatrix, from that of the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2853 base.h   3078 status.h   3139 options.h   3197 alloc.h   3307 hash.h   3437 file_map.h
- *   3533 sort.h   3597 parallel.h
+ *   2854 base.h   3079 status.h   3140 options.h   3198 alloc.h   3308 hash.h   3438 file_map.h
+ *   3534 sort.h   3598 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3630 panel.h   3652 step.h   3693 pivot_rule.h   3760 front.h   3804 pairs.h
- *   4011 inverse_front.h   4083 table.h   4107 simd.h   4177 simd_scalar.h   4306 simd_avx2.h
- *   4507 simd_avx512.h   4616 simd_neon.h   4811 dispatch.h
+ *   3631 panel.h   3653 step.h   3694 pivot_rule.h   3761 front.h   3805 pairs.h
+ *   4012 inverse_front.h   4084 table.h   4108 simd.h   4178 simd_scalar.h   4307 simd_avx2.h
+ *   4508 simd_avx512.h   4617 simd_neon.h   4812 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4891 csc.h   5005 csc_build.h   5139 csc64.h   5210 csc_triangle.h   5276 csc_products.h
- *   5393 permute.h   5459 sum.h   5541 output_file.h   5750 matrix_market.h
+ *   4892 csc.h   5006 csc_build.h   5140 csc64.h   5211 csc_triangle.h   5277 csc_products.h
+ *   5394 permute.h   5460 sum.h   5542 output_file.h   5751 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6196 graph.h   6345 coarsen.h   6594 labels.h   6788 subgraph.h   6983 heap.h   7043 bisect.h
- *   7273 separator.h   7535 mindeg.h   7718 dissect.h   8032 levelset.h   8147 geometric.h
- *   8337 septree.h   8397 metis.h   8546 metis_refined.h   8660 nd.h   8852 compress.h
- *   8973 quotient.h   9387 order.h
+ *   6197 graph.h   6346 coarsen.h   6611 labels.h   6805 subgraph.h   7000 heap.h   7060 bisect.h
+ *   7290 separator.h   7552 mindeg.h   7735 dissect.h   8061 levelset.h   8180 geometric.h
+ *   8355 cells.h   8535 septree.h   8595 metis.h   8744 metis_refined.h   8858 nd.h
+ *   9050 compress.h   9171 quotient.h   9585 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9635 symbolic_types.h   9671 etree.h   9744 counts.h   9801 supernodes.h  10023 structure.h
- *  10144 schedule.h  10333 symbolic.h  10696 reach.h
+ *   9833 symbolic_types.h   9869 etree.h   9942 counts.h   9999 supernodes.h  10221 structure.h
+ *  10342 schedule.h  10531 symbolic.h  10894 reach.h
  * (factor: the numbers of L and D)
- *  10967 factor_types.h  11294 storage.h  11365 pivot_search.h  11711 pivoted.h  11779 scatter.h
- *  11937 uplooking.h  12009 null_product.h  12213 null_dense.h  12290 null_basis.h
- *  12612 null_vectors.h  12756 multifrontal.h  12992 nullspace.h  13192 growth.h
- *  13268 factor_setup.h  13560 factor.h  13766 leftlooking.h  13950 factor_query.h
- *  14085 combination.h
+ *  11165 factor_types.h  11492 storage.h  11563 pivot_search.h  11909 pivoted.h  11977 scatter.h
+ *  12135 uplooking.h  12207 null_product.h  12411 null_dense.h  12488 null_basis.h
+ *  12810 null_vectors.h  12954 multifrontal.h  13190 nullspace.h  13390 growth.h
+ *  13466 factor_setup.h  13758 factor.h  13964 leftlooking.h  14148 factor_query.h
+ *  14283 combination.h
  * (solve: full and local solves)
- *  14146 region_types.h  14250 work.h  14347 query.h  14521 singular.h  14788 backward.h
- *  14818 sweep.h  15004 compile.h  15197 plan.h  15304 local.h  15454 parts.h  15741 refine.h
- *  15920 refine_local.h  16135 rcond.h  16292 defects.h
+ *  14344 region_types.h  14448 work.h  14545 query.h  14719 singular.h  14986 backward.h
+ *  15016 sweep.h  15202 compile.h  15395 plan.h  15502 local.h  15652 parts.h  15939 refine.h
+ *  16118 refine_local.h  16333 rcond.h  16490 defects.h
  * (inverse: entries of the inverse, regions)
- *  16369 traversal.h  16614 traversal_run.h  16797 row_sets.h  16824 unit_vectors.h
- *  17049 bilinear.h  17226 entries.h  17507 block.h  17747 reserve.h  17939 selected.h
- *  18149 selected_query.h  18251 region_choose.h  18478 region.h
+ *  16567 traversal.h  16812 traversal_run.h  16995 row_sets.h  17022 unit_vectors.h
+ *  17247 bilinear.h  17424 entries.h  17705 block.h  17945 reserve.h  18137 selected.h
+ *  18347 selected_query.h  18449 region_choose.h  18676 region.h
  * (change: a factor that follows changes of its matrix)
- *  18726 update.h  19076 rank.h  19402 edges.h  19556 choose.h  19755 pins.h  20326 subset.h
- *  20433 restrict_analysis.h  20728 restrict_anew.h  20782 restrict_symbolic.h  20963 restrict.h
+ *  18924 update.h  19274 rank.h  19600 edges.h  19754 choose.h  19953 pins.h  20524 subset.h
+ *  20631 restrict_analysis.h  20926 restrict_anew.h  20980 restrict_symbolic.h  21161 restrict.h
  * (save: factors in files)
- *  21312 format.h  21601 decode.h  21745 check.h  22077 write.h  22378 load.h  22643 load_inverse.h
- *  22975 load_calls.h
+ *  21510 format.h  21799 decode.h  21943 check.h  22275 write.h  22576 load.h  22841 load_inverse.h
+ *  23173 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23174 batch_solve.h  23383 batch_factor.h  23584 batch_diagonal.h
+ *  23372 batch_solve.h  23581 batch_factor.h  23782 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  23724 hermitian.h  23869 complex_rows.h
+ *  23922 hermitian.h  24067 complex_rows.h
  * (last: undefine every internal macro)
- *  24037 undef.h
+ *  24235 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24196 multi_rhs.inl.h  24579 sweeps.inl.h  24581 unit_triangle.inl.h  24618 two_rhs.inl.h
- *  24787 small_supernode.inl.h  24946 single_rhs.inl.h  25190 kernel_set.inl.h  25192 product.inl.h
- *  25320 front.inl.h  25534 inverse_front.inl.h  25819 row.inl.h  25849 change.inl.h
+ *  24394 multi_rhs.inl.h  24777 sweeps.inl.h  24779 unit_triangle.inl.h  24816 two_rhs.inl.h
+ *  24985 small_supernode.inl.h  25144 single_rhs.inl.h  25388 kernel_set.inl.h  25390 product.inl.h
+ *  25518 front.inl.h  25732 inverse_front.inl.h  26017 row.inl.h  26047 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -443,7 +443,8 @@ typedef struct sl_options {
      * numbering and debug level are ignored */
     const sl_int *metis_options;
     /* n / block_size x dimensions, row-major: the position of each row in space, for
-     * SL_ORDERING_ND, which bisects space where that gives the better separator; NULL: unknown */
+     * SL_ORDERING_ND, which halves space in flat grids with diagonals, in half the time, and in
+     * volumes; other meshes are ordered as without; NULL: unknown */
     const double *coordinates;
     sl_int dimensions; /* of coordinates: 2 or 3 */
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
@@ -6354,6 +6355,11 @@ typedef struct sli_level {
   void *block;
 } sli_level;
 
+typedef struct sli_clusters {
+  sl_int *member;
+  sl_int *start;
+} sli_clusters;
+
 #define SLI_COARSEN_STALL 0.95
 #define SLI_LEVELS_MAX 64
 
@@ -6444,34 +6450,40 @@ static sl_int sli_match_two_hop(const sli_level *g, sl_int heaviest, sl_int *mat
   return pairs;
 }
 
-static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
-  sl_int v, count = 0;
+static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate, sli_clusters *clusters) {
+  sl_int v, count = 0, members = 0;
   for (v = 0; v < g->n; v++) {
     const sl_int u = mate[v];
-    g->coarse[v] = u == -1 || v <= u ? count++ : g->coarse[u];
+    if (u != -1 && u < v) {
+      continue;
+    }
+    g->coarse[v] = count;
+    clusters->start[count++] = members;
+    clusters->member[members++] = v;
+    if (u > v) {
+      g->coarse[u] = g->coarse[v];
+      clusters->member[members++] = u;
+    }
   }
+  clusters->start[count] = members;
   return count;
 }
 
-static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, sl_off *at) {
-  sl_int v, k, member[2];
+static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
+             sl_off *at) {
+  sl_int k, m;
   sl_off e, count = 0;
   for (k = 0; k < c->n; k++) {
     at[k] = -1;
   }
-  for (v = 0, k = 0; v < g->n; v++) {
+  for (k = 0; k < c->n; k++) {
     const sl_off first = count;
-    int m;
-    if (mate[v] != -1 && mate[v] < v) {
-      continue;
-    }
-    member[0] = v;
-    member[1] = mate[v];
     c->begin[k] = first;
     c->weight[k] = 0;
-    for (m = 0; m < 2 && member[m] != -1; m++) {
-      c->weight[k] += sli_level_weight(g, member[m]);
-      for (e = g->begin[member[m]]; e < g->begin[member[m] + 1]; e++) {
+    for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
+      const sl_int v = clusters->member[m];
+      c->weight[k] += sli_level_weight(g, v);
+      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int u = g->coarse[g->to[e]];
         if (u == k) {
           continue;
@@ -6485,16 +6497,34 @@ static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, s
         }
       }
     }
-    k++;
   }
   c->begin[k] = count;
 }
 
-static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
-               sl_off *at, int *shrunk, const sl_allocator *a) {
+static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
+                    sli_level *c, sl_off *at, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
+  c->n = n;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
+    c->weight = SLI_TAKE(&b, sl_int, n);
+    c->coarse = SLI_TAKE(&b, sl_int, n);
+    c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+    c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  c->block = b.base;
+  if (status == SL_OK) {
+    sli_contract(g, clusters, c, at);
+  }
+  return status;
+}
+
+static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
+               sli_clusters *clusters, sl_off *at, int *shrunk,
+               const sl_allocator *a) {
   sl_int pairs = sli_match(g, heaviest, mate);
   if (pairs < g->n / 4) {
     pairs += sli_match_two_hop(g, heaviest, mate);
@@ -6504,20 +6534,7 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
   if (!*shrunk) {
     return SL_OK;
   }
-  c->n = sli_number_pairs(g, mate);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    c->begin = SLI_TAKE(&b, sl_off, (size_t)c->n + 1);
-    c->weight = SLI_TAKE(&b, sl_int, c->n);
-    c->coarse = SLI_TAKE(&b, sl_int, c->n);
-    c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-    c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  c->block = b.base;
-  if (status == SL_OK) {
-    sli_contract(g, mate, c, at);
-  }
-  return status;
+  return sli_coarsen_clusters(g, sli_number_pairs(g, mate, clusters), clusters, c, at, a);
 }
 
 typedef struct sli_edge_weights {
@@ -7919,26 +7936,30 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
   sli_weigh_edges(d->levels, l, &w);
 }
 
-static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
+static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
   const sl_int n = d->levels[0].n,
          enough = sli_min(SLI_DISSECT_BISECT_MIN, n / SLI_DISSECT_SHRINK);
   int shrunk = 1;
   sl_status status = SL_OK;
+  sli_clusters clusters;
+  clusters.member = d->other;
+  clusters.start = d->begin;
   *working = -1;
-  d->n_levels = 1;
   for (;;) {
     const int last = d->n_levels - 1;
     const sli_level *g = &d->levels[last];
     const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
     if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
       *working = last;
-      sli_dissect_weigh(d, last);
+      if (weigh) {
+        sli_dissect_weigh(d, last);
+      }
     }
     if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
       break;
     }
-    status =
-      sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, d->next, &shrunk, d->a);
+    status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, d->next,
+               &shrunk, d->a);
     if (status != SL_OK || !shrunk) {
       break;
     }
@@ -7956,27 +7977,35 @@ static void sli_dissect_free_levels(sli_dissection *d) {
   d->n_levels = 1;
 }
 
-static sl_status sli_dissect_multilevel(sli_dissection *d) {
+static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
   int working;
-  sl_status status = sli_dissect_coarsen(d, &working);
-  if (status == SL_OK) {
-    d->level = d->n_levels - 1;
-    sli_dissect_start(d);
-    for (;;) {
-      while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
-      }
-      if (d->level == working) {
-        break;
-      }
-      sli_dissect_project(d);
-      sli_dissect_refine(d);
+  const sl_status status = sli_dissect_coarsen(d, weigh, &working);
+  if (status != SL_OK) {
+    return status;
+  }
+  d->level = d->n_levels - 1;
+  sli_dissect_start(d);
+  for (;;) {
+    while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
     }
-    while (d->level > 0) {
-      sli_dissect_project(d);
+    if (d->level == working) {
+      break;
     }
+    sli_dissect_project(d);
+    sli_dissect_refine(d);
+  }
+  return d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+}
+
+static sl_status sli_dissect_multilevel(sli_dissection *d) {
+  sl_status status;
+  d->n_levels = 1;
+  status = sli_dissect_levels(d, 1);
+  while (status == SL_OK && d->level > 0) {
+    sli_dissect_project(d);
   }
   sli_dissect_free_levels(d);
-  return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+  return status;
 }
 
 typedef struct sli_tree_cost {
@@ -8128,11 +8157,15 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
 
 #define SLI_VOLUME_BORDER 5
 
+SLI_INLINE int sli_dissect_may_be_volume(const sli_dissection *d) {
+  return sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d), SLI_VOLUME_BORDER,
+              d->levels[0].n);
+}
+
 static sl_status sli_dissect_graph(sli_dissection *d) {
   sli_tree_cost multilevel, flat;
   sl_status status = sli_dissect_multilevel(d);
-  if (status != SL_OK || !sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d),
-                       SLI_VOLUME_BORDER, d->levels[0].n)) {
+  if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
     return status;
   }
   multilevel = sli_dissect_cost(d, &flat);
@@ -8170,6 +8203,7 @@ static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0
 
 #define SLI_POINTS_MANY 16384
 #define SLI_POINTS_TRIED 512
+#define SLI_POINTS_FEW 128
 
 SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction) {
   const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
@@ -8181,7 +8215,7 @@ SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction)
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                int64_t *spread) {
   static const int sli_axes[3] = {0, 1, 4};
-  const sl_int step = count / SLI_POINTS_TRIED + 1;
+  const sl_int step = count / SLI_POINTS_FEW + 1;
   sl_int axis, k;
   int best = 0;
   *spread = -1;
@@ -8275,29 +8309,11 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
   return best;
 }
 
-static void sli_dissect_points(sli_dissection *d, const sli_points *points,
-                 sli_projection *projections) {
-  const sl_int n = d->levels[0].n;
-  sl_int *begin = d->begin, *end = d->nodes, node, k;
-  d->level = 0;
-  sli_dissect_start(d);
-  for (k = 0; k < n; k++) {
-    d->order[k] = k;
-  }
-  begin[0] = 0;
-  end[0] = n;
-  for (node = 0; node < d->tree.count; node++) {
-    const sl_int first = begin[node], count = end[node] - first;
-    sl_int *vertices = d->order + first;
-    int direction;
-    d->tree.weight[node] = count;
-    if (count <= d->leaf_size || d->tree.count >= d->tree.room - 1) {
-      for (k = 0; k < count; k++) {
-        d->label[vertices[k]] = node;
-      }
-      continue;
-    }
-    direction = sli_points_direction(points, vertices, count, projections);
+static void sli_points_sort(const sli_points *points, sl_int *vertices, sl_int count, sl_int small,
+              sli_projection *projections) {
+  while (count > small) {
+    const int direction = sli_points_direction(points, vertices, count, projections);
+    sl_int k;
     for (k = 0; k < count; k++) {
       projections[k].x = sli_point_along(points, vertices[k], direction);
       projections[k].v = vertices[k];
@@ -8305,6 +8321,28 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
     sli_projection_halve(projections, count);
     for (k = 0; k < count; k++) {
       vertices[k] = projections[k].v;
+    }
+    sli_points_sort(points, vertices, count / 2, small, projections);
+    vertices += count / 2;
+    count -= count / 2;
+  }
+}
+
+static void sli_dissect_points(sli_dissection *d, const sl_int *sorted, sl_int leaf) {
+  const sl_int n = d->levels[0].n;
+  sl_int *begin = d->begin, *end = d->nodes, node, k;
+  d->level = 0;
+  sli_dissect_start(d);
+  begin[0] = 0;
+  end[0] = n;
+  for (node = 0; node < d->tree.count; node++) {
+    const sl_int first = begin[node], count = end[node] - first;
+    d->tree.weight[node] = count;
+    if (count <= leaf || d->tree.count >= d->tree.room - 1) {
+      for (k = first; k < end[node]; k++) {
+        d->label[sorted[k]] = node;
+      }
+      continue;
     }
     sli_label_tree_split(&d->tree, node);
     begin[d->tree.left[node]] = first;
@@ -8314,23 +8352,183 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
-#define SLI_FLAT_ENOUGH 110
+/* src/impl/ordering/cells.h: are halves of space as good subgraphs as any? decided in a coarse graph of cells */
+
+#define SLI_CELLS 1024
+#define SLI_CELL_LEAST 64
+#define SLI_CELLS_DEPTH 3
+
+#define SLI_CELLS_SHARE 4
+
+#define SLI_CELLS_AS_GOOD 105
+
+#define SLI_CELLS_FLAT 110
+
+#define SLI_LATTICE_SHARE 75
+#define SLI_LATTICE_DEGREE 6
+#define SLI_LATTICE_DEGREES 32
+
+static int sli_is_lattice(const sli_level *g) {
+  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
+  for (v = 0; v < g->n; v++) {
+    const sl_off degree = g->begin[v + 1] - g->begin[v];
+    if (degree >= SLI_LATTICE_DEGREE && degree < SLI_LATTICE_DEGREES) {
+      count[degree]++;
+      most = sli_max(most, count[degree]);
+    }
+  }
+  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
+}
+
+static sl_int sli_cells_find(const sli_level *g, const sl_int *sorted, sl_int most, sl_int *cell,
+               sli_clusters *parts) {
+  sl_int end[SLI_LEVELS_MAX], depth = 1, first = 0, k, count = 0, head = 0, tail = 0;
+  sl_off e;
+  end[0] = g->n;
+  while (depth > 0) {
+    const sl_int size = end[depth - 1] - first;
+    if (size > most) {
+      end[depth++] = first + size / 2;
+      continue;
+    }
+    for (k = first; k < first + size; k++) {
+      cell[sorted[k]] = first;
+      g->coarse[sorted[k]] = -1;
+    }
+    first = end[--depth];
+  }
+  for (k = 0; k < g->n; k++) {
+    if (g->coarse[sorted[k]] != -1) {
+      continue;
+    }
+    parts->start[count] = tail;
+    g->coarse[sorted[k]] = count;
+    parts->member[tail++] = sorted[k];
+    for (; head < tail; head++) {
+      const sl_int v = parts->member[head];
+      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int u = g->to[e];
+        if (g->coarse[u] == -1 && cell[u] == cell[v]) {
+          g->coarse[u] = count;
+          parts->member[tail++] = u;
+        }
+      }
+    }
+    count++;
+  }
+  parts->start[count] = tail;
+  return count;
+}
+
+static sli_tree_cost sli_cells_cost(sli_dissection *d, const sl_int *label, sli_tree_cost *flat) {
+  const sli_level *g = &d->levels[1];
+  const sl_int n = d->levels[0].n;
+  const sl_off edges = d->levels[0].begin[n] / 2;
+  const uint64_t across = (uint64_t)(edges - n > n / 2 ? edges - n : n / 2);
+  sli_tree_cost cost = {0, 0};
+  sl_int *cut = d->nodes, k;
+  sl_off e;
+  memset(cut, 0, (size_t)d->tree.count * sizeof(sl_int));
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      if (label[k] < label[g->to[e]]) {
+        cut[sli_label_tree_lca(&d->tree, label[k], label[g->to[e]])] += g->edge[e];
+      }
+    }
+  }
+  *flat = cost;
+  for (k = 0; k < d->tree.count; k++) {
+    const uint64_t weight = (uint64_t)d->tree.weight[k];
+    const uint64_t border = (uint64_t)cut[k] * (uint64_t)n / across;
+    if (!sli_label_tree_is_leaf(&d->tree, k)) {
+      sli_tree_cost_add(&cost, weight * border, border);
+      sli_tree_cost_add(flat, weight, weight);
+    }
+  }
+  return cost;
+}
+
+static sl_status sli_cells_compare(sli_dissection *d, const sl_int *sorted, int *is_good) {
+  const sl_int n = d->levels[0].n, leaf = d->leaf_size;
+  sl_int k, top = n;
+  sli_tree_cost halves, graph, flat;
+  sl_status status;
+  for (k = 0; k < SLI_CELLS_DEPTH && top > leaf; k++) {
+    top = top / 2 + 1;
+  }
+  sli_dissect_points(d, sorted, top);
+  for (k = 0; k < n; k++) {
+    d->other[d->levels[0].coarse[k]] = d->label[k];
+  }
+  halves = sli_cells_cost(d, d->other, &flat);
+  *is_good = !sli_tree_cost_is_less(sli_tree_cost_times(flat, SLI_CELLS_FLAT),
+                    sli_tree_cost_times(halves, 100));
+  if (!*is_good) {
+    return SL_OK;
+  }
+  d->leaf_size = top;
+  status = sli_dissect_levels(d, 0);
+  d->leaf_size = leaf;
+  if (status == SL_OK) {
+    graph = sli_cells_cost(d, d->label, &flat);
+    *is_good = !sli_tree_cost_is_less(sli_tree_cost_times(graph, SLI_CELLS_AS_GOOD),
+                      sli_tree_cost_times(halves, 100));
+  }
+  return status;
+}
+
+static sl_status sli_dissect_try_points(sli_dissection *d, const sl_int *sorted, sl_int cell,
+                    int *is_good) {
+  const sli_level *g = &d->levels[0];
+  sli_clusters parts;
+  sl_int count;
+  sl_status status;
+  parts.member = d->other;
+  parts.start = d->begin;
+  *is_good = 0;
+  count = sli_cells_find(g, sorted, cell, d->label, &parts);
+  if (count > g->n / SLI_CELLS_SHARE) {
+    return SL_OK;
+  }
+  status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], d->next, d->a);
+  if (status == SL_OK) {
+    d->n_levels = 2;
+    status = sli_cells_compare(d, sorted, is_good);
+    sli_dissect_free_levels(d);
+  }
+  return status;
+}
 
 static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
                      sli_projection *projections) {
-  sli_tree_cost cost, flat;
+  const sl_int n = d->levels[0].n, cell = sli_max(SLI_CELL_LEAST, n / SLI_CELLS);
+  sl_int *sorted = (sl_int *)(void *)projections, k;
+  sli_tree_cost graph, flat;
   sl_status status;
-  sli_dissect_points(d, points, projections);
-  cost = sli_dissect_cost(d, &flat);
-  if (sli_tree_cost_is_less(sli_tree_cost_times(cost, 100),
-                sli_tree_cost_times(flat, SLI_FLAT_ENOUGH))) {
-    d->band_growth = 0;
-    return SL_OK;
+  int is_good;
+  if (!sli_is_lattice(&d->levels[0])) {
+    return sli_dissect_graph(d);
   }
-  status = sli_dissect_graph(d);
-  if (status == SL_OK && sli_tree_cost_is_less(cost, sli_dissect_cost(d, &flat))) {
-    sli_dissect_points(d, points, projections);
+  for (k = 0; k < n; k++) {
+    d->order[k] = k;
   }
+  sli_points_sort(points, d->order, n, sli_min(cell, d->leaf_size), projections);
+  memcpy(sorted, d->order, (size_t)n * sizeof(sl_int));
+  status = sli_dissect_try_points(d, sorted, cell, &is_good);
+  if (status == SL_OK && !is_good) {
+    status = sli_dissect_graph(d);
+    if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
+      return status;
+    }
+    graph = sli_dissect_cost(d, &flat);
+    sli_dissect_points(d, sorted, d->leaf_size);
+    if (!sli_tree_cost_is_less(sli_dissect_cost(d, &flat), graph)) {
+      return sli_dissect_graph(d);
+    }
+  } else if (status == SL_OK) {
+    sli_dissect_points(d, sorted, d->leaf_size);
+  }
+  d->band_growth = 0;
   return status;
 }
 

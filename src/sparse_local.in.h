@@ -82,6 +82,7 @@ extern "C" {
 #include "impl/ordering/dissect.h"
 #include "impl/ordering/levelset.h"
 #include "impl/ordering/geometric.h"
+#include "impl/ordering/cells.h"
 #include "impl/ordering/septree.h"
 #include "impl/ordering/metis.h"
 #include "impl/ordering/metis_refined.h"

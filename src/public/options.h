@@ -65,7 +65,8 @@ typedef struct sl_options {
      * numbering and debug level are ignored */
     const sl_int *metis_options;
     /* n / block_size x dimensions, row-major: the position of each row in space, for
-     * SL_ORDERING_ND, which bisects space where that gives the better separator; NULL: unknown */
+     * SL_ORDERING_ND, which halves space in flat grids with diagonals, in half the time, and in
+     * volumes; other meshes are ordered as without; NULL: unknown */
     const double *coordinates;
     sl_int dimensions; /* of coordinates: 2 or 3 */
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a

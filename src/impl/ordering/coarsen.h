@@ -18,6 +18,13 @@ typedef struct sli_level {
     void *block;    /* the allocation that holds all arrays */
 } sli_level;
 
+/* The vertices of each cluster, a vertex of the next coarser level: those of cluster k are
+ * member[start[k]] .. member[start[k + 1] - 1]. */
+typedef struct sli_clusters {
+    sl_int *member; /* as many as vertices */
+    sl_int *start;  /* one more than vertices */
+} sli_clusters;
+
 /* Coarsening stops when a level would keep more than this share of the vertices: such a level does
  * not repay a pass over it. */
 #define SLI_COARSEN_STALL 0.95
@@ -119,37 +126,43 @@ static sl_int sli_match_two_hop(const sli_level *g, sl_int heaviest, sl_int *mat
     return pairs;
 }
 
-/* Numbers the pairs and the single vertices in the order of their first members. Returns how many
- * there are. */
-static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate) {
-    sl_int v, count = 0;
+/* Numbers the pairs and the single vertices in the order of their first members, which become
+ * clusters. Returns how many there are. */
+static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate, sli_clusters *clusters) {
+    sl_int v, count = 0, members = 0;
     for (v = 0; v < g->n; v++) {
         const sl_int u = mate[v];
-        g->coarse[v] = u == -1 || v <= u ? count++ : g->coarse[u];
+        if (u != -1 && u < v) {
+            continue;
+        }
+        g->coarse[v] = count;
+        clusters->start[count++] = members;
+        clusters->member[members++] = v;
+        if (u > v) {
+            g->coarse[u] = g->coarse[v];
+            clusters->member[members++] = u;
+        }
     }
+    clusters->start[count] = members;
     return count;
 }
 
 /* Fills c, whose arrays have room, with the contracted graph. at: c->n of scratch. */
-static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, sl_off *at) {
-    sl_int v, k, member[2];
+static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
+                         sl_off *at) {
+    sl_int k, m;
     sl_off e, count = 0;
     for (k = 0; k < c->n; k++) {
         at[k] = -1;
     }
-    for (v = 0, k = 0; v < g->n; v++) {
+    for (k = 0; k < c->n; k++) {
         const sl_off first = count;
-        int m;
-        if (mate[v] != -1 && mate[v] < v) {
-            continue;
-        }
-        member[0] = v;
-        member[1] = mate[v];
         c->begin[k] = first;
         c->weight[k] = 0;
-        for (m = 0; m < 2 && member[m] != -1; m++) {
-            c->weight[k] += sli_level_weight(g, member[m]);
-            for (e = g->begin[member[m]]; e < g->begin[member[m] + 1]; e++) {
+        for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
+            const sl_int v = clusters->member[m];
+            c->weight[k] += sli_level_weight(g, v);
+            for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
                 const sl_int u = g->coarse[g->to[e]];
                 if (u == k) {
                     continue;
@@ -163,18 +176,37 @@ static void sli_contract(const sli_level *g, const sl_int *mate, sli_level *c, s
                 }
             }
         }
-        k++;
     }
     c->begin[k] = count;
+}
+
+/* Makes the coarser level of n clusters. at: n of scratch. */
+static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
+                                      sli_level *c, sl_off *at, const sl_allocator *a) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    c->n = n;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
+        c->weight = SLI_TAKE(&b, sl_int, n);
+        c->coarse = SLI_TAKE(&b, sl_int, n);
+        c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+        c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    c->block = b.base;
+    if (status == SL_OK) {
+        sli_contract(g, clusters, c, at);
+    }
+    return status;
 }
 
 /* Makes the next coarser level. mate, at: g->n of scratch. *shrunk := whether the level is small
  * enough to be used; c is empty if not. */
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
-                             sl_off *at, int *shrunk, const sl_allocator *a) {
-    sli_block b = {NULL, 0, 0};
-    sl_status status = SL_OK;
-    int pass;
+                             sli_clusters *clusters, sl_off *at, int *shrunk,
+                             const sl_allocator *a) {
     sl_int pairs = sli_match(g, heaviest, mate);
     if (pairs < g->n / 4) {
         pairs += sli_match_two_hop(g, heaviest, mate);
@@ -184,20 +216,7 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
     if (!*shrunk) {
         return SL_OK;
     }
-    c->n = sli_number_pairs(g, mate);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        c->begin = SLI_TAKE(&b, sl_off, (size_t)c->n + 1);
-        c->weight = SLI_TAKE(&b, sl_int, c->n);
-        c->coarse = SLI_TAKE(&b, sl_int, c->n);
-        c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-        c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    c->block = b.base;
-    if (status == SL_OK) {
-        sli_contract(g, mate, c, at);
-    }
-    return status;
+    return sli_coarsen_clusters(g, sli_number_pairs(g, mate, clusters), clusters, c, at, a);
 }
 
 /* Scratch for weighing the edges of a level. to, count: room for the finest edges; start: n + 1;

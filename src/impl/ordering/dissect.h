@@ -232,14 +232,17 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
     sli_weigh_edges(d->levels, l, &w);
 }
 
-/* Makes the coarser levels. *working := the finest level on which leaves are bisected. */
-static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
+/* Makes the coarser levels, in addition to those that there are. *working := the finest level on
+ * which leaves are bisected. weigh: its edges become what a separator costs. */
+static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
     const sl_int n = d->levels[0].n,
                  enough = sli_min(SLI_DISSECT_BISECT_MIN, n / SLI_DISSECT_SHRINK);
     int shrunk = 1;
     sl_status status = SL_OK;
+    sli_clusters clusters;
+    clusters.member = d->other;
+    clusters.start = d->begin;
     *working = -1;
-    d->n_levels = 1;
     for (;;) {
         const int last = d->n_levels - 1;
         const sli_level *g = &d->levels[last];
@@ -248,13 +251,15 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
         if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
             *working = last;
-            sli_dissect_weigh(d, last);
+            if (weigh) {
+                sli_dissect_weigh(d, last);
+            }
         }
         if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
             break;
         }
-        status =
-            sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, d->next, &shrunk, d->a);
+        status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, d->next,
+                             &shrunk, d->a);
         if (status != SL_OK || !shrunk) {
             break;
         }
@@ -272,29 +277,39 @@ static void sli_dissect_free_levels(sli_dissection *d) {
     d->n_levels = 1;
 }
 
-/* Builds the separator tree: each leaf is bisected on the coarsest level on which it is large
- * enough, and its border is then refined from level to level. */
-static sl_status sli_dissect_multilevel(sli_dissection *d) {
+/* Builds the separator tree on the finest level that has few enough vertices, in addition to the
+ * levels that there are: each leaf is bisected on the coarsest level on which it is large enough,
+ * and its border is then refined from level to level. weigh: see sli_dissect_coarsen. */
+static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
     int working;
-    sl_status status = sli_dissect_coarsen(d, &working);
-    if (status == SL_OK) {
-        d->level = d->n_levels - 1;
-        sli_dissect_start(d);
-        for (;;) {
-            while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
-            }
-            if (d->level == working) {
-                break;
-            }
-            sli_dissect_project(d);
-            sli_dissect_refine(d);
+    const sl_status status = sli_dissect_coarsen(d, weigh, &working);
+    if (status != SL_OK) {
+        return status;
+    }
+    d->level = d->n_levels - 1;
+    sli_dissect_start(d);
+    for (;;) {
+        while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
         }
-        while (d->level > 0) {
-            sli_dissect_project(d);
+        if (d->level == working) {
+            break;
         }
+        sli_dissect_project(d);
+        sli_dissect_refine(d);
+    }
+    return d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+}
+
+/* Finds labels of the finest level by levels of matched vertices. */
+static sl_status sli_dissect_multilevel(sli_dissection *d) {
+    sl_status status;
+    d->n_levels = 1;
+    status = sli_dissect_levels(d, 1);
+    while (status == SL_OK && d->level > 0) {
+        sli_dissect_project(d);
     }
     sli_dissect_free_levels(d);
-    return status != SL_OK ? status : d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+    return status;
 }
 
 /* An estimate of cost, exact: high * 2^32 + low, with low < 2^32. */

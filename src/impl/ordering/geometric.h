@@ -30,10 +30,11 @@ static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0
                                                  {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
                                                  {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
 
-/* Subgraphs of at least MANY vertices choose their direction, by a sample of about TRIED points;
- * smaller ones are bisected across their longest axis. */
+/* Subgraphs of at least MANY vertices choose their direction, by a sample of TRIED points; smaller
+ * ones are bisected across their longest axis, by a sample of about FEW. */
 #define SLI_POINTS_MANY 16384
 #define SLI_POINTS_TRIED 512
+#define SLI_POINTS_FEW 128
 
 /* The coordinate of v along a direction, which has length 1 or, for a diagonal, sqrt(2). */
 SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction) {
@@ -44,11 +45,11 @@ SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction)
 }
 
 /* The axis along which the vertices have the largest extent, and *spread := that extent, from a
- * sample of about SLI_POINTS_TRIED vertices. */
+ * sample of about SLI_POINTS_FEW vertices. */
 static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
                            int64_t *spread) {
     static const int sli_axes[3] = {0, 1, 4};
-    const sl_int step = count / SLI_POINTS_TRIED + 1;
+    const sl_int step = count / SLI_POINTS_FEW + 1;
     sl_int axis, k;
     int best = 0;
     *spread = -1;
@@ -148,31 +149,13 @@ static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_
     return best;
 }
 
-/* Finds labels by halves of space, down to the size of leaves. The vertices of a node are
- * consecutive in d->order. projections: n of scratch. */
-static void sli_dissect_points(sli_dissection *d, const sli_points *points,
-                               sli_projection *projections) {
-    const sl_int n = d->levels[0].n;
-    sl_int *begin = d->begin, *end = d->nodes, node, k;
-    d->level = 0;
-    sli_dissect_start(d);
-    for (k = 0; k < n; k++) {
-        d->order[k] = k;
-    }
-    begin[0] = 0;
-    end[0] = n;
-    for (node = 0; node < d->tree.count; node++) { /* tree.count grows in the loop */
-        const sl_int first = begin[node], count = end[node] - first;
-        sl_int *vertices = d->order + first;
-        int direction;
-        d->tree.weight[node] = count;
-        if (count <= d->leaf_size || d->tree.count >= d->tree.room - 1) {
-            for (k = 0; k < count; k++) {
-                d->label[vertices[k]] = node;
-            }
-            continue;
-        }
-        direction = sli_points_direction(points, vertices, count, projections);
+/* Sorts vertices so that each half of a range, of each half again, and so on down to ranges of at
+ * most `small` vertices, is a half of space. projections: count of scratch. */
+static void sli_points_sort(const sli_points *points, sl_int *vertices, sl_int count, sl_int small,
+                            sli_projection *projections) {
+    while (count > small) {
+        const int direction = sli_points_direction(points, vertices, count, projections);
+        sl_int k;
         for (k = 0; k < count; k++) {
             projections[k].x = sli_point_along(points, vertices[k], direction);
             projections[k].v = vertices[k];
@@ -181,36 +164,35 @@ static void sli_dissect_points(sli_dissection *d, const sli_points *points,
         for (k = 0; k < count; k++) {
             vertices[k] = projections[k].v;
         }
+        sli_points_sort(points, vertices, count / 2, small, projections);
+        vertices += count / 2;
+        count -= count / 2;
+    }
+}
+
+/* Finds labels from vertices sorted by sli_points_sort, down to leaves of at most `leaf`. */
+static void sli_dissect_points(sli_dissection *d, const sl_int *sorted, sl_int leaf) {
+    const sl_int n = d->levels[0].n;
+    sl_int *begin = d->begin, *end = d->nodes, node, k;
+    d->level = 0;
+    sli_dissect_start(d);
+    begin[0] = 0;
+    end[0] = n;
+    for (node = 0; node < d->tree.count; node++) { /* tree.count grows in the loop */
+        const sl_int first = begin[node], count = end[node] - first;
+        d->tree.weight[node] = count;
+        if (count <= leaf || d->tree.count >= d->tree.room - 1) {
+            for (k = first; k < end[node]; k++) {
+                d->label[sorted[k]] = node;
+            }
+            continue;
+        }
         sli_label_tree_split(&d->tree, node);
         begin[d->tree.left[node]] = first;
         end[d->tree.left[node]] = begin[d->tree.right[node]] = first + count / 2;
         end[d->tree.right[node]] = first + count;
     }
     sli_label_tree_number(&d->tree, n, d->label);
-}
-
-/* A tree that costs less than this percentage of a flat square grid is taken without comparison.
- * Flat grids have 90 to 106; surfaces have 200 and more, because a plane cuts several sheets. */
-#define SLI_FLAT_ENOUGH 110
-
-/* Finds labels by coordinates. They are used if their estimated cost is that of a flat mesh, or
- * lower than that of the labels found without coordinates; otherwise the latter are used. */
-static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
-                                       sli_projection *projections) {
-    sli_tree_cost cost, flat;
-    sl_status status;
-    sli_dissect_points(d, points, projections);
-    cost = sli_dissect_cost(d, &flat);
-    if (sli_tree_cost_is_less(sli_tree_cost_times(cost, 100),
-                              sli_tree_cost_times(flat, SLI_FLAT_ENOUGH))) {
-        d->band_growth = 0;
-        return SL_OK;
-    }
-    status = sli_dissect_graph(d);
-    if (status == SL_OK && sli_tree_cost_is_less(cost, sli_dissect_cost(d, &flat))) {
-        sli_dissect_points(d, points, projections);
-    }
-    return status;
 }
 
 #endif

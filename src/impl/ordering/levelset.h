@@ -113,14 +113,18 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
  * may be a volume. */
 #define SLI_VOLUME_BORDER 5
 
+SLI_INLINE int sli_dissect_may_be_volume(const sli_dissection *d) {
+    return sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d), SLI_VOLUME_BORDER,
+                            d->levels[0].n);
+}
+
 /* Finds labels by multilevel dissection. In graphs that may be volumes, level sets are tried too
  * and taken if they are estimated to be cheaper: in a 7-point grid they are diagonal planes, and
  * the largest has 3/4 of the vertices of a straight plane. */
 static sl_status sli_dissect_graph(sli_dissection *d) {
     sli_tree_cost multilevel, flat;
     sl_status status = sli_dissect_multilevel(d);
-    if (status != SL_OK || !sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d),
-                                             SLI_VOLUME_BORDER, d->levels[0].n)) {
+    if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
         return status;
     }
     multilevel = sli_dissect_cost(d, &flat);

@@ -3,7 +3,7 @@
 #define SLI_ORDERING_ND_H
 
 #include "graph.h"
-#include "geometric.h"
+#include "cells.h"
 #include "septree.h"
 #include "metis_refined.h"
 
