@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 95df03a3ecbb2e69
+ * FNV-1a of the lines after this comment, without the license: d2374a96b982f10c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,18 +64,18 @@
  *  18924 update.h  19274 rank.h  19600 edges.h  19754 choose.h  19953 pins.h  20524 subset.h
  *  20631 restrict_analysis.h  20926 restrict_anew.h  20980 restrict_symbolic.h  21161 restrict.h
  * (save: factors in files)
- *  21510 format.h  21799 decode.h  21943 check.h  22275 write.h  22576 load.h  22841 load_inverse.h
- *  23173 load_calls.h
+ *  21510 format.h  21806 decode.h  21952 check.h  22284 write.h  22587 load.h  22855 load_inverse.h
+ *  23187 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23372 batch_solve.h  23581 batch_factor.h  23782 batch_diagonal.h
+ *  23386 batch_solve.h  23595 batch_factor.h  23796 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  23922 hermitian.h  24067 complex_rows.h
+ *  23936 hermitian.h  24081 complex_rows.h
  * (last: undefine every internal macro)
- *  24235 undef.h
+ *  24249 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24394 multi_rhs.inl.h  24777 sweeps.inl.h  24779 unit_triangle.inl.h  24816 two_rhs.inl.h
- *  24985 small_supernode.inl.h  25144 single_rhs.inl.h  25388 kernel_set.inl.h  25390 product.inl.h
- *  25518 front.inl.h  25732 inverse_front.inl.h  26017 row.inl.h  26047 change.inl.h
+ *  24408 multi_rhs.inl.h  24791 sweeps.inl.h  24793 unit_triangle.inl.h  24830 two_rhs.inl.h
+ *  24999 small_supernode.inl.h  25158 single_rhs.inl.h  25402 kernel_set.inl.h  25404 product.inl.h
+ *  25532 front.inl.h  25746 inverse_front.inl.h  26031 row.inl.h  26061 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21509,7 +21509,8 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
 /* save: factors in files */
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
-#define SLI_READ_VERSION 1
+#define SLI_READ_VERSION 2
+#define SLI_READ_VERSION_DOUBLE 1
 #define SLI_WRITE_VERSION 2
 #define SLI_WRITE_VERSION_PLAIN 1
 #define SLI_ORDER_MARK 0x01020304u
@@ -21566,7 +21567,8 @@ typedef struct sli_saved_factor {
   double null_tolerance, regularization, consistency, growth_limit, error_limit;
   uint64_t identity[2];
   int64_t null_vectors;
-  uint64_t reserved[6];
+  int64_t storage;
+  uint64_t reserved[5];
 } sli_saved_factor;
 
 typedef struct sli_saved_part {
@@ -21675,7 +21677,12 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   SLI_ADD(8, mass, weighted, weighted);
   SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
   SLI_ADD(8, ratios, trees, anchors);
-  SLI_ADD(8, values, panels, panels);
+  if (g->storage == SL_STORAGE_FLOAT) {
+    SLI_ADD(8, values, 0, 0);
+    SLI_ADD(4, values, panels, panels);
+  } else {
+    SLI_ADD(8, values, panels, panels);
+  }
 #undef SLI_ADD
 }
 
@@ -21904,12 +21911,14 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
     !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
     !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
+    !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
     g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
     return 0;
   }
   F->S = S;
   F->analysis = S->identity;
   F->method = (sl_method)g->method;
+  F->storage = (sl_storage)g->storage;
   F->null_pivots = (sl_null_pivots)g->null_pivots;
   F->checks = (int)g->checks;
   F->is_centered = (int)g->is_centered;
@@ -22333,6 +22342,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.identity[0] = F->identity.a;
   g.identity[1] = F->identity.b;
   g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
+  g.storage = F->storage;
   return g;
 }
 
@@ -22447,13 +22457,14 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   if (status != SL_OK) {
     return status;
   }
-  if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
-    return SL_ERR_UNSUPPORTED;
-  }
   memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
   f->header.order_mark = SLI_ORDER_MARK;
-  f->header.read_version = SLI_READ_VERSION;
+  f->header.read_version = SLI_READ_VERSION_DOUBLE;
   f->header.write_version = SLI_WRITE_VERSION_PLAIN;
+  if (F != NULL && F->storage == SL_STORAGE_FLOAT) {
+    f->header.read_version = SLI_READ_VERSION;
+    f->header.write_version = SLI_WRITE_VERSION;
+  }
   f->analysis = sli_saved_analysis_of(set->symbolic);
   if (F != NULL) {
     f->factor = sli_saved_factor_of(F);
@@ -22721,6 +22732,9 @@ static sl_status sli_read_front(sli_reading *r) {
       return status != SL_OK ? status : SL_ERR_IO;
     }
   }
+  if ((r->F.storage == SL_STORAGE_FLOAT) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
+    return SL_ERR_IO;
+  }
   memset(&expected, 0, sizeof expected);
   expected.analysis = f->analysis;
   expected.factor = f->factor;
@@ -22814,7 +22828,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   status = sli_factor_use(F, r->opt);
   sli_factor_layout(F, &b, (int)g->has_mass);
   m.first = r->saved.first_number;
-  m.last = m.first + SLI_FACTOR_SECTIONS;
+  m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage == SL_STORAGE_FLOAT);
   m.head = sizeof *F;
   m.bytes = b.used;
   if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {

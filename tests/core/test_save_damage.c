@@ -222,7 +222,9 @@ static void later_versions_are_read_only_or_refused(void **state) {
         saved_put32(m.bytes + SAVED_READ, version);
         saved_repair(m.bytes, m.size);
         assert_int_equal(attempt(sl_load_memory, &m, m.size, SL_LOAD_CHECKED, &y.M.view),
-                         version == 1 ? SL_OK : SL_ERR_UNSUPPORTED);
+                         version == 1   ? SL_OK
+                         : version == 2 ? SL_ERR_IO /* would have L in float */
+                                        : SL_ERR_UNSUPPORTED);
     }
     m.bytes[1] ^= 1; /* the magic number */
     assert_int_equal(attempt(sl_load_memory, &m, m.size, SL_LOAD_CHECKED, NULL),

@@ -274,7 +274,7 @@ static void files_of_all_versions_are_read(void **state) {
         sl_saved_set_free(&set);
     }
     dataset_free(&all);
-    assert_true(count >= 20 && inverses >= 6 && regions >= 12);
+    assert_true(count >= 25 && inverses >= 8 && regions >= 18);
 }
 
 int main(void) {

@@ -111,8 +111,11 @@ static unsigned char *save(sl_symbolic *S, sl_factor *F, int has_inverse, size_t
     return bytes;
 }
 
+/* Flags of a file: with regions and selected inverse; with L in float. */
+enum { HAS_INVERSE = 1, HAS_FLOATS = 2, FLAGS = 4 };
+
 /* Saves base k in new memory. */
-static unsigned char *base_make(int base, int has_inverse, size_t *size) {
+static unsigned char *base_make(int base, int flags, size_t *size) {
     const matrix_t A = matrix_make(base);
     const int way = base % WAYS;
     const sl_csc view = view_of(&A);
@@ -130,13 +133,14 @@ static unsigned char *base_make(int base, int has_inverse, size_t *size) {
     opt.mass = way == WEIGHTED ? mass : NULL;
     opt.regularization = way >= REGULARIZED ? 1e-8 : 0.0;
     opt.signs = way == SIGNED ? signs : NULL;
+    opt.storage = flags & HAS_FLOATS ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
     if (way == PIVOTED) {
         PROMISE(sl_symbolic_create_pivoted(&S, &view, NULL, NULL) == SL_OK);
     } else {
         PROMISE(sl_symbolic_create(&S, &view, NULL, NULL) == SL_OK);
     }
     PROMISE(sl_factor_create(&F, S, &view, &opt, NULL) == SL_OK);
-    unsigned char *bytes = save(S, F, has_inverse, size);
+    unsigned char *bytes = save(S, F, flags & HAS_INVERSE, size);
     sl_factor_free(F);
     sl_symbolic_free(S);
     return bytes;
@@ -351,8 +355,8 @@ static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t c
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static unsigned char *bases[2 * BASES];
-    static size_t sizes[2 * BASES];
+    static unsigned char *bases[FLAGS * BASES];
+    static size_t sizes[FLAGS * BASES];
     if (size >= 8 && data[0] == 0x89) { /* a file */
         try_bytes(data, size);
         unsigned char *copy = (unsigned char *)malloc(size);
@@ -362,10 +366,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         try_bytes(copy, size);
         free(copy);
     } else if (size >= 2) { /* a base, flags and edits */
-        const int kind = data[0] % BASES, has_inverse = data[1] >> 1 & 1;
-        const int base = kind + has_inverse * BASES;
+        const int kind = data[0] % BASES, flags = (data[1] >> 1) % FLAGS;
+        const int base = kind + flags * BASES;
         if (bases[base] == NULL) {
-            bases[base] = base_make(kind, has_inverse, &sizes[base]);
+            bases[base] = base_make(kind, flags, &sizes[base]);
         }
         unsigned char *copy = (unsigned char *)malloc(sizes[base]);
         PROMISE(copy != NULL);

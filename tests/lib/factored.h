@@ -36,7 +36,12 @@ static inline void assert_same_bits(const sl_factor *F, const sl_factor *G) {
     size_t n = (size_t)sl_symbolic_view(f.symbolic).n, size = (size_t)panel_doubles(F);
     assert_int_equal(size, panel_doubles(G));
     if (n > 0) {
-        assert_memory_equal(f.L, g.L, size * sizeof(double));
+        assert_true((f.L == NULL) == (g.L == NULL));
+        if (f.L != NULL) {
+            assert_memory_equal(f.L, g.L, size * sizeof(double));
+        } else {
+            assert_memory_equal(f.L_float, g.L_float, size * sizeof(float));
+        }
         assert_memory_equal(f.D, g.D, n * sizeof(double));
     }
 }

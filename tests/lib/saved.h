@@ -47,6 +47,7 @@ enum {
     SAVED_PIVOTED,
     SAVED_PIVOTED_REGULARIZED,
     SAVED_VECTORS, /* skipped, and several null vectors are given */
+    SAVED_FLOAT,   /* L in float */
     SAVED_WAYS
 };
 
@@ -100,16 +101,16 @@ static inline saved_case_t saved_case_make(int way, gen_kind_t kind, sl_int size
         c.opt.null_vector = way == SAVED_VECTORS ? c.vectors : NULL;
         c.opt.null_vector_count = way == SAVED_VECTORS ? 3 : 0;
         c.opt.consistency_tolerance = -1;
-    } else if (way == SAVED_PIVOTED) {
+    } else if (way == SAVED_PIVOTED || way == SAVED_FLOAT) {
+        c.opt.storage = way == SAVED_FLOAT ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
         c.opt.growth_limit = 1e15;
         c.opt.error_limit = -1.0;
     } else if (way != SAVED_DEFINITE) {
         c.opt.regularization = 1e-8;
         c.opt.signs = way == SAVED_SIGNED ? c.signs : NULL;
     }
-    SL_CHECK(is_pivoted
-                 ? sl_symbolic_create_pivoted(&c.y.S, &c.y.M.view, FOR_ANALYSIS(from), NULL)
-                 : sl_symbolic_create(&c.y.S, &c.y.M.view, FOR_ANALYSIS(from), NULL));
+    SL_CHECK(is_pivoted ? sl_symbolic_create_pivoted(&c.y.S, &c.y.M.view, FOR_ANALYSIS(from), NULL)
+                        : sl_symbolic_create(&c.y.S, &c.y.M.view, FOR_ANALYSIS(from), NULL));
     SL_CHECK(sl_factor_create(&c.y.F, c.y.S, &c.y.M.view, &c.opt, NULL));
     return c;
 }
@@ -139,7 +140,8 @@ static inline void assert_same_answers(const sl_factor *F, const sl_factor *G) {
     if (f.E != NULL) {
         assert_memory_equal(f.E, g.E, ld * sizeof *f.E);
     }
-    assert_true((uintptr_t)g.L % 64 == 0 && (uintptr_t)g.D % 64 == 0);
+    assert_true((uintptr_t)g.L % 64 == 0 && (uintptr_t)g.L_float % 64 == 0);
+    assert_true((uintptr_t)g.D % 64 == 0);
     SL_CHECK(sl_factor_solve(F, X, ld, B, ld, 9, NULL));
     SL_CHECK(sl_factor_solve(G, Y, ld, B, ld, 9, NULL));
     assert_memory_equal(X, Y, 9 * ld * sizeof *X);

@@ -116,12 +116,14 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
         !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
         !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
+        !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
         g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
         return 0;
     }
     F->S = S;
     F->analysis = S->identity;
     F->method = (sl_method)g->method;
+    F->storage = (sl_storage)g->storage;
     F->null_pivots = (sl_null_pivots)g->null_pivots;
     F->checks = (int)g->checks;
     F->is_centered = (int)g->is_centered;

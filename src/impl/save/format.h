@@ -10,9 +10,10 @@
 
 /* src/FORMAT.md specifies the format. A change of it changes SLI_READ_VERSION if older libraries
  * must not read the new files, and SLI_WRITE_VERSION in any case. */
-#define SLI_READ_VERSION 1
+#define SLI_READ_VERSION 2
+#define SLI_READ_VERSION_DOUBLE 1 /* of files without L in float */
 #define SLI_WRITE_VERSION 2
-#define SLI_WRITE_VERSION_PLAIN 1 /* of files without regions and selected inverse */
+#define SLI_WRITE_VERSION_PLAIN 1 /* of files without regions, selected inverse and floats */
 #define SLI_ORDER_MARK 0x01020304u
 #define SLI_ORDER_MARK_SWAPPED 0x04030201u
 #define SLI_SECTIONS_MAX 64 /* of a file of a later version */
@@ -37,9 +38,9 @@ typedef struct sli_section {
 enum {
     SLI_SECTION_ANALYSIS = 1, /* the numbers of sli_saved_analysis */
     SLI_SECTION_FACTOR = 2,
-    SLI_SECTION_PERM = 16, /* arrays of an analysis, in the order of sli_symbolic_layout */
-    SLI_SECTION_D = 64,    /* arrays of a factor, in the order of sli_factor_layout */
-    SLI_FACTOR_SECTIONS = 17,
+    SLI_SECTION_PERM = 16,    /* arrays of an analysis, in the order of sli_symbolic_layout */
+    SLI_SECTION_D = 64,       /* arrays of a factor, in the order of sli_factor_layout */
+    SLI_FACTOR_SECTIONS = 17, /* one more, for L in float, where L is stored so */
     SLI_SECTION_REGIONS = 96, /* the numbers of sli_saved_part, and the following: */
     SLI_SECTION_REGION_LIST,  /* an sli_saved_region for each region */
     SLI_SECTION_REGION_ROOTS, /* in these three, each region begins at a multiple of 64 bytes */
@@ -71,7 +72,8 @@ typedef struct sli_saved_factor {
     double null_tolerance, regularization, consistency, growth_limit, error_limit;
     uint64_t identity[2];
     int64_t null_vectors; /* columns of z and g; 0: 1, in files of earlier versions */
-    uint64_t reserved[6];
+    int64_t storage;      /* sl_storage: of L */
+    uint64_t reserved[5];
 } sli_saved_factor;
 
 /* Regions or a selected inverse: how many regions or supernodes, and the identity of the factor. */
@@ -186,7 +188,12 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     SLI_ADD(8, mass, weighted, weighted);
     SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
     SLI_ADD(8, ratios, trees, anchors);
-    SLI_ADD(8, values, panels, panels);
+    if (g->storage == SL_STORAGE_FLOAT) {
+        SLI_ADD(8, values, 0, 0);
+        SLI_ADD(4, values, panels, panels);
+    } else {
+        SLI_ADD(8, values, panels, panels);
+    }
 #undef SLI_ADD
 }
 

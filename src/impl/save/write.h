@@ -64,6 +64,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.identity[0] = F->identity.a;
     g.identity[1] = F->identity.b;
     g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
+    g.storage = F->storage;
     return g;
 }
 
@@ -187,13 +188,14 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     if (status != SL_OK) {
         return status;
     }
-    if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
-        return SL_ERR_UNSUPPORTED;
-    }
     memcpy(f->header.magic, sli_saved_magic, sizeof sli_saved_magic);
     f->header.order_mark = SLI_ORDER_MARK;
-    f->header.read_version = SLI_READ_VERSION;
+    f->header.read_version = SLI_READ_VERSION_DOUBLE;
     f->header.write_version = SLI_WRITE_VERSION_PLAIN;
+    if (F != NULL && F->storage == SL_STORAGE_FLOAT) {
+        f->header.read_version = SLI_READ_VERSION;
+        f->header.write_version = SLI_WRITE_VERSION;
+    }
     f->analysis = sli_saved_analysis_of(set->symbolic);
     if (F != NULL) {
         f->factor = sli_saved_factor_of(F);
