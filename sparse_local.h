@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d2374a96b982f10c
+ * FNV-1a of the lines after this comment, without the license: 476468e7d2b4bfcc
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -49,33 +49,33 @@
  * (factor: the numbers of L and D)
  *  11165 factor_types.h  11492 storage.h  11563 pivot_search.h  11909 pivoted.h  11977 scatter.h
  *  12135 uplooking.h  12207 null_product.h  12411 null_dense.h  12488 null_basis.h
- *  12810 null_vectors.h  12954 multifrontal.h  13190 nullspace.h  13390 growth.h
- *  13466 factor_setup.h  13758 factor.h  13964 leftlooking.h  14148 factor_query.h
- *  14283 combination.h
+ *  12796 null_vectors.h  12940 multifrontal.h  13176 nullspace.h  13376 growth.h
+ *  13452 factor_setup.h  13744 factor.h  13950 leftlooking.h  14134 factor_query.h
+ *  14269 combination.h
  * (solve: full and local solves)
- *  14344 region_types.h  14448 work.h  14545 query.h  14719 singular.h  14986 backward.h
- *  15016 sweep.h  15202 compile.h  15395 plan.h  15502 local.h  15652 parts.h  15939 refine.h
- *  16118 refine_local.h  16333 rcond.h  16490 defects.h
+ *  14330 region_types.h  14434 work.h  14531 query.h  14705 singular.h  14972 backward.h
+ *  15002 sweep.h  15188 compile.h  15381 plan.h  15488 local.h  15638 parts.h  15925 refine.h
+ *  16104 refine_local.h  16319 rcond.h  16476 defects.h
  * (inverse: entries of the inverse, regions)
- *  16567 traversal.h  16812 traversal_run.h  16995 row_sets.h  17022 unit_vectors.h
- *  17247 bilinear.h  17424 entries.h  17705 block.h  17945 reserve.h  18137 selected.h
- *  18347 selected_query.h  18449 region_choose.h  18676 region.h
+ *  16553 traversal.h  16798 traversal_run.h  16981 row_sets.h  17008 unit_vectors.h
+ *  17233 bilinear.h  17410 entries.h  17691 block.h  17931 reserve.h  18123 selected.h
+ *  18333 selected_query.h  18435 region_choose.h  18662 region.h
  * (change: a factor that follows changes of its matrix)
- *  18924 update.h  19274 rank.h  19600 edges.h  19754 choose.h  19953 pins.h  20524 subset.h
- *  20631 restrict_analysis.h  20926 restrict_anew.h  20980 restrict_symbolic.h  21161 restrict.h
+ *  18910 update.h  19260 rank.h  19586 edges.h  19740 choose.h  19939 pins.h  20510 subset.h
+ *  20617 restrict_analysis.h  20912 restrict_anew.h  20966 restrict_symbolic.h  21147 restrict.h
  * (save: factors in files)
- *  21510 format.h  21806 decode.h  21952 check.h  22284 write.h  22587 load.h  22855 load_inverse.h
- *  23187 load_calls.h
+ *  21496 format.h  21792 decode.h  21938 check.h  22270 write.h  22573 load.h  22841 load_inverse.h
+ *  23173 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23386 batch_solve.h  23595 batch_factor.h  23796 batch_diagonal.h
+ *  23372 batch_solve.h  23581 batch_factor.h  23782 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  23936 hermitian.h  24081 complex_rows.h
+ *  23922 hermitian.h  24067 complex_rows.h
  * (last: undefine every internal macro)
- *  24249 undef.h
+ *  24235 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24408 multi_rhs.inl.h  24791 sweeps.inl.h  24793 unit_triangle.inl.h  24830 two_rhs.inl.h
- *  24999 small_supernode.inl.h  25158 single_rhs.inl.h  25402 kernel_set.inl.h  25404 product.inl.h
- *  25532 front.inl.h  25746 inverse_front.inl.h  26031 row.inl.h  26061 change.inl.h
+ *  24394 multi_rhs.inl.h  24777 sweeps.inl.h  24779 unit_triangle.inl.h  24816 two_rhs.inl.h
+ *  24985 small_supernode.inl.h  25144 single_rhs.inl.h  25388 kernel_set.inl.h  25390 product.inl.h
+ *  25518 front.inl.h  25732 inverse_front.inl.h  26017 row.inl.h  26047 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1092,7 +1092,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
- *           take k + 1 products, k more if a component has fewer, O(n k^2) operations, 24 (k + 1)
+ *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
  *           bytes per row, and 2 k operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
@@ -12725,50 +12725,36 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
   }
 }
 
-static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns, int are_given) {
+static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns) {
   const size_t n = (size_t)F->S->n;
   double *product = F->products, *sizes = product + (size_t)F->null_vectors * n;
   sl_int j, k;
-  if (are_given) {
-    memset(sizes, 0, n * sizeof(double));
-  }
+  memset(sizes, 0, n * sizeof(double));
   for (j = 0; j < F->null_vectors; j++) {
     const sli_null_walk w = sli_null_product(F->S, from, by_columns, F->rows,
                          F->g + (size_t)j * n, NULL);
     for (k = 0; k < F->S->n; k++) {
       const sli_null_row *row = &F->rows[sli_null_walk_row(&w, k)];
       product[(size_t)k + (size_t)j * n] = row->product;
-      sizes[k] += are_given ? row->size : 0.0;
+      sizes[k] += row->size;
       F->row_entries[k] = row->entries;
     }
   }
 }
 
 static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_columns) {
-  sl_int k, ruled_out = 0;
+  sl_int k;
   for (k = 0; k < F->S->n; k++) {
     sli_null_part p = sli_null_part_of(F, k);
     for (; F->last[k] == k && p.rank > 0; p.rank--) {
       sli_null_scale(&p, p.rank - 1);
     }
   }
-  sli_null_products(F, from, by_columns, 1);
+  sli_null_products(F, from, by_columns);
   for (k = 0; k < F->S->n; k++) {
-    const sli_null_part p = sli_null_part_of(F, k);
     if (F->last[k] == k) {
-      const sl_int columns = sli_null_restrict(&p);
-      F->rounding[k] = columns == p.count ? (double)INFINITY : 0.0;
-      ruled_out += columns;
-    }
-  }
-  if (ruled_out > 0) {
-    sli_null_products(F, from, by_columns, 0);
-  }
-  for (k = 0; k < F->S->n && ruled_out > 0; k++) {
-    const sli_null_part p = sli_null_part_of(F, k);
-    double x[SLI_NULL_VECTORS_MAX];
-    if (F->last[k] == k && sli_null_violation(&p, NULL, 0, x) > 4.0) {
-      F->rounding[k] = (double)INFINITY;
+      const sli_null_part p = sli_null_part_of(F, k);
+      F->rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
     }
   }
 }

@@ -126,7 +126,7 @@
  *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
- *           take k + 1 products, k more if a component has fewer, O(n k^2) operations, 24 (k + 1)
+ *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
  *           bytes per row, and 2 k operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large

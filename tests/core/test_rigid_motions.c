@@ -289,6 +289,50 @@ static void components_of_one_tree_share_the_columns(void **state) {
     }
 }
 
+/* Where the vectors are 0 nothing is known, and the tolerance decides; so it does where A Z
+ * overflows. Entries that are not finite are refused. */
+static void without_a_null_vector_the_tolerance_decides(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    sl_int components = 0;
+    gen_matrix_t L = laplacian(GEN_GRID2, 64, 0, &components);
+    const sl_int n = L.view.n_cols;
+    double *Z = test_reals(2 * (size_t)n), *kept = test_reals((size_t)L.p[n]);
+    sl_symbolic *S = NULL;
+    memcpy(kept, L.x, (size_t)L.p[n] * sizeof *kept);
+    SL_CHECK(sl_symbolic_create(&S, &L.view, NULL, NULL));
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
+        sl_factor *F = NULL;
+        sl_stats stats;
+        opt.null_vector = Z;
+        opt.null_vector_count = 2;
+        SL_CHECK(sl_factor_create(&F, S, &L.view, FOR_FACTOR(&opt), &stats));
+        assert_int_equal(stats.factor.null, 1);
+        assert_solves(&L.view, F, 5);
+        sl_factor_free(F);
+        for (sl_int i = 0; i < n; i++) { /* |A| |Z| overflows */
+            Z[i] = 1.0;
+            Z[n + i] = i % 2 ? 1.0 : -1.0;
+        }
+        for (sl_int p = 0; p < L.p[n]; p++) {
+            L.x[p] = kept[p] / 4.0 * DBL_MAX;
+        }
+        const sl_status status = sl_factor_create(&F, S, &L.view, FOR_FACTOR(&opt), &stats);
+        assert_true(status == SL_OK ? stats.factor.null == 1 : F == NULL);
+        sl_factor_free(F);
+        memcpy(L.x, kept, (size_t)L.p[n] * sizeof *kept);
+        L.x[5] = NAN;
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &L.view, FOR_FACTOR(&opt), &stats));
+        L.x[5] = kept[5];
+        memset(Z, 0, 2 * (size_t)n * sizeof *Z);
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&L);
+    free(Z);
+    free(kept);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_rigid_motion_is_missed_or_dropped),
@@ -296,6 +340,7 @@ int main(void) {
         cmocka_unit_test(what_a_support_leaves_is_found),
         cmocka_unit_test(a_held_body_is_regular),
         cmocka_unit_test(components_of_one_tree_share_the_columns),
+        cmocka_unit_test(without_a_null_vector_the_tolerance_decides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

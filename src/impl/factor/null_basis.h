@@ -19,7 +19,8 @@
  * Not all columns need to hold: a body with a fixed point can still rotate about it. Each row i of
  * A Z that is not rounding error rules out one combination of the columns; the null vectors are the
  * combinations orthogonal to these. The row that exceeds its bound most is taken first, because its
- * direction is the most accurate one. The combinations are then tested like given vectors.
+ * direction is the most accurate one. For the combinations C that are left, A Z C is rounding error
+ * of A Z.
  *
  * Kept is the basis that is the unit matrix in the anchors. In a tree with several components each
  * component has columns of its own, so that a dot product over the columns of the tree is one over
@@ -278,22 +279,19 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
     }
 }
 
-/* Computes A Z for the columns in g and, if they are those that were given, the sums of the columns
- * of |A| |Z|. These also bound the rounding errors of A Z C. */
-static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns, int are_given) {
+/* Computes A Z for the columns in g, and the sums of the columns of |A| |Z|. */
+static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns) {
     const size_t n = (size_t)F->S->n;
     double *product = F->products, *sizes = product + (size_t)F->null_vectors * n;
     sl_int j, k;
-    if (are_given) {
-        memset(sizes, 0, n * sizeof(double));
-    }
+    memset(sizes, 0, n * sizeof(double));
     for (j = 0; j < F->null_vectors; j++) {
         const sli_null_walk w = sli_null_product(F->S, from, by_columns, F->rows,
                                                  F->g + (size_t)j * n, NULL);
         for (k = 0; k < F->S->n; k++) {
             const sli_null_row *row = &F->rows[sli_null_walk_row(&w, k)];
             product[(size_t)k + (size_t)j * n] = row->product;
-            sizes[k] += are_given ? row->size : 0.0;
+            sizes[k] += row->size;
             F->row_entries[k] = row->entries;
         }
     }
@@ -302,30 +300,18 @@ static void sli_null_products(sl_factor *F, const sli_source *from, int by_colum
 /* rounding(last) := infinity for a component without a null vector among the combinations of the
  * columns, else 0; g := these null vectors. */
 static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_columns) {
-    sl_int k, ruled_out = 0;
+    sl_int k;
     for (k = 0; k < F->S->n; k++) {
         sli_null_part p = sli_null_part_of(F, k);
         for (; F->last[k] == k && p.rank > 0; p.rank--) {
             sli_null_scale(&p, p.rank - 1);
         }
     }
-    sli_null_products(F, from, by_columns, 1);
+    sli_null_products(F, from, by_columns);
     for (k = 0; k < F->S->n; k++) {
-        const sli_null_part p = sli_null_part_of(F, k);
         if (F->last[k] == k) {
-            const sl_int columns = sli_null_restrict(&p);
-            F->rounding[k] = columns == p.count ? (double)INFINITY : 0.0;
-            ruled_out += columns;
-        }
-    }
-    if (ruled_out > 0) {
-        sli_null_products(F, from, by_columns, 0);
-    }
-    for (k = 0; k < F->S->n && ruled_out > 0; k++) {
-        const sli_null_part p = sli_null_part_of(F, k);
-        double x[SLI_NULL_VECTORS_MAX];
-        if (F->last[k] == k && sli_null_violation(&p, NULL, 0, x) > 4.0) {
-            F->rounding[k] = (double)INFINITY;
+            const sli_null_part p = sli_null_part_of(F, k);
+            F->rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
         }
     }
 }
