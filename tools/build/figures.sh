@@ -38,6 +38,24 @@ patch="--patch ${PATCH:-2000} --center $center"
     draw arap arap "$surface" $patch --png "$folder/arap.png" --layout "$folder/arap_layout.png"
     draw scp scp "$surface" $patch --png "$folder/scp.png" --layout "$folder/scp_layout.png"
 }
+if [ -z "$mesh" ]; then # its vertices are those of one surface
+    cat >"$folder/deform_script.txt" <<'END'
+# three arms are held; one is bent, another one pulled, and let go
+grab 7921,7418,4283 within 0.1
+grab 3916 within 0.08
+grab 879 within 0.08
+turn 1 0 0 1 -75
+move 1 0.8 -0.45 0.1
+move 2 -0.5 0.45 0.1
+frame
+release 2
+frame
+END
+    draw deform deform star:5 --script "$folder/deform_script.txt" --iterations 100 --check \
+        --view 8,12 --size 480x400 --frames "$folder/deform" --steps "$folder/deform.csv"
+fi
+draw edit edit "${mesh:-hills:200x200}" --edits 500 --every 125 --svg "$folder/edit.svg" \
+    --csv "$folder/edit.csv"
 draw geodesic geodesic "$surface" --from "$center" --png "$folder/geodesic.png"
 draw voronoi geodesic "$surface" --from random:60 --voronoi --png "$folder/voronoi.png"
 draw adf adf "$surface" --area-time 0.3 --png "$folder/adf.png" --csv "$folder/adf.csv"
