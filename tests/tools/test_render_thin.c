@@ -198,7 +198,7 @@ static void needles_show_their_mean_color(void **state) {
 /* Nothing of a face behind them is seen between needles, and nothing of needles behind a face. */
 static void needles_hide_what_is_behind(void **state) {
     (void)state;
-    mesh needles = strip(4000);
+    mesh needles = strip(1500);
     for (int behind = 0; behind < 2; behind++) {
         mesh m = bad_mesh_allocate(needles.n_vertices + 4, needles.n_faces + 2);
         rgb *color = (rgb *)test_array((size_t)m.n_faces, sizeof *color);
