@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 476468e7d2b4bfcc
+ * FNV-1a of the lines after this comment, without the license: dfb464ed9dcf3b5b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -73,9 +73,9 @@
  * (last: undefine every internal macro)
  *  24235 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24394 multi_rhs.inl.h  24777 sweeps.inl.h  24779 unit_triangle.inl.h  24816 two_rhs.inl.h
- *  24985 small_supernode.inl.h  25144 single_rhs.inl.h  25388 kernel_set.inl.h  25390 product.inl.h
- *  25518 front.inl.h  25732 inverse_front.inl.h  26017 row.inl.h  26047 change.inl.h
+ *  24413 multi_rhs.inl.h  24796 sweeps.inl.h  24798 unit_triangle.inl.h  24835 two_rhs.inl.h
+ *  25004 small_supernode.inl.h  25163 single_rhs.inl.h  25407 kernel_set.inl.h  25409 product.inl.h
+ *  25537 front.inl.h  25751 inverse_front.inl.h  26036 row.inl.h  26066 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24380,6 +24380,25 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_CHANGE_FRONT_FLOP
 #undef SLI_CHANGE_FRONT
 #undef SLI_CHANGE_DRIFT
+#undef SLI_CELLS
+#undef SLI_CELLS_AS_GOOD
+#undef SLI_CELLS_DEPTH
+#undef SLI_CELLS_FLAT
+#undef SLI_CELLS_SHARE
+#undef SLI_CELL_LEAST
+#undef SLI_LATTICE_DEGREE
+#undef SLI_LATTICE_DEGREES
+#undef SLI_LATTICE_SHARE
+#undef SLI_NULL_ANCHOR
+#undef SLI_NULL_DEPENDENT
+#undef SLI_NULL_VECTORS_MAX
+#undef SLI_PAGES_PER_COLUMN
+#undef SLI_PAGE_BITS
+#undef SLI_PAGE_COLUMNS
+#undef SLI_POINTS_FEW
+#undef SLI_READ_VERSION_DOUBLE
+#undef SLI_RESTRICT_KEPT
+#undef SLI_WRITE_VERSION_PLAIN
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */
