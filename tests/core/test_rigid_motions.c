@@ -4,7 +4,7 @@
 #include "tests/lib/factor_ways.h"
 #include "tests/lib/local_solve.h"
 
-enum { SYSTEMS = 400 };
+enum { SYSTEMS = 240 };
 
 /* A random system of 1 or more bodies. Where cells are thin, no layer is weak. */
 static elastic_t random_bodies(int which, uint64_t *seed) {
