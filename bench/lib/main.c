@@ -62,6 +62,8 @@ static const question questions[] = {
     {"saved", "factors in files: saved, loaded, mapped, shared by processes", bench_saved},
     {"storage", "L in float against L in double: time, memory, accuracy after refinement",
      bench_storage},
+    {"restrict", "the factor of a patch from the whole one against its own analysis and factor",
+     bench_restrict},
 #ifdef SL_BENCH_ARPACK
     {"eigenpairs",
      "auto-diffusion and heat kernel signatures by ARPACK's eigenpairs: digits and time",
