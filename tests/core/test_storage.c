@@ -137,7 +137,7 @@ static void exact_solves(const exact_t *e) {
 /* The diagonal of the inverse, a block, bilinear forms, the selected inverse, batches. */
 static void exact_inverses(const exact_t *e) {
     const size_t n = (size_t)e->n;
-    double *X = test_reals(n * n), *Y = test_reals(n * n);
+    double *X = test_reals(n * (n + 1)), *Y = test_reals(n * (n + 1));
     sl_int *rows = test_ints(n);
     double *const to[2] = {X, Y};
     gen_set(rows, e->n, e->n, 8);
