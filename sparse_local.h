@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: dfb464ed9dcf3b5b
+ * FNV-1a of the lines after this comment, without the license: d9c95992305be9bc
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,71 +11,71 @@
  *    521 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    674 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    846 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    972 factor.h     the numerical factorization P A P' = L D L'
- *   1219 solve.h      full solves, and the workspace of all solves
- *   1329 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1423 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1536 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1649 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1785 batch.h      many independent solves by one call, distributed over threads
- *   1835 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2013 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2132 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2236 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2375 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2493 change.h     a factor that follows small changes of its matrix
- *   2580 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2670 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2795 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *    976 factor.h     the numerical factorization P A P' = L D L'
+ *   1223 solve.h      full solves, and the workspace of all solves
+ *   1333 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1427 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1540 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1653 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1789 batch.h      many independent solves by one call, distributed over threads
+ *   1839 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2017 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2136 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2240 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2379 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2497 change.h     a factor that follows small changes of its matrix
+ *   2584 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2674 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2799 restrict.h   the factor of a principal submatrix, from that of the whole matrix
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2854 base.h   3079 status.h   3140 options.h   3198 alloc.h   3308 hash.h   3438 file_map.h
- *   3534 sort.h   3598 parallel.h
+ *   2858 base.h   3083 status.h   3144 options.h   3202 alloc.h   3312 hash.h   3442 file_map.h
+ *   3538 sort.h   3602 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3631 panel.h   3653 step.h   3694 pivot_rule.h   3761 front.h   3805 pairs.h
- *   4012 inverse_front.h   4084 table.h   4108 simd.h   4178 simd_scalar.h   4307 simd_avx2.h
- *   4508 simd_avx512.h   4617 simd_neon.h   4812 dispatch.h
+ *   3635 panel.h   3657 step.h   3698 pivot_rule.h   3765 front.h   3809 pairs.h
+ *   4016 inverse_front.h   4088 table.h   4112 simd.h   4182 simd_scalar.h   4311 simd_avx2.h
+ *   4512 simd_avx512.h   4621 simd_neon.h   4816 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4892 csc.h   5006 csc_build.h   5140 csc64.h   5211 csc_triangle.h   5277 csc_products.h
- *   5394 permute.h   5460 sum.h   5542 output_file.h   5751 matrix_market.h
+ *   4896 csc.h   5010 csc_build.h   5144 csc64.h   5215 csc_triangle.h   5281 csc_products.h
+ *   5398 permute.h   5464 sum.h   5546 output_file.h   5755 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6197 graph.h   6346 coarsen.h   6611 labels.h   6805 subgraph.h   7000 heap.h   7060 bisect.h
- *   7290 separator.h   7552 mindeg.h   7735 dissect.h   8061 levelset.h   8180 geometric.h
- *   8355 cells.h   8535 septree.h   8595 metis.h   8744 metis_refined.h   8858 nd.h
- *   9050 compress.h   9171 quotient.h   9585 order.h
+ *   6201 graph.h   6350 coarsen.h   6615 labels.h   6809 subgraph.h   7004 heap.h   7064 bisect.h
+ *   7294 separator.h   7556 mindeg.h   7739 dissect.h   8065 levelset.h   8184 geometric.h
+ *   8359 cells.h   8539 septree.h   8599 metis.h   8748 metis_refined.h   8862 nd.h
+ *   9054 compress.h   9175 quotient.h   9589 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9833 symbolic_types.h   9869 etree.h   9942 counts.h   9999 supernodes.h  10221 structure.h
- *  10342 schedule.h  10531 symbolic.h  10894 reach.h
+ *   9871 symbolic_types.h   9907 etree.h   9980 counts.h  10037 supernodes.h  10259 structure.h
+ *  10380 schedule.h  10569 symbolic.h  10976 reach.h
  * (factor: the numbers of L and D)
- *  11165 factor_types.h  11492 storage.h  11563 pivot_search.h  11909 pivoted.h  11977 scatter.h
- *  12135 uplooking.h  12207 null_product.h  12411 null_dense.h  12488 null_basis.h
- *  12796 null_vectors.h  12940 multifrontal.h  13176 nullspace.h  13376 growth.h
- *  13452 factor_setup.h  13744 factor.h  13950 leftlooking.h  14134 factor_query.h
- *  14269 combination.h
+ *  11247 factor_types.h  11574 storage.h  11645 pivot_search.h  11991 pivoted.h  12059 scatter.h
+ *  12217 uplooking.h  12289 null_product.h  12493 null_dense.h  12570 null_basis.h
+ *  12878 null_vectors.h  13022 multifrontal.h  13258 nullspace.h  13458 growth.h
+ *  13534 factor_setup.h  13826 factor.h  14032 leftlooking.h  14216 factor_query.h
+ *  14351 combination.h
  * (solve: full and local solves)
- *  14330 region_types.h  14434 work.h  14531 query.h  14705 singular.h  14972 backward.h
- *  15002 sweep.h  15188 compile.h  15381 plan.h  15488 local.h  15638 parts.h  15925 refine.h
- *  16104 refine_local.h  16319 rcond.h  16476 defects.h
+ *  14412 region_types.h  14516 work.h  14613 query.h  14787 singular.h  15054 backward.h
+ *  15084 sweep.h  15270 compile.h  15463 plan.h  15570 local.h  15720 parts.h  16007 refine.h
+ *  16186 refine_local.h  16401 rcond.h  16558 defects.h
  * (inverse: entries of the inverse, regions)
- *  16553 traversal.h  16798 traversal_run.h  16981 row_sets.h  17008 unit_vectors.h
- *  17233 bilinear.h  17410 entries.h  17691 block.h  17931 reserve.h  18123 selected.h
- *  18333 selected_query.h  18435 region_choose.h  18662 region.h
+ *  16635 traversal.h  16880 traversal_run.h  17063 row_sets.h  17090 unit_vectors.h
+ *  17315 bilinear.h  17492 entries.h  17773 block.h  18013 reserve.h  18205 selected.h
+ *  18415 selected_query.h  18517 region_choose.h  18744 region.h
  * (change: a factor that follows changes of its matrix)
- *  18910 update.h  19260 rank.h  19586 edges.h  19740 choose.h  19939 pins.h  20510 subset.h
- *  20617 restrict_analysis.h  20912 restrict_anew.h  20966 restrict_symbolic.h  21147 restrict.h
+ *  18992 update.h  19342 rank.h  19668 edges.h  19822 choose.h  20021 pins.h  20592 subset.h
+ *  20699 restrict_analysis.h  20994 restrict_anew.h  21048 restrict_symbolic.h  21229 restrict.h
  * (save: factors in files)
- *  21496 format.h  21792 decode.h  21938 check.h  22270 write.h  22573 load.h  22841 load_inverse.h
- *  23173 load_calls.h
+ *  21578 format.h  21874 decode.h  22020 check.h  22352 write.h  22655 load.h  22923 load_inverse.h
+ *  23255 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23372 batch_solve.h  23581 batch_factor.h  23782 batch_diagonal.h
+ *  23454 batch_solve.h  23663 batch_factor.h  23864 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  23922 hermitian.h  24067 complex_rows.h
+ *  24004 hermitian.h  24149 complex_rows.h
  * (last: undefine every internal macro)
- *  24235 undef.h
+ *  24317 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24413 multi_rhs.inl.h  24796 sweeps.inl.h  24798 unit_triangle.inl.h  24835 two_rhs.inl.h
- *  25004 small_supernode.inl.h  25163 single_rhs.inl.h  25407 kernel_set.inl.h  25409 product.inl.h
- *  25537 front.inl.h  25751 inverse_front.inl.h  26036 row.inl.h  26066 change.inl.h
+ *  24495 multi_rhs.inl.h  24878 sweeps.inl.h  24880 unit_triangle.inl.h  24917 two_rhs.inl.h
+ *  25086 small_supernode.inl.h  25245 single_rhs.inl.h  25489 kernel_set.inl.h  25491 product.inl.h
+ *  25619 front.inl.h  25833 inverse_front.inl.h  26118 row.inl.h  26148 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -859,6 +859,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
+ *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, as those of networks and KKT
+ *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
+ *  the roots have fewer of them.
+ *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
  *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
@@ -941,11 +945,11 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree (with other orderings,
- *  and if a constraint was moved, n_nodes = 0 and the arrays are NULL). A node is a separator, or a
- *  subgraph that was not divided further. An entry of A joins two nodes only if one is an
- *  ancestor of the other. Nodes are numbered in elimination order, so that a separator follows the
- *  subgraphs that it separates.
+ *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree. With other orderings,
+ *  with minimum degree, and if a constraint was moved, n_nodes = 0 and the arrays are NULL. A node
+ *  is a separator, or a subgraph that was not divided further. An entry of A joins two nodes only
+ *  if one is an ancestor of the other. Nodes are numbered in elimination order, so that a separator
+ *  follows the subgraphs that it separates.
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;
@@ -9743,9 +9747,29 @@ static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, 
   }
 }
 
+typedef struct sli_order_choice {
+  sl_int *other;
+  int is_wanted, is_there;
+} sli_order_choice;
+
+static int sli_order_is_irregular(const sli_graph *G) {
+  uint64_t squares = 0, mean;
+  sl_int v;
+  if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
+    return 0;
+  }
+  for (v = 0; v < G->n; v++) {
+    const uint64_t degree = (uint64_t)(G->begin[v + 1] - G->begin[v]);
+    squares += degree < 1024 ? degree * degree : 1024 * 1024;
+  }
+  mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
+  return mean > 0 && 5 * 256 * squares >= 6 * mean * mean * (uint64_t)G->n;
+}
+
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                   const sl_options *opt, sl_int *perm, sl_int *scratch,
-                  sli_septree *septree, const sl_allocator *a) {
+                  sli_septree *septree, sli_order_choice *choice,
+                  const sl_allocator *a) {
   const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   sli_graph G;
   sli_block b = {NULL, 0, 0};
@@ -9770,6 +9794,15 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     sli_order_expand(G.n, block, perm, septree);
   } else if (status == SL_OK) {
     sli_order_border(A, &G, perm, scratch, septree);
+  }
+  if (status == SL_OK && choice->is_wanted && block == 1 && sli_order_is_irregular(&G)) {
+    sli_septree none;
+    double flops;
+    status = sli_order_mindeg(&G, choice->other, &flops, a);
+    if (status == SL_OK) {
+      sli_order_border(A, &G, choice->other, scratch, &none);
+      choice->is_there = 1;
+    }
   }
   sli_free(a, b.base);
   return status;
@@ -9799,10 +9832,14 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
 
 static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
                sl_int *perm, sl_int *scratch, sli_septree *septree,
-               const sl_allocator *a, sl_stats *stats) {
+               sli_order_choice *choice, const sl_allocator *a, sl_stats *stats) {
   const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
   sl_int bad;
   septree->count = 0;
+  choice->is_there = 0;
+  choice->is_wanted =
+    ordering == SL_ORDERING_ND &&
+    (opt == NULL || (opt->coordinates == NULL && opt->purpose == SL_PURPOSE_MANY_SOLVES));
   if (!sli_order_options_are_valid(opt, A->n_cols, &bad)) {
     return bad == -1 ? SL_ERR_ARGUMENT : sli_fail_at(stats, SL_ERR_NOT_FINITE, bad, -1, 0.0);
   }
@@ -9814,7 +9851,7 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
     return SL_OK;
   case SL_ORDERING_ND:
   case SL_ORDERING_MINDEG:
-    return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, a);
+    return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, a);
   case SL_ORDERING_METIS:
   case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
@@ -9822,7 +9859,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
 #else
     return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
            ? SL_ERR_ARGUMENT
-           : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, a);
+           : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice,
+                    a);
 #endif
   default:
     return SL_ERR_ARGUMENT;
@@ -10535,6 +10573,7 @@ typedef struct sli_analysis {
   sli_pattern rows, columns;
   sli_amalgamation amalgamation;
   sl_int *perm;
+  sli_order_choice choice;
   sl_int *old_of, *new_of;
   sl_int *parent, *counts, *super_of;
   sl_int *scratch;
@@ -10554,6 +10593,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
   w->columns.to = SLI_TAKE(b, sl_int, nnz);
   w->perm = SLI_TAKE(b, sl_int, n);
+  w->choice.other = SLI_TAKE(b, sl_int, n);
   w->old_of = SLI_TAKE(b, sl_int, n);
   w->new_of = SLI_TAKE(b, sl_int, n);
   w->parent = SLI_TAKE(b, sl_int, n);
@@ -10664,6 +10704,51 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
 }
 
+static void sli_analyze_order(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+                sl_stats *stats) {
+  const double started = sli_seconds();
+  sl_int k;
+  for (k = 0; k < w->n; k++) {
+    w->scratch[w->perm[k]] = k;
+  }
+  sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+  stats->symbolic.seconds_tree -= sli_seconds() - started;
+  sli_analyze_tree(w, opt, stats);
+  stats->symbolic.seconds_tree += sli_seconds() - started;
+}
+
+static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
+                 double *paths) {
+  sl_int k;
+  *entries = *paths = 0.0;
+  for (k = 0; k < w->n; k++) {
+    size[k] = 1;
+  }
+  for (k = 0; k < w->n; k++) {
+    *entries += w->counts[k];
+    *paths += (double)w->counts[k] * size[k];
+    if (w->parent[k] != -1) {
+      size[w->parent[k]] += size[k];
+    }
+  }
+}
+
+static void sli_analyze_choice(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+                 sl_stats *stats) {
+  double entries[2], paths[2];
+  sl_int *first = w->perm;
+  sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
+  w->perm = w->choice.other;
+  sli_analyze_order(w, A, opt, stats);
+  sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
+  if (entries[1] < entries[0] && paths[1] < paths[0]) {
+    w->septree.count = 0;
+  } else {
+    w->perm = first;
+    sli_analyze_order(w, A, opt, stats);
+  }
+}
+
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
   sl_int k;
   stats->symbolic.n = S->n;
@@ -10748,21 +10833,18 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   int pass;
   sl_status status;
   started = sli_seconds();
-  status =
-    sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree, a, stats);
+  status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
+             &w->choice, a, stats);
   stats->symbolic.seconds_order = sli_seconds() - started;
   if (status != SL_OK) {
     return status;
   }
   started = sli_seconds();
-  for (s = 0; s < w->n; s++) {
-    w->scratch[w->perm[s]] = s;
-  }
-  sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+  sli_analyze_order(w, A, opt, stats);
   stats->symbolic.nnz_a = w->rows.begin[w->n];
-  stats->symbolic.seconds_tree = -sli_seconds();
-  sli_analyze_tree(w, opt, stats);
-  stats->symbolic.seconds_tree += sli_seconds();
+  if (w->choice.is_there) {
+    sli_analyze_choice(w, A, opt, stats);
+  }
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;
   draft.n = A->n_cols;

@@ -19,6 +19,10 @@
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
+ *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, as those of networks and KKT
+ *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
+ *  the roots have fewer of them.
+ *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
  *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
@@ -101,11 +105,11 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree (with other orderings,
- *  and if a constraint was moved, n_nodes = 0 and the arrays are NULL). A node is a separator, or a
- *  subgraph that was not divided further. An entry of A joins two nodes only if one is an
- *  ancestor of the other. Nodes are numbered in elimination order, so that a separator follows the
- *  subgraphs that it separates.
+ *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree. With other orderings,
+ *  with minimum degree, and if a constraint was moved, n_nodes = 0 and the arrays are NULL. A node
+ *  is a separator, or a subgraph that was not divided further. An entry of A joins two nodes only
+ *  if one is an ancestor of the other. Nodes are numbered in elimination order, so that a separator
+ *  follows the subgraphs that it separates.
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;

@@ -187,6 +187,41 @@ static void the_purpose_decides(void **state) {
     }
 }
 
+/* A constraint has three variables anywhere, or up to 16 in a window. The first system has less
+ * fill and shorter paths by minimum degree, the second one has shorter paths by dissection. */
+static void irregular_graphs_take_the_better_order(void **state) {
+    (void)state;
+    enum { VARIABLES = 600, CONSTRAINTS = 300, ALL = VARIABLES + CONSTRAINTS };
+    for (int is_local = 0; is_local < 2; is_local++) {
+        gen_list_t t = gen_list(ALL);
+        uint64_t seed = 4;
+        for (sl_int k = 0; k < ALL; k++) {
+            gen_add(&t, k, k, k < VARIABLES ? 1.0 : -1.0);
+        }
+        for (sl_int r = 0; r < CONSTRAINTS; r++) {
+            const sl_int count = is_local ? 1 + gen_below(&seed, 16) : 3;
+            for (sl_int q = 0; q < count; q++) {
+                const sl_int v = is_local ? (2 * r + gen_below(&seed, 40)) % VARIABLES
+                                          : gen_below(&seed, VARIABLES);
+                gen_add(&t, VARIABLES + r, v, 0.5);
+            }
+        }
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        const sl_int nodes = sl_symbolic_view(S).n_nodes;
+        sl_symbolic_free(S);
+        const double chosen = fill_of(&M.view, opt);
+        opt.ordering = SL_ORDERING_MINDEG;
+        const double mindeg = fill_of(&M.view, opt);
+        assert_true((nodes == 0) == !is_local);
+        assert_true((chosen == mindeg) == !is_local);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+}
+
 static void memory_fails_at_every_point(void **state) {
     (void)state;
     gen_matrix_t M = grid(12, 12, 1, 0);
@@ -212,6 +247,7 @@ int main(void) {
         cmocka_unit_test(every_kind_is_ordered),
         cmocka_unit_test(one_matrix_has_one_order),
         cmocka_unit_test(the_purpose_decides),
+        cmocka_unit_test(irregular_graphs_take_the_better_order),
         cmocka_unit_test(memory_fails_at_every_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

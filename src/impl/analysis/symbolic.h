@@ -16,6 +16,7 @@ typedef struct sli_analysis {
     sli_pattern rows, columns;
     sli_amalgamation amalgamation;
     sl_int *perm;                       /* n: the order found or given */
+    sli_order_choice choice;            /* n: another order */
     sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
@@ -36,6 +37,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
     w->columns.to = SLI_TAKE(b, sl_int, nnz);
     w->perm = SLI_TAKE(b, sl_int, n);
+    w->choice.other = SLI_TAKE(b, sl_int, n);
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n);
@@ -151,6 +153,54 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
 }
 
+/* Finds everything that depends on the order in w->perm. */
+static void sli_analyze_order(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+                              sl_stats *stats) {
+    const double started = sli_seconds();
+    sl_int k;
+    for (k = 0; k < w->n; k++) {
+        w->scratch[w->perm[k]] = k;
+    }
+    sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+    stats->symbolic.seconds_tree -= sli_seconds() - started;
+    sli_analyze_tree(w, opt, stats);
+    stats->symbolic.seconds_tree += sli_seconds() - started;
+}
+
+/* The entries of L, and those on the paths from all columns to the roots. size: n of scratch. */
+static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
+                               double *paths) {
+    sl_int k;
+    *entries = *paths = 0.0;
+    for (k = 0; k < w->n; k++) {
+        size[k] = 1;
+    }
+    for (k = 0; k < w->n; k++) {
+        *entries += w->counts[k];
+        *paths += (double)w->counts[k] * size[k];
+        if (w->parent[k] != -1) {
+            size[w->parent[k]] += size[k];
+        }
+    }
+}
+
+/* Takes the other order if it has fewer entries and shorter paths. */
+static void sli_analyze_choice(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+                               sl_stats *stats) {
+    double entries[2], paths[2];
+    sl_int *first = w->perm;
+    sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
+    w->perm = w->choice.other;
+    sli_analyze_order(w, A, opt, stats);
+    sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
+    if (entries[1] < entries[0] && paths[1] < paths[0]) {
+        w->septree.count = 0;
+    } else {
+        w->perm = first;
+        sli_analyze_order(w, A, opt, stats);
+    }
+}
+
 /* Fills the statistics. depth: n of scratch. */
 static void sli_analyze_stats(const sl_symbolic *S, sl_int *depth, sl_stats *stats) {
     sl_int k;
@@ -242,21 +292,18 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     int pass;
     sl_status status;
     started = sli_seconds();
-    status =
-        sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree, a, stats);
+    status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
+                       &w->choice, a, stats);
     stats->symbolic.seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
     }
     started = sli_seconds();
-    for (s = 0; s < w->n; s++) {
-        w->scratch[w->perm[s]] = s;
-    }
-    sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+    sli_analyze_order(w, A, opt, stats);
     stats->symbolic.nnz_a = w->rows.begin[w->n];
-    stats->symbolic.seconds_tree = -sli_seconds();
-    sli_analyze_tree(w, opt, stats);
-    stats->symbolic.seconds_tree += sli_seconds();
+    if (w->choice.is_there) {
+        sli_analyze_choice(w, A, opt, stats);
+    }
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.n = A->n_cols;
