@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d9c95992305be9bc
+ * FNV-1a of the lines after this comment, without the license: d71b488625c0e9b4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -4525,8 +4525,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_STORE(p, a) _mm512_store_pd((p), a);
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLV_READ_0(l) _mm512_load_pd(l)
-#define SLV_READ_1(l) _mm512_cvtps_pd(_mm256_load_ps(l))
-#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), _mm512_cvtps_pd(_mm256_load_ps(l)));
+#define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), SLV_READ_1(l));
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);

@@ -157,7 +157,7 @@ static void searches_end_at_their_limit(void **state) {
     mesh m = flat_grid(21, 0.3);
     const sl_int sites[2] = {0, 440};
     incidence inc;
-    surface_search *one, *three;
+    surface_search *one = NULL, *three = NULL;
     cell_correction c;
     double *all = test_reals((size_t)m.n_vertices);
     sl_int *cell = test_array((size_t)m.n_vertices, sizeof *cell), near = 0;

@@ -21,8 +21,10 @@
 #define SLV_STORE(p, a) _mm512_store_pd((p), a);
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLV_READ_0(l) _mm512_load_pd(l)
-#define SLV_READ_1(l) _mm512_cvtps_pd(_mm256_load_ps(l))
-#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), _mm512_cvtps_pd(_mm256_load_ps(l)));
+/* With a mask of ones: g++ 12 warns of the undefined source of the plain intrinsic. The instruction
+ * is the same. */
+#define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), SLV_READ_1(l));
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
