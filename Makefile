@@ -483,12 +483,16 @@ deps-chromium: ## the browser that test-view runs
 test-view: deps-chromium deps-png ## the page of sparse-local view in a headless browser: it draws, turns and answers a click
 	@+$(SUB_MAKE) run-tests TEST_PROGRAMS= REPLAYS= ALSO=tests/tools/check_view.sh PROGRAM=$(B)/sparse-local
 
+# Where Debian has two implementations, mpicc may be that of the one without headers.
+MPICC ?= $(if $(wildcard /etc/debian_version),mpicc.mpich,mpicc)
+export MPIEXEC ?= $(patsubst mpicc%,mpiexec%,$(MPICC))
+
 deps-mpi: ## an implementation of MPI
-	@tools/build/deps.sh mpicc=libmpich-dev mpiexec=mpich
+	@tools/build/deps.sh $(MPICC)=libmpich-dev mpiexec=mpich
 
 $(B)/cluster-mpi: tools/cluster/cluster_mpi.c $(call object,$(NEED_PNG:.c=)) $(LIBRARY) $(IMPL) $(B)/flags
 	$(call say,MPI )
-	$(Q)mpicc $(C_FLAGS) -o $@ $(filter-out $(B)/flags,$^) $(LIBS) -lpng
+	$(Q)$(MPICC) $(C_FLAGS) -o $@ $(filter-out $(B)/flags,$^) $(LIBS) -lpng
 
 cluster: deps-mpi deps-png ## build/cluster-mpi: many queries on one saved factor by the ranks of an MPI job
 	@$(MAKE) --no-print-directory $(B)/cluster-mpi

@@ -8,7 +8,8 @@
 
 set -- $PROGRAM
 cluster=$1 program=$2
-if ! command -v mpiexec >/dev/null 2>&1 || [ ! -x "$cluster" ]; then
+MPIEXEC=${MPIEXEC:-mpiexec}
+if ! command -v "$MPIEXEC" >/dev/null 2>&1 || [ ! -x "$cluster" ]; then
     echo 'no MPI: skipped'
     echo '0 passed, 0 failed, 1 skipped'
     exit 0
@@ -26,7 +27,7 @@ details() {
 job() {
     ranks=$1
     shift
-    mpiexec -n "$ranks" "$cluster" "$@" >"$dir/log" 2>&1 </dev/null
+    "$MPIEXEC" -n "$ranks" "$cluster" "$@" >"$dir/log" 2>&1 </dev/null
 }
 
 # descendants PID: the processes that it started, and those that these started.
@@ -68,7 +69,7 @@ record $? 'a mesh: an answer for each vertex'
 # A killed rank: the next run computes the missing blocks, and only these.
 job 1 "$factor" pairs "$dir/whole" 100 40000
 record $? 'pairs with one rank'
-mpiexec -n 3 "$cluster" "$factor" pairs "$dir/killed" 100 40000 >"$dir/log" 2>&1 </dev/null &
+"$MPIEXEC" -n 3 "$cluster" "$factor" pairs "$dir/killed" 100 40000 >"$dir/log" 2>&1 </dev/null &
 mpi=$!
 waited=0
 while [ "$(blocks "$dir/killed")" -lt 5 ] && [ $waited -lt 600 ]; do
