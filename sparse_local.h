@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d71b488625c0e9b4
+ * FNV-1a of the lines after this comment, without the license: d6a7d7ae275ce75a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -49,33 +49,33 @@
  * (factor: the numbers of L and D)
  *  11247 factor_types.h  11574 storage.h  11645 pivot_search.h  11991 pivoted.h  12059 scatter.h
  *  12217 uplooking.h  12289 null_product.h  12493 null_dense.h  12570 null_basis.h
- *  12878 null_vectors.h  13022 multifrontal.h  13258 nullspace.h  13458 growth.h
- *  13534 factor_setup.h  13826 factor.h  14032 leftlooking.h  14216 factor_query.h
- *  14351 combination.h
+ *  12878 null_vectors.h  13022 multifrontal.h  13258 nullspace.h  13461 growth.h
+ *  13537 factor_setup.h  13829 factor.h  14035 leftlooking.h  14219 factor_query.h
+ *  14354 combination.h
  * (solve: full and local solves)
- *  14412 region_types.h  14516 work.h  14613 query.h  14787 singular.h  15054 backward.h
- *  15084 sweep.h  15270 compile.h  15463 plan.h  15570 local.h  15720 parts.h  16007 refine.h
- *  16186 refine_local.h  16401 rcond.h  16558 defects.h
+ *  14415 region_types.h  14519 work.h  14616 query.h  14790 singular.h  15057 backward.h
+ *  15087 sweep.h  15273 compile.h  15466 plan.h  15573 local.h  15723 parts.h  16010 refine.h
+ *  16189 refine_local.h  16404 rcond.h  16561 defects.h
  * (inverse: entries of the inverse, regions)
- *  16635 traversal.h  16880 traversal_run.h  17063 row_sets.h  17090 unit_vectors.h
- *  17315 bilinear.h  17492 entries.h  17773 block.h  18013 reserve.h  18205 selected.h
- *  18415 selected_query.h  18517 region_choose.h  18744 region.h
+ *  16638 traversal.h  16883 traversal_run.h  17066 row_sets.h  17093 unit_vectors.h
+ *  17318 bilinear.h  17495 entries.h  17776 block.h  18016 reserve.h  18208 selected.h
+ *  18418 selected_query.h  18520 region_choose.h  18747 region.h
  * (change: a factor that follows changes of its matrix)
- *  18992 update.h  19342 rank.h  19668 edges.h  19822 choose.h  20021 pins.h  20592 subset.h
- *  20699 restrict_analysis.h  20994 restrict_anew.h  21048 restrict_symbolic.h  21229 restrict.h
+ *  18995 update.h  19345 rank.h  19671 edges.h  19825 choose.h  20024 pins.h  20595 subset.h
+ *  20702 restrict_analysis.h  20997 restrict_anew.h  21051 restrict_symbolic.h  21232 restrict.h
  * (save: factors in files)
- *  21578 format.h  21874 decode.h  22020 check.h  22352 write.h  22655 load.h  22923 load_inverse.h
- *  23255 load_calls.h
+ *  21581 format.h  21877 decode.h  22023 check.h  22355 write.h  22658 load.h  22926 load_inverse.h
+ *  23258 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23454 batch_solve.h  23663 batch_factor.h  23864 batch_diagonal.h
+ *  23457 batch_solve.h  23666 batch_factor.h  23867 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  24004 hermitian.h  24149 complex_rows.h
+ *  24007 hermitian.h  24152 complex_rows.h
  * (last: undefine every internal macro)
- *  24317 undef.h
+ *  24320 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24495 multi_rhs.inl.h  24878 sweeps.inl.h  24880 unit_triangle.inl.h  24917 two_rhs.inl.h
- *  25086 small_supernode.inl.h  25245 single_rhs.inl.h  25489 kernel_set.inl.h  25491 product.inl.h
- *  25619 front.inl.h  25833 inverse_front.inl.h  26118 row.inl.h  26148 change.inl.h
+ *  24498 multi_rhs.inl.h  24881 sweeps.inl.h  24883 unit_triangle.inl.h  24920 two_rhs.inl.h
+ *  25089 small_supernode.inl.h  25248 single_rhs.inl.h  25492 kernel_set.inl.h  25494 product.inl.h
+ *  25622 front.inl.h  25836 inverse_front.inl.h  26121 row.inl.h  26151 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1084,11 +1084,11 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
- *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
- *           that pivot that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or
- *           SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with several null vectors, or more of
- *           them in the tree of error.row than columns;
+ *           error.row, and error.column if it is an entry of A; with mass, also a mean that
+ *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
+ *           of error.row, or an entry of L in the column of that pivot that float cannot hold;
+ *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with
+ *           several null vectors, or more of them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
  *           largest panel in double for each thread, and, with the
@@ -13359,6 +13359,9 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   }
   F->divisors[anchor] = 1.0;
   F->squares[m] = sum;
+  if (!sli_is_finite(sum) || !sli_is_finite(F->ratios[m])) {
+    return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
+  }
   return SL_OK;
 }
 

@@ -114,11 +114,11 @@
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; SL_ERR_INACCURATE: growth above its
- *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
- *           that pivot that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or
- *           SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with several null vectors, or more of
- *           them in the tree of error.row than columns;
+ *           error.row, and error.column if it is an entry of A; with mass, also a mean that
+ *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
+ *           of error.row, or an entry of L in the column of that pivot that float cannot hold;
+ *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with
+ *           several null vectors, or more of them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
  *           largest panel in double for each thread, and, with the

@@ -137,6 +137,9 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     }
     F->divisors[anchor] = 1.0;
     F->squares[m] = sum;
+    if (!sli_is_finite(sum) || !sli_is_finite(F->ratios[m])) { /* of pivots or weights near 0 */
+        return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
+    }
     return SL_OK;
 }
 
