@@ -40,6 +40,18 @@ double scalar_decode(scalar_type type, bool big_endian, const char *at) {
     }
 }
 
+bool scalar_read(input *in, bool ascii, scalar_type type, bool big_endian, double *x) {
+    if (ascii) {
+        return input_more(in) && input_number(in, x) && input_at_word_end(in);
+    }
+    if (in->end - in->at < scalar_bytes(type)) {
+        return false;
+    }
+    *x = scalar_decode(type, big_endian, in->at);
+    in->at += scalar_bytes(type);
+    return true;
+}
+
 bool scalar_is_index(double x) {
     return x >= 0 && x <= 4294967295.0 && x == (double)(int64_t)x;
 }

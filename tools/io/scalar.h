@@ -2,7 +2,7 @@
 #ifndef TOOLS_SCALAR_H
 #define TOOLS_SCALAR_H
 
-#include <stdbool.h>
+#include "input.h"
 
 typedef enum scalar_type {
     SCALAR_INT8,
@@ -22,6 +22,12 @@ int scalar_bytes(scalar_type type);
 
 /** Decodes the number at `at`. Integers of 8 bytes beyond 2^53 are rounded. */
 double scalar_decode(scalar_type type, bool big_endian, const char *at);
+
+/** Reads the next number: a word of text if ascii, otherwise the bytes of its type.
+ *
+ *  Returns  false at the end of the input, and for a word that is no number.
+ */
+bool scalar_read(input *in, bool ascii, scalar_type type, bool big_endian, double *x);
 
 /** Whether x is an integer in 0..2^32-1. */
 bool scalar_is_index(double x);

@@ -195,16 +195,7 @@ static bool read_header(ply *f) {
 }
 
 static bool read_scalar(ply *f, scalar_type type, double *x) {
-    input *in = f->b->in;
-    if (f->ascii) {
-        return input_more(in) && input_number(in, x) && input_at_word_end(in);
-    }
-    if (in->end - in->at < scalar_bytes(type)) {
-        return false;
-    }
-    *x = scalar_decode(type, f->big_endian, in->at);
-    in->at += scalar_bytes(type);
-    return true;
+    return scalar_read(f->b->in, f->ascii, type, f->big_endian, x);
 }
 
 /* Reads one property: coordinates into xyz, corners into the current polygon; others are

@@ -60,16 +60,7 @@ static bool read_count(input *in, int64_t *count) {
 }
 
 static bool read_number(vtk *f, scalar_type type, double *x) {
-    input *in = f->b->in;
-    if (f->ascii) {
-        return input_more(in) && input_number(in, x) && input_at_word_end(in);
-    }
-    if (in->end - in->at < scalar_bytes(type)) {
-        return false;
-    }
-    *x = scalar_decode(type, true, in->at);
-    in->at += scalar_bytes(type);
-    return true;
+    return scalar_read(f->b->in, f->ascii, type, true, x);
 }
 
 static bool read_index(vtk *f, scalar_type type, const char *section, int64_t *k) {
