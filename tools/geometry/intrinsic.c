@@ -7,8 +7,7 @@
 
 #include "laplacian.h"
 #include "planar_triangle.h"
-
-/* Side 3 f + k of face f is opposite to its corner k and runs from corner k + 1 to k + 2. */
+#include "tools/mesh/edge_sides.h"
 
 void intrinsic_free(intrinsic *a) {
     mesh_free(&a->m);
@@ -16,52 +15,8 @@ void intrinsic_free(intrinsic *a) {
     memset(a, 0, sizeof *a);
 }
 
-/* A side of a face by the numbers of its ends. */
-typedef struct edge_side {
-    sl_int low, high, side;
-} edge_side;
-
-static int by_ends(const void *a, const void *b) {
-    const edge_side *x = (const edge_side *)a, *y = (const edge_side *)b;
-    if (x->low != y->low) {
-        return x->low < y->low ? -1 : 1;
-    }
-    if (x->high != y->high) {
-        return x->high < y->high ? -1 : 1;
-    }
-    return (x->side > y->side) - (x->side < y->side);
-}
-
-static sl_int after(sl_int side) {
-    return side % 3 == 2 ? side - 2 : side + 1;
-}
-
 static bool runs_upward(const sl_int *faces, sl_int side) {
-    return faces[after(side)] < faces[after(after(side))];
-}
-
-/* The sides of all faces, those of one edge next to each other. NULL: out of memory. */
-static edge_side *sorted_sides(const mesh *m) {
-    size_t count = 3 * (size_t)m->n_faces;
-    edge_side *sides = (edge_side *)malloc((count + 1) * sizeof *sides);
-    for (size_t s = 0; s < count && sides != NULL; s++) {
-        sl_int u = m->faces[after((sl_int)s)], v = m->faces[after(after((sl_int)s))];
-        edge_side e = {u < v ? u : v, u < v ? v : u, (sl_int)s};
-        sides[s] = e;
-    }
-    if (sides != NULL) {
-        qsort(sides, count, sizeof *sides, by_ends);
-    }
-    return sides;
-}
-
-/* The end of the sides of the edge that begins at position k. */
-static size_t end_of_edge(const edge_side *sides, size_t k, size_t count) {
-    size_t end = k + 1;
-    while (end < count && sides[end].low == sides[k].low && sides[end].high == sides[k].high) {
-        end++;
-    }
-    return end;
+    return faces[side_after(side)] < faces[side_after(side_after(side))];
 }
 
 /* Glues the sides of oriented manifold faces: twin[s] is the other side of the edge, -1 at the
@@ -149,8 +104,8 @@ static bool measure(intrinsic *out) {
     size_t count = 3 * (size_t)m->n_faces;
     double sum = 0, least = INFINITY;
     for (size_t s = 0; s < count; s++) {
-        const double *a = m->xyz + 3 * (size_t)m->faces[after((sl_int)s)];
-        const double *b = m->xyz + 3 * (size_t)m->faces[after(after((sl_int)s))];
+        const double *a = m->xyz + 3 * (size_t)m->faces[side_after((sl_int)s)];
+        const double *b = m->xyz + 3 * (size_t)m->faces[side_after(side_after((sl_int)s))];
         out->lengths[s] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
         sum += out->lengths[s] / (double)count;
     }
@@ -181,8 +136,10 @@ static void flip(intrinsic *out, sl_int *twin, sl_int s, sl_int t, sl_int outer[
     sl_int F = 3 * (s / 3), G = 3 * (t / 3);
     sl_int *faces = out->m.faces;
     double *l = out->lengths;
-    const sl_int pa = after(after(s)), bp = after(s), aq = after(t), qb = after(after(t));
-    const sl_int p = faces[s], a = faces[after(s)], b = faces[after(after(s))], q = faces[t];
+    const sl_int pa = side_after(side_after(s)), bp = side_after(s), aq = side_after(t),
+                 qb = side_after(side_after(t));
+    const sl_int p = faces[s], a = faces[side_after(s)], b = faces[side_after(side_after(s))],
+                 q = faces[t];
     const sl_int from[4] = {pa, bp, aq, qb};
     const sl_int to[4] = {F + 2, G, F, G + 2};
     const double l_pa = l[pa], l_bp = l[bp], l_aq = l[aq], l_qb = l[qb], l_ab = l[s];

@@ -5,30 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "edge_sides.h"
+
 void edge_flips_free(edge_flips *a) {
     free(a->m.faces);
     free(a->twin);
     memset(a, 0, sizeof *a);
-}
-
-/* The side after this one in its face. */
-static sl_int after(sl_int side) {
-    return side % 3 == 2 ? side - 2 : side + 1;
-}
-
-typedef struct half_edge {
-    sl_int low, high, side;
-} half_edge;
-
-static int by_ends(const void *a, const void *b) {
-    const half_edge *x = (const half_edge *)a, *y = (const half_edge *)b;
-    if (x->low != y->low) {
-        return x->low < y->low ? -1 : 1;
-    }
-    if (x->high != y->high) {
-        return x->high < y->high ? -1 : 1;
-    }
-    return (x->side > y->side) - (x->side < y->side);
 }
 
 bool edge_flips_create(edge_flips *out, const mesh *m) {
@@ -42,7 +24,7 @@ bool edge_flips_create(edge_flips *out, const mesh *m) {
     out->m = *m;
     out->m.faces = (sl_int *)malloc((count + 1) * sizeof(sl_int));
     out->twin = (sl_int *)malloc((count + 1) * sizeof(sl_int));
-    half_edge *sides = (half_edge *)malloc((count + 1) * sizeof *sides);
+    edge_side *sides = sorted_sides(m);
     if (out->m.faces == NULL || out->twin == NULL || sides == NULL) {
         edge_flips_free(out);
         free(sides);
@@ -50,19 +32,13 @@ bool edge_flips_create(edge_flips *out, const mesh *m) {
     }
     memcpy(out->m.faces, m->faces, count * sizeof(sl_int));
     for (size_t s = 0; s < count; s++) {
-        const sl_int u = m->faces[after((sl_int)s)], v = m->faces[after(after((sl_int)s))];
-        const half_edge e = {u < v ? u : v, u < v ? v : u, (sl_int)s};
-        sides[s] = e;
         out->twin[s] = -1;
     }
-    qsort(sides, count, sizeof *sides, by_ends);
     for (size_t k = 0, end; k < count; k = end) {
-        end = k + 1;
-        while (end < count && sides[end].low == sides[k].low && sides[end].high == sides[k].high) {
-            end++;
-        }
+        end = end_of_edge(sides, k, count);
         const sl_int s = sides[k].side, t = end == k + 2 ? sides[k + 1].side : -1;
-        if (t >= 0 && m->faces[after(s)] != m->faces[after(t)]) { /* opposite directions */
+        if (t >= 0 &&
+            m->faces[side_after(s)] != m->faces[side_after(t)]) { /* opposite directions */
             out->twin[s] = t;
             out->twin[t] = s;
         }
@@ -83,7 +59,7 @@ static void normal_of(double out[3], const mesh *m, sl_int i, sl_int j, sl_int k
 
 bool edge_flips_corners(sl_int corners[4], const edge_flips *a, sl_int side) {
     const sl_int twin = a->twin[side];
-    const sl_int u = a->m.faces[after(side)], v = a->m.faces[after(after(side))];
+    const sl_int u = a->m.faces[side_after(side)], v = a->m.faces[side_after(side_after(side))];
     corners[0] = u;
     corners[1] = v;
     corners[2] = a->m.faces[side];
@@ -124,8 +100,8 @@ static void join(edge_flips *a, sl_int s, sl_int t) {
 
 void edge_flips_flip(sl_int pair[2], edge_flips *a, sl_int side) {
     /* faces c u v and d v u become c u d and d v c */
-    const sl_int s = side, t = a->twin[side], s1 = after(s), s2 = after(s1), t1 = after(t),
-                 t2 = after(t1);
+    const sl_int s = side, t = a->twin[side], s1 = side_after(s), s2 = side_after(s1),
+                 t1 = side_after(t), t2 = side_after(t1);
     const sl_int c = a->m.faces[s], d = a->m.faces[t];
     const sl_int beyond_ud = a->twin[t1], beyond_vc = a->twin[s1];
     a->m.faces[s2] = d;
