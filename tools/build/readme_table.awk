@@ -94,7 +94,8 @@ END {
     print "nothing set. CHOLMOD in our ordering: `S` supernodal, `s` simplicial, `B` cholmod_solve2"
     print "with Bset, `F` a full solve in its fastest setting, `U` cholmod_updown on vectors that"
     print "were permuted before, `R` cholmod_rowdel and rowadd. Eigen SimplicialLDLT: `A` with AMD,"
-    print "its default, `E` in our ordering."
+    print "its default, `E` in our ordering. \"For one factor\": `options.purpose` is"
+    print "`SL_PURPOSE_ONE_FACTOR`; by default the order suits many local solves."
     for (t = 1; t <= n_tables; t++) table(t)
 }
 
