@@ -19,7 +19,7 @@ typedef struct heat_mesh_t {
 static inline void heat_mesh_make(heat_mesh_t *y, mesh m, double times) {
     y->m = m;
     double h = mesh_mean_edge_length(&y->m);
-    SL_CHECK(heat_solver_create(&y->s, &y->m, times * h * h));
+    SL_CHECK(heat_solver_create(&y->s, &y->m, times * h * h, NULL));
 }
 
 static inline void heat_mesh_free(heat_mesh_t *y) {

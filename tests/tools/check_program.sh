@@ -196,6 +196,47 @@ gives 2 'has no mesh for --out and --png' heat "$dir/f.slf" --png "$dir/x.png"
 gives 2 'has no mesh for --radius' heat "$dir/f.slf" --radius 1
 gives 1 'there is no vertex 162' adf "$dir/f.slf" --at 162
 gives 1 'cannot be read, parsed or written' adf "$dir/none.slf"
+# both factors of the heat method, also of an intrinsic triangulation and where the time is raised
+same_distances() {
+    mesh=$1 options=$2
+    shift 2
+    # shellcheck disable=SC2086
+    "$program" save "$mesh" $options --out "$dir/heat.slf" --poisson "$dir/poisson.slf" \
+        >"$dir/out" 2>"$dir/err" &&
+        "$program" geodesic "$mesh" $options "$@" --csv "$dir/made.csv" >"$dir/out" 2>"$dir/err" &&
+        "$program" geodesic "$mesh" "$@" --heat "$dir/heat.slf" --poisson "$dir/poisson.slf" \
+            --csv "$dir/mapped.csv" >"$dir/out2" 2>"$dir/err" &&
+        [ "$(wc -l <"$dir/made.csv")" -gt 100 ] && cmp "$dir/made.csv" "$dir/mapped.csv" &&
+        [ "$(sed -n 's/.*; \(time [^;]*\);.*/\1/p' "$dir/out")" = \
+            "$(sed -n 's/.*; \(time [^;]*\);.*/\1/p' "$dir/out2")" ]
+    record $? "geodesic $mesh $*: the bits of files are those of the mesh"
+}
+same_distances grid:40x40 '--scaled-time 2' --from 820
+same_distances grid:40x40 '' --from 820 --radius 0.3 --region
+same_distances star:4 '--laplacian auto'
+same_distances sphere:3 '' --voronoi --from random:9
+"$program" save star:4 --laplacian cotangent --out "$dir/heat.slf" --poisson "$dir/poisson.slf" \
+    >"$dir/out" 2>"$dir/err" &&
+    "$program" geodesic star:4 --laplacian cotangent --csv "$dir/made.csv" >"$dir/out" \
+        2>"$dir/err" && grep -q 'raised to' "$dir/out" &&
+    "$program" geodesic star:4 --laplacian cotangent --heat "$dir/heat.slf" \
+        --poisson "$dir/poisson.slf" --csv "$dir/mapped.csv" >"$dir/out" 2>"$dir/err" &&
+    cmp "$dir/made.csv" "$dir/mapped.csv"
+record $? 'save --poisson raises the time as geodesic does'
+gives 1 'not the factors of this mesh' geodesic star:4 --laplacian intrinsic --heat \
+    "$dir/heat.slf" --poisson "$dir/poisson.slf"
+gives 1 'not the factors of this mesh' geodesic star:4 --laplacian cotangent --heat \
+    "$dir/poisson.slf" --poisson "$dir/heat.slf"
+gives 1 'not the factors of this mesh' geodesic star:4 --laplacian cotangent --heat \
+    "$dir/heat.slf" --poisson "$dir/heat.slf"
+gives 1 'not the factors of this mesh' geodesic sphere:2 --heat "$dir/heat.slf" --poisson \
+    "$dir/poisson.slf"
+gives 2 'give both or none' geodesic sphere:2 --heat "$dir/heat.slf"
+gives 2 'has its own time' geodesic sphere:2 --heat "$dir/heat.slf" --poisson "$dir/poisson.slf" \
+    --time 1
+gives 1 'none.slf: .*cannot be read' geodesic sphere:2 --heat "$dir/none.slf" --poisson \
+    "$dir/poisson.slf"
+gives 2 'the same file' save sphere:1 --out "$dir/x.slf" --poisson "$dir/x.slf"
 # large blocks in files
 "$program" save hills:250x250 --out "$dir/memory.slf" >"$dir/out" 2>"$dir/err" &&
     "$program" save hills:250x250 --out "$dir/disk.slf" --scratch "$dir" >"$dir/out" 2>"$dir/err" &&

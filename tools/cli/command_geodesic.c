@@ -6,6 +6,7 @@
 
 #include "app.h"
 #include "command.h"
+#include "heat_factors.h"
 #include "laplacian_choice.h"
 #include "path_check.h"
 #include "solve_accuracy.h"
@@ -53,9 +54,6 @@ static const options_manual manual = {
     "star:6 --from 100 --png distance.png\nbunny.obj --from 17 --radius 0.3 --csv distance.csv\n"
     "torus:120x40 --voronoi --from random:60 --png cells.png"};
 
-/* Range of times tried, in units of the squared mean edge length. */
-enum { FIRST_TIME = 4, LAST_TIME = 256 };
-
 /* With --each, number of sources from which regions pay for their creation. Where a region would
  * save nothing, it has no boundary and its creation is almost free. */
 enum { REGION_PAYS = 70 };
@@ -63,6 +61,7 @@ enum { REGION_PAYS = 70 };
 typedef struct geodesic_command {
     /* options */
     const char *from, *exact, *laplacian;
+    const char *heat_file, *poisson_file;     /* NULL: the factors are computed */
     double radius, margin, time, scaled_time; /* radius, time, scaled_time: 0 if not given */
     sl_int solves;
     bool cut, region, each, voronoi, raw;
@@ -370,39 +369,15 @@ static sl_int *sources_of(const char *from, const mesh *m, sl_int *count) {
     return first;
 }
 
-/* Doubles the time, from 4 squared mean edge lengths, until no heat is negative in the ball. Each
- * step is a numerical refactorization with the same analysis. */
-static void find_time(geodesic_command *cmd, double squared_edge) {
-    sl_int before = 0;
-    double scaled = FIRST_TIME;
-    for (;; scaled *= 2) {
-        heat_field f;
-        app_must(heat_distance(&f, &cmd->s, cmd->sources, cmd->n_sources, &cmd->heat), "distances",
-                 NULL);
-        sl_int negative = f.negative;
-        heat_field_free(&f);
-        if (negative == 0 || scaled >= LAST_TIME) {
-            break;
-        }
-        before = before == 0 ? negative : before;
-        app_must(heat_solver_set_time(&cmd->s, 2 * scaled * squared_edge), "factor of heat", NULL);
-    }
-    if (before > 0) {
-        printf(
-            "time       raised to %g squared mean edges: heat was negative at %d vertices behind "
-            "obtuse faces\n",
-            scaled, (int)before);
-    }
-}
-
-/* Reads the mesh, finds the sources, computes both factors and aims the camera. */
+/* Reads the mesh, finds the sources, gets both factors and aims the camera. */
 static void open_command(geodesic_command *cmd, const char *operand) {
     double time = cmd->time, scaled = cmd->scaled_time;
     app_mesh(&cmd->m, operand, true);
     app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL);
     cmd->sources = sources_of(cmd->from, &cmd->m, &cmd->n_sources);
     double edge = mesh_mean_edge_length(&cmd->m);
-    double t = time > 0 ? time : (scaled > 0 ? scaled : FIRST_TIME) * edge * edge;
+    double t = time > 0 ? time : (scaled > 0 ? scaled : HEAT_FACTORS_FIRST) * edge * edge;
+    bool is_saved = cmd->heat_file != NULL;
     if (!(t > 0)) {
         app_die("%s: all edges have no length", operand);
     }
@@ -410,17 +385,20 @@ static void open_command(geodesic_command *cmd, const char *operand) {
         app_warn("the time is too short for heat to cross an edge: the heat method will be wrong");
     }
     double began = app_now();
-    app_stage("factoring heat and Laplacian");
-    bool is_intrinsic = laplacian_choose(&cmd->surface, &cmd->m, cmd->laplacian);
-    app_must(is_intrinsic ? heat_solver_create_intrinsic(&cmd->s, &cmd->surface, t)
-                          : heat_solver_create(&cmd->s, &cmd->m, t),
-             "factors of heat and Laplacian", NULL);
-    app_progress_end();
-    printf("mesh       %d vertices, %d faces, mean edge %.4g; time %.4g; both factors in %.1f ms\n",
-           (int)cmd->m.n_vertices, (int)cmd->m.n_faces, edge, t, 1e3 * (app_now() - began));
-    accuracy_warn_poisson(cmd->s.m, cmd->s.inc.lengths, is_intrinsic ? cmd->surface.share : 1);
-    if (!(time > 0) && !(scaled > 0)) {
-        find_time(cmd, edge * edge);
+    if (is_saved) {
+        heat_factors_open(&cmd->s, &cmd->surface, &cmd->m, cmd->laplacian, cmd->heat_file,
+                          cmd->poisson_file);
+    } else {
+        heat_factors_create(&cmd->s, &cmd->surface, &cmd->m, cmd->laplacian, t, NULL);
+    }
+    printf(
+        "mesh       %d vertices, %d faces, mean edge %.4g; time %.4g; both factors %s in %.1f ms\n",
+        (int)cmd->m.n_vertices, (int)cmd->m.n_faces, edge, cmd->s.t,
+        is_saved ? "mapped and checked" : "made", 1e3 * (app_now() - began));
+    accuracy_warn_poisson(cmd->s.m, cmd->s.inc.lengths,
+                          cmd->surface.lengths != NULL ? cmd->surface.share : 1);
+    if (!is_saved && !(time > 0) && !(scaled > 0)) {
+        heat_factors_find_time(&cmd->s, edge * edge, cmd->sources, cmd->n_sources, &cmd->heat);
     }
     if (cmd->n_sources == 1 && cmd->heat.radius > 0) {
         app_aim_camera(&cmd->output, &cmd->m, cmd->sources, 1, true);
@@ -445,6 +423,12 @@ static void check_options(const geodesic_command *cmd) {
     if (cmd->time > 0 && cmd->scaled_time > 0) {
         app_die_usage("--time and --scaled-time: give one of them");
     }
+    if ((cmd->heat_file != NULL) != (cmd->poisson_file != NULL)) {
+        app_die_usage("--heat and --poisson: give both or none");
+    }
+    if (cmd->heat_file != NULL && (cmd->time > 0 || cmd->scaled_time > 0)) {
+        app_die_usage("%s: has its own time", cmd->heat_file);
+    }
 }
 
 int command_geodesic(int argc, char **argv) {
@@ -466,6 +450,10 @@ int command_geodesic(int argc, char **argv) {
         {OPTION_ABOVE_0, "scaled-time", &cmd.scaled_time, "S",
          "diffuse heat for S times the squared mean edge length (4, or more if heat would be "
          "negative)"},
+        {OPTION_TEXT, "heat", &cmd.heat_file, "FILE",
+         "take the factor of heat, and with it the time, from this file; with --poisson"},
+        {OPTION_TEXT, "poisson", &cmd.poisson_file, "FILE",
+         "take the factor of the Laplacian from this file; save --poisson writes both"},
         {OPTION_TEXT, "exact", &cmd.exact, "plane|sphere",
          "print the errors for a mesh that is a plane or a sphere"},
         {OPTION_FLAG, "region", &cmd.region, NULL,

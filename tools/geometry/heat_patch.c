@@ -27,7 +27,7 @@ void heat_patch_free(heat_patch *h) {
 
 /* Creates the regions of both factors around the patch. */
 static sl_status create_regions(heat_patch *h) {
-    sl_status status = patch_solver_use_region(&h->poisson, h->s->S);
+    sl_status status = patch_solver_use_region(&h->poisson, h->s->poisson_S);
     if (status == SL_OK) {
         status =
             sl_region_create(&h->heat_region, h->s->heat, h->b.vertices, h->b.n, NULL, NULL, NULL);
@@ -48,7 +48,7 @@ sl_status heat_patch_create(heat_patch *out, heat_solver *s, const sl_int *sourc
     if (out->sources != NULL && graph_ball_create(&out->b, &s->inc, sources, count, radius) &&
         submesh_from_vertices(&out->p, &s->inc, out->b.vertices, out->b.n, NULL, 0)) {
         memcpy(out->sources, sources, (size_t)count * sizeof *sources);
-        status = patch_solver_create(&out->poisson, s->S, s->poisson, &out->p);
+        status = patch_solver_create(&out->poisson, s->poisson_S, s->poisson, &out->p);
     }
     if (status == SL_OK && in_region) {
         status = create_regions(out);

@@ -29,9 +29,10 @@ typedef struct heat_solver {
     const mesh *m; /* borrowed */
     incidence inc; /* with the lengths of the faces, if these define them */
     double t;
-    sl_symbolic *S;
-    sl_factor *heat;    /* of M + t L */
-    sl_factor *poisson; /* of L, with SL_NULL_PIVOT_SKIP */
+    sl_symbolic *S;         /* of heat */
+    sl_symbolic *poisson_S; /* of poisson: S, unless the factors are of two files */
+    sl_factor *heat;        /* of M + t L */
+    sl_factor *poisson;     /* of L, with SL_NULL_PIVOT_SKIP */
     sl_work *work;
 } heat_solver;
 
@@ -43,16 +44,33 @@ typedef struct heat_solver {
  *  out  [out]  release with heat_solver_free; all zero on error.
  *  m    [in]   borrowed, must outlive out.
  *  t    [in]   above 0, at most 1e200, in squared units of length.
+ *  opt  [in]   allocator of analysis and factors; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: t or a face index is out of range; SL_ERR_MEMORY; as
  *           sl_factor_create.
  */
-sl_status heat_solver_create(heat_solver *out, const mesh *m, double t);
+sl_status heat_solver_create(heat_solver *out, const mesh *m, double t, const sl_options *opt);
 
 /** The same for an intrinsic triangulation: distances along the surface as it has them.
  *
  *  a  [in]  borrowed, must outlive out.
  */
-sl_status heat_solver_create_intrinsic(heat_solver *out, const intrinsic *a, double t);
+sl_status heat_solver_create_intrinsic(heat_solver *out, const intrinsic *a, double t,
+                                       const sl_options *opt);
+
+/** A solver with factors that a solver of the same mesh has made, such as those of two files.
+ *
+ *  Finds t, and checks that the factors are of this mesh: each solves for random numbers, and the
+ *  matrices of the mesh have to return these to 6 digits in every row.
+ *
+ *  lengths        [in]      of an intrinsic triangulation, whose mesh is then m; else NULL.
+ *  heat, poisson  [in,out]  analysis and factor are taken out of the sets, also on error.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a set without a factor; SL_ERR_PATTERN: the factors are not of
+ *           this mesh; SL_ERR_MEMORY; as sl_factor_solve.
+ *  Cost     O(entries of both factors).
+ *  Example  tests/tools/test_geodesic.c
+ */
+sl_status heat_solver_adopt(heat_solver *out, const mesh *m, const double *lengths,
+                            sl_saved_set *heat, sl_saved_set *poisson);
 
 /** Refactors M + t L for another t, with the same analysis. On error s can only be freed, unless t
  *  was out of range.
