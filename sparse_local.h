@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d6a7d7ae275ce75a
+ * FNV-1a of the lines after this comment, without the license: 133c25c6d275d59a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -3338,13 +3338,13 @@ SLI_INLINE uint64_t sli_fold(uint64_t x, uint64_t y) {
 #endif
 }
 
-typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_REALS, SLI_HASH_BYTES } sli_hashed;
+typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_WORDS, SLI_HASH_BYTES } sli_hashed;
 
 SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
   uint64_t word;
   memcpy(&word, bytes, sizeof word);
 #if defined(SLI_BIG_ENDIAN)
-  word = kind == SLI_HASH_REALS  ? word
+  word = kind == SLI_HASH_WORDS  ? word
        : kind == SLI_HASH_INTS ? word << 32 | word >> 32
                    : __builtin_bswap64(word);
 #else
@@ -3412,9 +3412,9 @@ static sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
   return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, 0, &unused);
 }
 
-static sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
+static sli_hash sli_hash_words(sli_hash h, const void *a, sl_off count) {
   uint64_t unused;
-  return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_REALS, 0, &unused);
+  return sli_hash_checked(h, a, (size_t)count * 8, SLI_HASH_WORDS, 0, &unused);
 }
 #else
 static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
@@ -3426,8 +3426,8 @@ SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
   return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
 
-SLI_INLINE sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
-  return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
+SLI_INLINE sli_hash sli_hash_words(sli_hash h, const void *a, sl_off count) {
+  return sli_hash_bytes(h, a, (size_t)count * 8);
 }
 #endif
 
@@ -13891,7 +13891,7 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
 
 static void sli_pairs_done(sl_factor *F) {
   sl_int k;
-  F->identity = sli_hash_reals(F->identity, F->E, F->S->n);
+  F->identity = sli_hash_words(F->identity, F->E, F->S->n);
   for (k = 0; k < F->S->n; k++) {
     F->divisors[k] = F->S->pairs[k] == SLI_PAIR_NONE ? F->D[k] : 1.0;
   }
@@ -13917,7 +13917,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     if (F->storage != SL_STORAGE_DOUBLE) {
       F->identity = sli_hash_ints(F->identity, &storage, 1);
     }
-    F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
+    F->identity = sli_hash_words(F->identity, F->D, F->S->n);
     if (F->E != NULL) {
       sli_pairs_done(F);
     }
@@ -13940,12 +13940,12 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
   sl_int t;
   F->identity = S->identity;
   if (from->A != NULL) {
-    F->identity = sli_hash_reals(F->identity, from->A->x, sli_nnz(from->A));
+    F->identity = sli_hash_words(F->identity, from->A->x, sli_nnz(from->A));
     return;
   }
-  F->identity = sli_hash_reals(F->identity, from->coefficients, from->terms);
+  F->identity = sli_hash_words(F->identity, from->coefficients, from->terms);
   for (t = 0; t < from->terms; t++) {
-    F->identity = sli_hash_reals(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
+    F->identity = sli_hash_words(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
   }
 }
 
@@ -14196,7 +14196,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   for (k = 0; k < count; k++) {
     const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
     F->identity = sli_hash_ints(F->identity, &columns[k], 1);
-    F->identity = sli_hash_reals(F->identity, A->x + p, q - p);
+    F->identity = sli_hash_words(F->identity, A->x + p, q - p);
   }
   count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
   if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
@@ -19533,9 +19533,9 @@ static void sli_rank_identify(sli_rank *q) {
   const sl_csc *V = q->u.V;
   F->identity = sli_hash_ints(F->identity, V->p, (sl_off)V->n_cols + 1);
   F->identity = sli_hash_ints(F->identity, V->i, sli_nnz(V));
-  F->identity = sli_hash_reals(F->identity, V->x, sli_nnz(V));
+  F->identity = sli_hash_words(F->identity, V->x, sli_nnz(V));
   if (q->u.sigma != NULL) {
-    F->identity = sli_hash_reals(F->identity, q->u.sigma, V->n_cols);
+    F->identity = sli_hash_words(F->identity, q->u.sigma, V->n_cols);
   }
   F->generation++;
 }
@@ -21407,7 +21407,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
   memset(&failure, 0, sizeof failure);
   memset(w.is_kept, 0, (size_t)G->S->n_supers);
   sli_factor_begin(G);
-  G->identity = sli_hash_bytes(F->identity, &G->S->identity, sizeof(sli_hash));
+  G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
   status = sli_restrict_check(F, r, &failure);
   for (q = 0; q < r->n_kept && status == SL_OK; q++) {
     w.is_kept[r->kept_new[q]] = 1;

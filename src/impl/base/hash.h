@@ -38,13 +38,13 @@ SLI_INLINE uint64_t sli_fold(uint64_t x, uint64_t y) {
 
 /* What an array consists of. Its hash does not depend on the byte order of the processor: words are
  * read as a little-endian processor reads them. */
-typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_REALS, SLI_HASH_BYTES } sli_hashed;
+typedef enum sli_hashed { SLI_HASH_INTS, SLI_HASH_WORDS, SLI_HASH_BYTES } sli_hashed;
 
 SLI_ALWAYS_INLINE uint64_t sli_word(const void *bytes, sli_hashed kind) {
     uint64_t word;
     memcpy(&word, bytes, sizeof word);
 #if defined(SLI_BIG_ENDIAN)
-    word = kind == SLI_HASH_REALS  ? word
+    word = kind == SLI_HASH_WORDS  ? word
            : kind == SLI_HASH_INTS ? word << 32 | word >> 32
                                    : __builtin_bswap64(word);
 #else
@@ -118,9 +118,10 @@ static sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
     return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_INTS, 0, &unused);
 }
 
-static sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
+/* Words of 8 bytes: double, uint64_t. */
+static sli_hash sli_hash_words(sli_hash h, const void *a, sl_off count) {
     uint64_t unused;
-    return sli_hash_checked(h, a, (size_t)count * sizeof *a, SLI_HASH_REALS, 0, &unused);
+    return sli_hash_checked(h, a, (size_t)count * 8, SLI_HASH_WORDS, 0, &unused);
 }
 #else
 static sli_hash sli_hash_bytes(sli_hash h, const void *data, size_t bytes) {
@@ -132,8 +133,9 @@ SLI_INLINE sli_hash sli_hash_ints(sli_hash h, const sl_int *a, sl_off count) {
     return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
 }
 
-SLI_INLINE sli_hash sli_hash_reals(sli_hash h, const double *a, sl_off count) {
-    return sli_hash_bytes(h, a, (size_t)count * sizeof *a);
+/* Words of 8 bytes: double, uint64_t. */
+SLI_INLINE sli_hash sli_hash_words(sli_hash h, const void *a, sl_off count) {
+    return sli_hash_bytes(h, a, (size_t)count * 8);
 }
 #endif
 

@@ -208,9 +208,9 @@ static void sli_rank_identify(sli_rank *q) {
     const sl_csc *V = q->u.V;
     F->identity = sli_hash_ints(F->identity, V->p, (sl_off)V->n_cols + 1);
     F->identity = sli_hash_ints(F->identity, V->i, sli_nnz(V));
-    F->identity = sli_hash_reals(F->identity, V->x, sli_nnz(V));
+    F->identity = sli_hash_words(F->identity, V->x, sli_nnz(V));
     if (q->u.sigma != NULL) {
-        F->identity = sli_hash_reals(F->identity, q->u.sigma, V->n_cols);
+        F->identity = sli_hash_words(F->identity, q->u.sigma, V->n_cols);
     }
     F->generation++;
 }

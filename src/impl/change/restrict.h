@@ -193,7 +193,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     memset(&failure, 0, sizeof failure);
     memset(w.is_kept, 0, (size_t)G->S->n_supers);
     sli_factor_begin(G);
-    G->identity = sli_hash_bytes(F->identity, &G->S->identity, sizeof(sli_hash));
+    G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
     status = sli_restrict_check(F, r, &failure);
     for (q = 0; q < r->n_kept && status == SL_OK; q++) {
         w.is_kept[r->kept_new[q]] = 1;

@@ -78,7 +78,7 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
 /* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
 static void sli_pairs_done(sl_factor *F) {
     sl_int k;
-    F->identity = sli_hash_reals(F->identity, F->E, F->S->n);
+    F->identity = sli_hash_words(F->identity, F->E, F->S->n);
     for (k = 0; k < F->S->n; k++) {
         F->divisors[k] = F->S->pairs[k] == SLI_PAIR_NONE ? F->D[k] : 1.0;
     }
@@ -106,7 +106,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
         if (F->storage != SL_STORAGE_DOUBLE) {
             F->identity = sli_hash_ints(F->identity, &storage, 1);
         }
-        F->identity = sli_hash_reals(F->identity, F->D, F->S->n);
+        F->identity = sli_hash_words(F->identity, F->D, F->S->n);
         if (F->E != NULL) {
             sli_pairs_done(F);
         }
@@ -130,12 +130,12 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
     sl_int t;
     F->identity = S->identity;
     if (from->A != NULL) {
-        F->identity = sli_hash_reals(F->identity, from->A->x, sli_nnz(from->A));
+        F->identity = sli_hash_words(F->identity, from->A->x, sli_nnz(from->A));
         return;
     }
-    F->identity = sli_hash_reals(F->identity, from->coefficients, from->terms);
+    F->identity = sli_hash_words(F->identity, from->coefficients, from->terms);
     for (t = 0; t < from->terms; t++) {
-        F->identity = sli_hash_reals(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
+        F->identity = sli_hash_words(F->identity, from->values[t], S->scatter_begin[S->n_supers]);
     }
 }
 

@@ -182,7 +182,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (k = 0; k < count; k++) {
         const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
         F->identity = sli_hash_ints(F->identity, &columns[k], 1);
-        F->identity = sli_hash_reals(F->identity, A->x + p, q - p);
+        F->identity = sli_hash_words(F->identity, A->x + p, q - p);
     }
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
     if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
