@@ -36,10 +36,8 @@ static sl_status factor(sl_factor **out, sl_symbolic **S, const sl_matrix *A,
 
 /* What needs no factor. */
 static sl_status prepare(heat_solver *out, const mesh *m, const double *lengths) {
-    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
-        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
-            return SL_ERR_ARGUMENT;
-        }
+    if (!mesh_faces_are_in_range(m)) {
+        return SL_ERR_ARGUMENT;
     }
     out->m = m;
     return incidence_create_of(&out->inc, m, lengths) ? sl_work_create(&out->work, NULL)

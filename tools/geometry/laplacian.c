@@ -64,15 +64,6 @@ laplacian_face laplacian_of_face(const mesh *m, const sl_int *face) {
     return result;
 }
 
-static bool faces_in_range(const mesh *m) {
-    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
-        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Half the cotangent at the corner opposite to an edge, from the lengths of the edges. */
 laplacian_face laplacian_of_lengths(const double lengths[3]) {
     laplacian_face result = {planar_area_of_lengths(lengths), {0, 0, 0}};
@@ -148,7 +139,7 @@ static bool assemble(sl_matrix **out, const mesh *m, const double *lengths, doub
 static bool assemble_system(sl_matrix **out, const mesh *m, const double *lengths, double share,
                             double t, bool with_mass) {
     *out = NULL;
-    if (!faces_in_range(m)) {
+    if (!mesh_faces_are_in_range(m)) {
         return false;
     }
     double *diagonal = (double *)calloc((size_t)m->n_vertices + 1, sizeof *diagonal);

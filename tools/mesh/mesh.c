@@ -9,6 +9,15 @@
 
 #include "mesh_build.h"
 
+bool mesh_faces_are_in_range(const mesh *m) {
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void mesh_free(mesh *m) {
     if (m != NULL) {
         free(m->xyz);

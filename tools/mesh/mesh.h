@@ -70,6 +70,9 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
 bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message_size, char *note,
                       size_t note_size);
 
+/** Whether all corners of faces are vertices of the mesh. */
+bool mesh_faces_are_in_range(const mesh *m);
+
 /** Releases the arrays and sets m to all zero. An empty mesh and NULL are allowed. */
 void mesh_free(mesh *m);
 
