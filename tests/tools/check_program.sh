@@ -101,6 +101,39 @@ gives 0 'at 3 times' hks sphere:2 --times 3 --threads 2 --csv "$dir/h2.csv"
     cmp -s "$dir/h1.csv" "$dir/h2.csv"
 record $? "hks gives the same numbers with one thread and with two"
 
+# Vectors (test_vector_heat.c): on a plane a vector stays as it is, and a logarithm is x - x0.
+
+gives 0 'from 1 vertex to 25 of 25' vectors grid:5x5 --from 12 --vectors 0.6,-0.8,9 \
+    --csv "$dir/v.csv" --png "$dir/v.png" --out "$dir/v.ply"
+awk -F, 'NR > 1 && !(($2 - 0.6)^2 + ($3 + 0.8)^2 + $4^2 < 1e-20) { bad++ }
+    END { exit NR != 26 || bad }' "$dir/v.csv" && [ -s "$dir/v.png" ]
+record $? "vectors transports a vector over a plane"
+grep -a -q 'property .* z' "$dir/v.ply"
+record $? "vectors writes its vectors as fields"
+gives 0 '^logarithm  from 1 vertex to [1-9] of 25' vectors grid:5x5 --from 12 --log --radius 0.33 \
+    --csv "$dir/v.csv" --png "$dir/v.png"
+"$program" vectors grid:5x5 --from 12 --log --out "$dir/v.obj" >"$dir/out" 2>"$dir/err"
+awk 'BEGIN { v = -1 }
+    FILENAME ~ /obj$/ { if ($1 == "v") { v++; x[v] = $2; y[v] = $3 } next }
+    { split($0, c, ",") }
+    c[1] ~ /^[0-9]/ && !((c[2] - x[c[1]] + x[12])^2 + (c[3] - y[c[1]] + y[12])^2 < 1e-20) { bad++ }
+    END { exit bad || v != 24 }' "$dir/v.obj" "$dir/v.csv"
+record $? "vectors --log gives differences of positions on a plane"
+gives 0 'transport  from 2 vertices to 162 of 162' vectors sphere:2 --from 4,9 --csv "$dir/v.csv" \
+    --vectors 2,0,0:0,0,1
+gives 2 '2 vectors for 4 sources' vectors sphere:2 --from 1-4 \
+    --vectors 2,0,0:0,0,1
+gives 2 'separated by colons' vectors sphere:2 --vectors 2,0
+gives 2 'separated by colons' vectors sphere:2 --vectors 1,0,0:0,0,1
+gives 2 'separated by colons' vectors sphere:2 --vectors 1,0,nan
+gives 1 'nothing of the vector is tangent' vectors grid:5x5 --vectors 0,0,1
+gives 2 'give one of them' vectors sphere:2 --log --vectors 1,0,0
+gives 2 'expected one vertex' vectors sphere:2 --log --from 1,2
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' >"$dir/unlike.obj"
+"$program" vectors "$dir/unlike.obj" >"$dir/out" 2>"$dir/err" &&
+    grep -q 'warning: 1 edges have three or more faces or faces of unlike' "$dir/err"
+record $? "vectors warns of faces that are not oriented alike"
+
 # Deformations (test_deform.c).
 
 printf 'grab 0,5\ngrab 100\nmove 1 0 0.2 0\nframe\nrelease 0\nframe\n' >"$dir/moves"
@@ -316,7 +349,7 @@ gives 2 'above 0' hks sphere:1 --first 0
 
 # What is wrong with an output is found before the mesh is read.
 
-for command in adf heat hks geodesic param arap scp reach deform; do
+for command in adf heat hks geodesic vectors param arap scp reach deform; do
     gives 1 'no/x.png: cannot be written' "$command" "$dir/no-such-file.obj" --png "$dir/no/x.png"
     gives 1 'Is a directory' "$command" "$dir/no-such-file.obj" --csv "$dir"
     gives 1 'must end in .obj, .ply' "$command" "$dir/no-such-file.obj" --out "$dir/x.off"
@@ -342,7 +375,7 @@ record $? "geodesic starts there too"
 
 # A picture says if auto chose z; it is the one that --up z gives.
 
-for command in adf heat hks geodesic reach param arap scp; do
+for command in adf heat hks geodesic vectors reach param arap scp; do
     gives 0 '^upward     z, because the mesh is a relief over the x-y plane' \
         "$command" hills:30x30 --png "$dir/auto.png"
     "$program" "$command" hills:30x30 --png "$dir/z.png" --up z >"$dir/out" 2>"$dir/err" &&

@@ -19,5 +19,6 @@ int command_view(int argc, char **argv);
 int command_query(int argc, char **argv);
 int command_deform(int argc, char **argv);
 int command_edit(int argc, char **argv);
+int command_vectors(int argc, char **argv);
 
 #endif

@@ -23,6 +23,7 @@ static const command commands[] = {
     {"arap", "planar layout of a patch, as rigid as possible", command_arap},
     {"scp", "planar layout of a patch, spectral conformal", command_scp},
     {"geodesic", "distances on the surface by the heat method, Voronoi cells", command_geodesic},
+    {"vectors", "tangent vectors carried over the surface, logarithmic map", command_vectors},
     {"deform", "a mesh deformed by handles that are grabbed, moved, released", command_deform},
     {"edit", "a system edited at random places, and a factor that follows", command_edit},
     {"save", "factors the Laplacian of a mesh and saves the factor in a file", command_save},
