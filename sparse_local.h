@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 133c25c6d275d59a
+ * FNV-1a of the lines after this comment, without the license: 2ce313f0af6df9f9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -61,21 +61,21 @@
  *  17318 bilinear.h  17495 entries.h  17776 block.h  18016 reserve.h  18208 selected.h
  *  18418 selected_query.h  18520 region_choose.h  18747 region.h
  * (change: a factor that follows changes of its matrix)
- *  18995 update.h  19345 rank.h  19671 edges.h  19825 choose.h  20024 pins.h  20595 subset.h
- *  20702 restrict_analysis.h  20997 restrict_anew.h  21051 restrict_symbolic.h  21232 restrict.h
+ *  18995 update.h  19345 rank.h  19674 edges.h  19828 choose.h  20027 pins.h  20598 subset.h
+ *  20705 restrict_analysis.h  21000 restrict_anew.h  21054 restrict_symbolic.h  21235 restrict.h
  * (save: factors in files)
- *  21581 format.h  21877 decode.h  22023 check.h  22355 write.h  22658 load.h  22926 load_inverse.h
- *  23258 load_calls.h
+ *  21584 format.h  21880 decode.h  22026 check.h  22358 write.h  22661 load.h  22929 load_inverse.h
+ *  23261 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23457 batch_solve.h  23666 batch_factor.h  23867 batch_diagonal.h
+ *  23460 batch_solve.h  23669 batch_factor.h  23870 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  24007 hermitian.h  24152 complex_rows.h
+ *  24010 hermitian.h  24155 complex_rows.h
  * (last: undefine every internal macro)
- *  24320 undef.h
+ *  24323 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24498 multi_rhs.inl.h  24881 sweeps.inl.h  24883 unit_triangle.inl.h  24920 two_rhs.inl.h
- *  25089 small_supernode.inl.h  25248 single_rhs.inl.h  25492 kernel_set.inl.h  25494 product.inl.h
- *  25622 front.inl.h  25836 inverse_front.inl.h  26121 row.inl.h  26151 change.inl.h
+ *  24501 multi_rhs.inl.h  24884 sweeps.inl.h  24886 unit_triangle.inl.h  24923 two_rhs.inl.h
+ *  25092 small_supernode.inl.h  25251 single_rhs.inl.h  25495 kernel_set.inl.h  25497 product.inl.h
+ *  25625 front.inl.h  25839 inverse_front.inl.h  26124 row.inl.h  26154 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2560,9 +2560,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *  columns of L that the change reaches, or by a refactorization.
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
- *  not taken if there are null or 2x2 pivots, and if stats.change.drift has reached 1e-11, which
- *  takes some 40,000 changes of moderate size. Where they are refused because a pivot changes its
- *  sign, a refactorization decides whether A can be factored.
+ *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
+ *  has reached 1e-11, which takes some 40,000 changes of moderate size. Where they are refused
+ *  because a pivot changes its sign, a refactorization decides whether A can be factored.
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
@@ -19371,12 +19371,15 @@ typedef struct sli_rank {
   uint64_t *order, *order_scratch;
 } sli_rank;
 
+static int sli_rank_is_suited(const sl_factor *F) {
+  return F->E == NULL && F->n_nulls == 0 && F->storage == SL_STORAGE_DOUBLE;
+}
+
 static sl_status sli_rank_check(const sl_factor *F) {
   if (!F->is_valid || !sli_factor_may_change(F)) {
     return SL_ERR_STATE;
   }
-  return F->E != NULL || F->n_nulls > 0 || F->storage == SL_STORAGE_FLOAT ? SL_ERR_UNSUPPORTED
-                                      : SL_OK;
+  return sli_rank_is_suited(F) ? SL_OK : SL_ERR_UNSUPPORTED;
 }
 
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
@@ -19934,7 +19937,7 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
 static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
                sl_change_method *method) {
   sl_factor *F = q->u.F;
-  const int can_update = F->E == NULL && F->n_nulls == 0 && F->is_valid;
+  const int can_update = sli_rank_is_suited(F) && F->is_valid;
   sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
   if (status != SL_OK) {
     return status;

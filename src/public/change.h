@@ -69,9 +69,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *  columns of L that the change reaches, or by a refactorization.
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
- *  not taken if there are null or 2x2 pivots, and if stats.change.drift has reached 1e-11, which
- *  takes some 40,000 changes of moderate size. Where they are refused because a pivot changes its
- *  sign, a refactorization decides whether A can be factored.
+ *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
+ *  has reached 1e-11, which takes some 40,000 changes of moderate size. Where they are refused
+ *  because a pivot changes its sign, a refactorization decides whether A can be factored.
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.

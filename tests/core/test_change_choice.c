@@ -210,6 +210,28 @@ static void singular_laplacians_are_recomputed(void **state) {
     grid_free(&g);
 }
 
+/* L in float is neither updated nor recomputed in part: the factor has the bits of a new one. */
+static void float_factors_are_refactored(void **state) {
+    (void)state;
+    sl_options opt = options_none();
+    opt.storage = SL_STORAGE_FLOAT;
+    grid_t g = grid_make(30, 0, &opt);
+    list_t *l = (list_t *)test_array(1, sizeof *l);
+    sl_factor *F;
+    sl_stats stats;
+    list_edge(l, &g, 70, 71, 0.5);
+    assert_int_equal(change(&g, l, &stats), SL_CHANGE_REFACTOR);
+    assert_int_equal(stats.change.reason, SL_CHANGE_UNSUITED);
+    SL_CHECK(sl_factor_create(&F, g.S, &g.M.view, &opt, NULL));
+    assert_same_bits(g.F, F);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update_entries(g.F, l->rows, l->columns, l->deltas,
+                                                           l->count, NULL, NULL));
+    assert_same_bits(g.F, F);
+    sl_factor_free(F);
+    free(l);
+    grid_free(&g);
+}
+
 static void drift_ends_in_a_refactorization(void **state) {
     (void)state;
     grid_t g = grid_make(10, 0, NULL);
@@ -277,6 +299,7 @@ int main(void) {
         cmocka_unit_test(repeated_entries_have_the_reach_of_one),
         cmocka_unit_test(refused_updates_are_refactored),
         cmocka_unit_test(singular_laplacians_are_recomputed),
+        cmocka_unit_test(float_factors_are_refactored),
         cmocka_unit_test(drift_ends_in_a_refactorization),
         cmocka_unit_test(invalid_arguments_and_failing_allocations),
     };

@@ -125,7 +125,7 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
 static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
                              sl_change_method *method) {
     sl_factor *F = q->u.F;
-    const int can_update = F->E == NULL && F->n_nulls == 0 && F->is_valid;
+    const int can_update = sli_rank_is_suited(F) && F->is_valid;
     sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
     if (status != SL_OK) {
         return status;

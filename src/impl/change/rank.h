@@ -35,14 +35,17 @@ typedef struct sli_rank {
     uint64_t *order, *order_scratch;
 } sli_rank;
 
+/* Can F have rank-one changes? In float each one would round all of its columns again. */
+static int sli_rank_is_suited(const sl_factor *F) {
+    return F->E == NULL && F->n_nulls == 0 && F->storage == SL_STORAGE_DOUBLE;
+}
+
 /* May F be changed in place? */
 static sl_status sli_rank_check(const sl_factor *F) {
     if (!F->is_valid || !sli_factor_may_change(F)) {
         return SL_ERR_STATE;
     }
-    /* in float each change would round all of its columns again */
-    return F->E != NULL || F->n_nulls > 0 || F->storage == SL_STORAGE_FLOAT ? SL_ERR_UNSUPPORTED
-                                                                            : SL_OK;
+    return sli_rank_is_suited(F) ? SL_OK : SL_ERR_UNSUPPORTED;
 }
 
 /* Checks vector v: its entries are finite, and its rows are below each other in L. */
