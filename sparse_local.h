@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2ce313f0af6df9f9
+ * FNV-1a of the lines after this comment, without the license: 40ed6fb97260b06a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -61,21 +61,21 @@
  *  17318 bilinear.h  17495 entries.h  17776 block.h  18016 reserve.h  18208 selected.h
  *  18418 selected_query.h  18520 region_choose.h  18747 region.h
  * (change: a factor that follows changes of its matrix)
- *  18995 update.h  19345 rank.h  19674 edges.h  19828 choose.h  20027 pins.h  20598 subset.h
- *  20705 restrict_analysis.h  21000 restrict_anew.h  21054 restrict_symbolic.h  21235 restrict.h
+ *  18995 update.h  19345 rank.h  19674 edges.h  19828 choose.h  20022 pins.h  20587 subset.h
+ *  20694 restrict_analysis.h  20989 restrict_anew.h  21043 restrict_symbolic.h  21224 restrict.h
  * (save: factors in files)
- *  21584 format.h  21880 decode.h  22026 check.h  22358 write.h  22661 load.h  22929 load_inverse.h
- *  23261 load_calls.h
+ *  21573 format.h  21869 decode.h  22015 check.h  22347 write.h  22650 load.h  22918 load_inverse.h
+ *  23250 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23460 batch_solve.h  23669 batch_factor.h  23870 batch_diagonal.h
+ *  23449 batch_solve.h  23658 batch_factor.h  23859 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  24010 hermitian.h  24155 complex_rows.h
+ *  23999 hermitian.h  24141 complex_rows.h
  * (last: undefine every internal macro)
- *  24323 undef.h
+ *  24309 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24501 multi_rhs.inl.h  24884 sweeps.inl.h  24886 unit_triangle.inl.h  24923 two_rhs.inl.h
- *  25092 small_supernode.inl.h  25251 single_rhs.inl.h  25495 kernel_set.inl.h  25497 product.inl.h
- *  25625 front.inl.h  25839 inverse_front.inl.h  26124 row.inl.h  26154 change.inl.h
+ *  24487 multi_rhs.inl.h  24870 sweeps.inl.h  24872 unit_triangle.inl.h  24909 two_rhs.inl.h
+ *  25078 small_supernode.inl.h  25237 single_rhs.inl.h  25481 kernel_set.inl.h  25483 product.inl.h
+ *  25611 front.inl.h  25825 inverse_front.inl.h  26110 row.inl.h  26140 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -19965,7 +19965,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
                   sl_work *W, sl_stats *stats) {
   const double started = sli_seconds();
   sl_change_method method = SL_CHANGE_NONE;
-  sli_block b = {NULL, 0, 0};
+  sli_block b = {NULL, 0, 0}, seeds = {NULL, 0, 0};
   sli_way c;
   sli_rank q;
   sl_work own;
@@ -19996,19 +19996,14 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  if (entries > INT32_MAX) {
-    status = SL_ERR_TOO_LARGE;
-  } else {
-    sli_block seeds = {NULL, 0, 0};
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-      c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
-      c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
-      status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
-    }
-    status = status == SL_OK ? sli_work_grow(W, 1) : status;
-    status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
-    sli_free(&F->allocator, seeds.base);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
+    c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
+    status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
   }
+  status = status == SL_OK ? sli_work_grow(W, 1) : status;
+  status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
+  sli_free(&F->allocator, seeds.base);
   sli_free(&F->allocator, b.base);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK) {
@@ -20246,9 +20241,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
   if (P->count < P->capacity) {
     return SL_OK;
   }
-  if (P->capacity > INT32_MAX / 4) {
-    return SL_ERR_TOO_LARGE;
-  }
+  SLI_ASSERT(P->capacity <= INT32_MAX / 4);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     pins = SLI_TAKE(&b, sli_pin *, capacity);
     K = SLI_TAKE(&b, double, (uint64_t)capacity *(uint64_t)capacity);
@@ -20575,11 +20568,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   }
   own = sli_work_own(&P->allocator);
   W = W == NULL ? &own : W;
-  if (sli_vectors_bytes(q, nrhs) == SIZE_MAX) {
-    return SL_ERR_TOO_LARGE;
-  }
   sli_pins_layout(&w, &counted, P, q, nrhs);
-  counted.used = counted.used > 0 ? counted.used : 1;
   status = sli_work_block(W, &counted);
   if (status == SL_OK) {
     sli_pins_layout(&w, &counted, P, q, nrhs);
@@ -24020,10 +24009,7 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
   pattern.n_rows = pattern.n_cols = H->n;
   pattern.p = H->p;
   pattern.i = H->i;
-  status = sl_csc_check(&pattern, stats);
-  if (status == SL_OK && H->n > SLI_ROWS_MAX / 2) {
-    status = SL_ERR_TOO_LARGE;
-  }
+  status = H->n > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE : sl_csc_check(&pattern, stats);
   for (j = 0; status == SL_OK && H->x != NULL && j < H->n; j++) {
     for (p = H->p[j]; p < H->p[j + 1]; p++) {
       const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
@@ -24129,8 +24115,8 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
     return status;
   }
   count = sli_hermitian_entries(H);
-  if (count > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (count > INT32_MAX) {      /* untested: 2^29 entries */
+    return SL_ERR_TOO_LARGE; /* untested: the same */
   }
   status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
   if (status == SL_OK) {

@@ -153,7 +153,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
                                   sl_work *W, sl_stats *stats) {
     const double started = sli_seconds();
     sl_change_method method = SL_CHANGE_NONE;
-    sli_block b = {NULL, 0, 0};
+    sli_block b = {NULL, 0, 0}, seeds = {NULL, 0, 0};
     sli_way c;
     sli_rank q;
     sl_work own;
@@ -184,19 +184,14 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    if (entries > INT32_MAX) {
-        status = SL_ERR_TOO_LARGE;
-    } else {
-        sli_block seeds = {NULL, 0, 0};
-        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-            c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
-            c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
-            status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
-        }
-        status = status == SL_OK ? sli_work_grow(W, 1) : status;
-        status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
-        sli_free(&F->allocator, seeds.base);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
+        c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
+        status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
     }
+    status = status == SL_OK ? sli_work_grow(W, 1) : status;
+    status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
+    sli_free(&F->allocator, seeds.base);
     sli_free(&F->allocator, b.base);
     sli_free(&own.allocator, own.block);
     if (status == SL_OK) {

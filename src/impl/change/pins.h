@@ -250,9 +250,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
     if (P->count < P->capacity) {
         return SL_OK;
     }
-    if (P->capacity > INT32_MAX / 4) {
-        return SL_ERR_TOO_LARGE;
-    }
+    SLI_ASSERT(P->capacity <= INT32_MAX / 4); /* a larger K has 2^61 bytes */
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         pins = SLI_TAKE(&b, sli_pin *, capacity);
         K = SLI_TAKE(&b, double, (uint64_t)capacity *(uint64_t)capacity);
@@ -589,11 +587,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     }
     own = sli_work_own(&P->allocator);
     W = W == NULL ? &own : W;
-    if (sli_vectors_bytes(q, nrhs) == SIZE_MAX) {
-        return SL_ERR_TOO_LARGE;
-    }
     sli_pins_layout(&w, &counted, P, q, nrhs);
-    counted.used = counted.used > 0 ? counted.used : 1;
     status = sli_work_block(W, &counted);
     if (status == SL_OK) {
         sli_pins_layout(&w, &counted, P, q, nrhs);

@@ -17,10 +17,7 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
     pattern.n_rows = pattern.n_cols = H->n;
     pattern.p = H->p;
     pattern.i = H->i;
-    status = sl_csc_check(&pattern, stats);
-    if (status == SL_OK && H->n > SLI_ROWS_MAX / 2) {
-        status = SL_ERR_TOO_LARGE;
-    }
+    status = H->n > SLI_ROWS_MAX / 2 ? SL_ERR_TOO_LARGE : sl_csc_check(&pattern, stats);
     for (j = 0; status == SL_OK && H->x != NULL && j < H->n; j++) {
         for (p = H->p[j]; p < H->p[j + 1]; p++) {
             const double im = H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
@@ -131,8 +128,8 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
         return status;
     }
     count = sli_hermitian_entries(H);
-    if (count > INT32_MAX) {
-        return SL_ERR_TOO_LARGE;
+    if (count > INT32_MAX) {      /* untested: 2^29 entries */
+        return SL_ERR_TOO_LARGE; /* untested: the same */
     }
     status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
     if (status == SL_OK) {

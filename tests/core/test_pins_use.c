@@ -1,0 +1,225 @@
+/* test_pins_use.c: what pins refuse; null vectors that they do not know */
+#include "tests/lib/factored.h"
+
+enum { N = 40 };
+
+/* A path whose edges have the sign given, with a second component from row `cut` on if cut > 0, and
+ * `shift` added to the diagonal of that component. With edges of sign 1 the null vector
+ * alternates. */
+static factored_t path(double sign, sl_int cut, double shift) {
+    factored_t y = {{0}, NULL, NULL};
+    sl_options opt = options_none();
+    gen_list_t t = gen_list(N);
+    double diagonal[N] = {0.0};
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    for (sl_int k = 0; k + 1 < N; k++) {
+        if (k + 1 != cut) {
+            gen_add(&t, k + 1, k, sign);
+            diagonal[k] += 1.0;
+            diagonal[k + 1] += 1.0;
+        }
+    }
+    for (sl_int k = 0; k < N; k++) {
+        gen_add(&t, k, k, diagonal[k] + (cut > 0 && k >= cut ? shift : 0.0));
+    }
+    y.M = gen_store(&t, gen_style(0), 1);
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+    gen_list_free(&t);
+    return y;
+}
+
+static sl_int null_count(const sl_factor *F) {
+    sl_int count = 0;
+    SL_CHECK(sl_factor_null_rows(F, NULL, 0, &count));
+    return count;
+}
+
+static void failed_factors_are_refused(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 36, 1, 0, NULL);
+    const size_t n = (size_t)y.M.view.n_cols;
+    double *bad = test_reals((size_t)y.M.view.p[n]), x[N] = {0.0}, g = 1.0;
+    sl_csc A = y.M.view;
+    sl_pins *P, *Q = (sl_pins *)(void *)&y;
+    A.x = bad; /* zeros */
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &A, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_create(&Q, y.F, NULL));
+    assert_null(Q);
+    SL_EXPECT(SL_ERR_STATE, sl_pins_add(P, 4, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_refactor(P));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
+    SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
+    assert_true(fabs(x[3] - g) <= 1e-14);
+    sl_pins_free(P);
+    free(bad);
+    factored_free(&y);
+}
+
+static void unsuited_factors_are_refused(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 36, 1, 0, NULL);
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_pins *P;
+    static const sl_int p[3] = {0, 1, 2}, i[2] = {1, 0};
+    static const double x[2] = {1.0, 1.0};
+    const sl_csc swap = {2, 2, p, i, x}; /* [0 1; 1 0]: one 2x2 pivot */
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &swap, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &swap, NULL, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_create(&P, F, NULL));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+
+    /* a plan of another analysis, and calls with nothing to solve */
+    factored_t z = factored_make(GEN_PATH, 36, 1, 0, NULL);
+    const sl_int row = 2;
+    const size_t n = (size_t)y.M.view.n_cols;
+    double b[N] = {0.0}, out[N] = {0.0}, g = 1.0;
+    sl_plan *plan;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(sl_plan_create(&plan, z.S, &row, 1, &row, 1, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, plan, out, 1, b, 1, &g, 1, 1, NULL));
+    sl_plan_free(plan);
+    SL_CHECK(sl_plan_create(&plan, y.S, &row, 1, &row, 0, NULL, NULL));
+    SL_CHECK(sl_pins_solve(P, plan, NULL, 0, b, 1, &g, 1, 1, NULL));
+    sl_plan_free(plan);
+    SL_CHECK(sl_pins_solve(P, NULL, NULL, n, NULL, n, NULL, 1, 0, NULL));
+    assert_true(out[0] == 0.0);
+    sl_pins_free(P);
+    factored_free(&z);
+    factored_free(&y);
+}
+
+/* An equality so large that C' A^-1 C overflows is refused, and the pins stay. */
+static void an_overflow_is_refused(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 36, 1, 0, NULL);
+    const size_t n = (size_t)y.M.view.n_cols;
+    const sl_int row = 5;
+    const double large = 1e200;
+    double x[N] = {0.0}, g = 2.0;
+    sl_stats stats;
+    sl_pins *P;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_add_equality(P, &row, &large, 1, &stats));
+    assert_int_equal(stats.error.row, row);
+    assert_int_equal(sl_pins_count(P), 1);
+    SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
+    assert_true(fabs(x[3] - g) <= 1e-14);
+    sl_pins_free(P);
+    factored_free(&y);
+}
+
+/* Pins know constants as null vectors: a component with another one is refused, a regular
+ * component beside a singular one is not. */
+static void null_vectors_must_be_known(void **state) {
+    (void)state;
+    factored_t y = path(1.0, 0, 0.0);
+    sl_pins *P;
+    assert_int_equal(null_count(y.F), 1);
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, NULL));
+    assert_int_equal(sl_pins_count(P), 0);
+    sl_pins_free(P);
+    factored_free(&y);
+
+    y = path(-1.0, 20, 0.5);
+    assert_int_equal(null_count(y.F), 1);
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 30, NULL));
+    SL_CHECK(sl_pins_add(P, 3, NULL));
+    const double g[2] = {2.0, -1.0};
+    double b[N] = {0.0}, x[N];
+    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
+    assert_true(fabs(x[30] - g[0]) <= 1e-13);
+    for (sl_int k = 0; k < 20; k++) { /* a constant */
+        assert_true(fabs(x[k] - g[1]) <= 1e-12);
+    }
+    double *A = ref_dense(&y.M.view);
+    for (sl_int i = 0; i < N; i++) { /* A x = 0 in all other rows */
+        double r = 0.0;
+        for (sl_int j = 0; j < N; j++) {
+            r += A[i + N * j] * x[j];
+        }
+        assert_true(i == 30 || i == 3 || fabs(r) <= 1e-12);
+    }
+    free(A);
+    sl_pins_free(P);
+    factored_free(&y);
+}
+
+/* The difference of two rows does not see a constant: x is 0 in the null row. */
+static void a_difference_leaves_the_constant_free(void **state) {
+    (void)state;
+    factored_t y = path(-1.0, 0, 0.0);
+    const sl_int rows[2] = {3, 33};
+    const double values[2] = {1.0, -1.0}, g = 6.0;
+    double b[N] = {0.0}, x[N];
+    sl_int null, count;
+    sl_pins *P;
+    SL_CHECK(sl_factor_null_rows(y.F, &null, 1, &count));
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add_equality(P, rows, values, 2, NULL));
+    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    assert_true(x[null] == 0.0);
+    for (sl_int k = 0; k + 1 < N; k++) { /* linear between the two rows, constant outside */
+        const double step = k >= 3 && k < 33 ? g / 30.0 : 0.0;
+        assert_true(fabs(x[k] - x[k + 1] - step) <= 1e-12);
+    }
+    sl_pins_free(P);
+    factored_free(&y);
+}
+
+/* New values with another null vector: the pins are refused until the values are good again. */
+static void a_refactorization_may_lose_the_null_vector(void **state) {
+    (void)state;
+    factored_t y = path(-1.0, 0, 0.0), bad = path(1.0, 0, 0.0);
+    double b[N] = {0.0}, x[N], g = 4.0;
+    sl_pins *P;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(sl_factor_refactor(y.F, &bad.M.view, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    for (sl_int k = 0; k < N; k++) {
+        assert_true(fabs(x[k] - g) <= 1e-12);
+    }
+    sl_pins_free(P);
+    factored_free(&bad);
+    factored_free(&y);
+}
+
+static void a_matrix_without_rows_has_no_pins(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
+    sl_pins *P;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(P, 0, NULL));
+    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_solve(P, NULL, NULL, 0, NULL, 0, NULL, 0, 1, NULL));
+    sl_pins_free(P);
+    factored_free(&y);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(failed_factors_are_refused),
+        cmocka_unit_test(unsuited_factors_are_refused),
+        cmocka_unit_test(an_overflow_is_refused),
+        cmocka_unit_test(null_vectors_must_be_known),
+        cmocka_unit_test(a_difference_leaves_the_constant_free),
+        cmocka_unit_test(a_refactorization_may_lose_the_null_vector),
+        cmocka_unit_test(a_matrix_without_rows_has_no_pins),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
