@@ -1,81 +1,83 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 40ed6fb97260b06a
+ * FNV-1a of the lines after this comment, without the license: 15e78dce6a3e1c45
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     83 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    152 config.h     macros that a user may define before the include, the version, and the integer types
- *    231 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    383 options.h    options of all calls, threads, and the allocator
- *    521 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    674 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    846 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    976 factor.h     the numerical factorization P A P' = L D L'
- *   1223 solve.h      full solves, and the workspace of all solves
- *   1333 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1427 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1540 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1653 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1789 batch.h      many independent solves by one call, distributed over threads
- *   1839 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2017 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2136 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2240 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2379 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2497 change.h     a factor that follows small changes of its matrix
- *   2584 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2674 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2799 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *     85 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    154 config.h     macros that a user may define before the include, the version, and the integer types
+ *    233 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    385 options.h    options of all calls, threads, and the allocator
+ *    523 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    691 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    863 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    993 factor.h     the numerical factorization P A P' = L D L'
+ *   1240 solve.h      full solves, and the workspace of all solves
+ *   1350 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1557 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1670 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1806 batch.h      many independent solves by one call, distributed over threads
+ *   1856 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2034 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2153 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2257 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2396 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2514 change.h     a factor that follows small changes of its matrix
+ *   2601 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2691 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2816 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2865 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2858 base.h   3083 status.h   3144 options.h   3202 alloc.h   3312 hash.h   3442 file_map.h
- *   3538 sort.h   3602 parallel.h
+ *   2915 base.h   3140 status.h   3201 options.h   3259 alloc.h   3369 hash.h   3499 file_map.h
+ *   3595 sort.h   3659 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3635 panel.h   3657 step.h   3698 pivot_rule.h   3765 front.h   3809 pairs.h
- *   4016 inverse_front.h   4088 table.h   4112 simd.h   4182 simd_scalar.h   4311 simd_avx2.h
- *   4512 simd_avx512.h   4621 simd_neon.h   4816 dispatch.h
+ *   3692 panel.h   3714 step.h   3755 pivot_rule.h   3822 front.h   3866 pairs.h
+ *   4073 inverse_front.h   4145 table.h   4169 simd.h   4239 simd_scalar.h   4368 simd_avx2.h
+ *   4569 simd_avx512.h   4678 simd_neon.h   4873 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4896 csc.h   5010 csc_build.h   5144 csc64.h   5215 csc_triangle.h   5281 csc_products.h
- *   5398 permute.h   5464 sum.h   5546 output_file.h   5755 matrix_market.h
+ *   4953 csc.h   5067 csc_build.h   5201 csc64.h   5272 csc_triangle.h   5338 csc_products.h
+ *   5455 permute.h   5521 sum.h   5603 output_file.h   5812 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6201 graph.h   6350 coarsen.h   6615 labels.h   6809 subgraph.h   7004 heap.h   7064 bisect.h
- *   7294 separator.h   7556 mindeg.h   7739 dissect.h   8065 levelset.h   8184 geometric.h
- *   8359 cells.h   8539 septree.h   8599 metis.h   8748 metis_refined.h   8862 nd.h
- *   9054 compress.h   9175 quotient.h   9589 order.h
+ *   6258 graph.h   6407 coarsen.h   6672 labels.h   6866 subgraph.h   7061 heap.h   7121 bisect.h
+ *   7351 separator.h   7613 mindeg.h   7796 dissect.h   8122 levelset.h   8241 geometric.h
+ *   8416 cells.h   8596 septree.h   8656 metis.h   8805 metis_refined.h   8919 nd.h
+ *   9111 compress.h   9232 quotient.h   9646 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9871 symbolic_types.h   9907 etree.h   9980 counts.h  10037 supernodes.h  10259 structure.h
- *  10380 schedule.h  10569 symbolic.h  10976 reach.h
+ *   9928 symbolic_types.h   9965 etree.h  10038 counts.h  10095 supernodes.h  10317 structure.h
+ *  10438 schedule.h  10627 symbolic.h  11037 reach.h
  * (factor: the numbers of L and D)
- *  11247 factor_types.h  11574 storage.h  11645 pivot_search.h  11991 pivoted.h  12059 scatter.h
- *  12217 uplooking.h  12289 null_product.h  12493 null_dense.h  12570 null_basis.h
- *  12878 null_vectors.h  13022 multifrontal.h  13258 nullspace.h  13461 growth.h
- *  13537 factor_setup.h  13829 factor.h  14035 leftlooking.h  14219 factor_query.h
- *  14354 combination.h
+ *  11308 factor_types.h  11635 storage.h  11706 pivot_search.h  12052 pivoted.h  12120 scatter.h
+ *  12278 uplooking.h  12350 null_product.h  12554 null_dense.h  12631 null_basis.h
+ *  12939 null_vectors.h  13083 multifrontal.h  13319 nullspace.h  13522 growth.h
+ *  13598 factor_setup.h  13890 factor.h  14096 leftlooking.h  14280 factor_query.h
+ *  14415 combination.h
  * (solve: full and local solves)
- *  14415 region_types.h  14519 work.h  14616 query.h  14790 singular.h  15057 backward.h
- *  15087 sweep.h  15273 compile.h  15466 plan.h  15573 local.h  15723 parts.h  16010 refine.h
- *  16189 refine_local.h  16404 rcond.h  16561 defects.h
+ *  14476 region_types.h  14580 work.h  14677 query.h  14851 singular.h  15118 backward.h
+ *  15148 sweep.h  15334 compile.h  15527 plan.h  15634 local.h  15784 parts.h  16071 refine.h
+ *  16250 refine_local.h  16465 rcond.h  16622 defects.h
  * (inverse: entries of the inverse, regions)
- *  16638 traversal.h  16883 traversal_run.h  17066 row_sets.h  17093 unit_vectors.h
- *  17318 bilinear.h  17495 entries.h  17776 block.h  18016 reserve.h  18208 selected.h
- *  18418 selected_query.h  18520 region_choose.h  18747 region.h
+ *  16699 traversal.h  16944 traversal_run.h  17127 row_sets.h  17154 unit_vectors.h
+ *  17379 bilinear.h  17556 entries.h  17837 block.h  18077 reserve.h  18269 selected.h
+ *  18479 selected_query.h  18581 region_choose.h  18808 region.h
  * (change: a factor that follows changes of its matrix)
- *  18995 update.h  19345 rank.h  19674 edges.h  19828 choose.h  20022 pins.h  20587 subset.h
- *  20694 restrict_analysis.h  20989 restrict_anew.h  21043 restrict_symbolic.h  21224 restrict.h
+ *  19056 update.h  19406 rank.h  19735 edges.h  19889 choose.h  20083 pins.h  20648 subset.h
+ *  20755 restrict_analysis.h  21050 restrict_anew.h  21104 restrict_symbolic.h  21285 restrict.h
+ *  21633 edit_match.h  21815 edit_place.h  22019 edit_order.h  22180 edit.h
  * (save: factors in files)
- *  21573 format.h  21869 decode.h  22015 check.h  22347 write.h  22650 load.h  22918 load_inverse.h
- *  23250 load_calls.h
+ *  22324 format.h  22620 decode.h  22766 check.h  23098 write.h  23401 load.h  23669 load_inverse.h
+ *  24001 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  23449 batch_solve.h  23658 batch_factor.h  23859 batch_diagonal.h
+ *  24200 batch_solve.h  24409 batch_factor.h  24610 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  23999 hermitian.h  24141 complex_rows.h
+ *  24750 hermitian.h  24892 complex_rows.h
  * (last: undefine every internal macro)
- *  24309 undef.h
+ *  25060 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  24487 multi_rhs.inl.h  24870 sweeps.inl.h  24872 unit_triangle.inl.h  24909 two_rhs.inl.h
- *  25078 small_supernode.inl.h  25237 single_rhs.inl.h  25481 kernel_set.inl.h  25483 product.inl.h
- *  25611 front.inl.h  25825 inverse_front.inl.h  26110 row.inl.h  26140 change.inl.h
+ *  25238 multi_rhs.inl.h  25621 sweeps.inl.h  25623 unit_triangle.inl.h  25660 two_rhs.inl.h
+ *  25829 small_supernode.inl.h  25988 single_rhs.inl.h  26232 kernel_set.inl.h  26234 product.inl.h
+ *  26362 front.inl.h  26576 inverse_front.inl.h  26861 row.inl.h  26891 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -563,9 +565,9 @@ typedef struct sl_factor_info {
     /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
-    double pivot_min;   /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
-    double pivot_max;   /* largest */
-    double entry_max;   /* largest |a| among the entries of A that were read */
+    double pivot_min; /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
+    double pivot_max; /* largest */
+    double entry_max; /* largest |a| among the entries of A that were read */
     /* pivot growth, max_k (|L| |D| |L'|)_kk / max |a|, the maximum over the connected components
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
@@ -650,6 +652,20 @@ typedef struct sl_restrict_info {
     double seconds;  /* processor seconds, analysis included */
 } sl_restrict_info;
 
+/** An analysis that follows an edit of the pattern: sl_symbolic_edit. */
+typedef struct sl_edit_info {
+    sl_int changed;   /* rows of B that are new or have other neighbors than before */
+    sl_int moved;     /* rows that moved to another separator */
+    sl_int reordered; /* rows of subtrees that were ordered anew; n if is_anew */
+    sl_int computed;  /* columns of L whose structure was computed anew */
+    int is_anew;      /* 1: the edit is not local: all rows were ordered anew */
+    int is_due;       /* 1: a new order is due, as growth exceeds 1.1 */
+    /* nnz_l relative to that of a new order, which is estimated: the entries of the last one, times
+     * the growth of the entries of A since then. A loaded analysis counts as a new one */
+    double growth;
+    double seconds; /* processor seconds, all included */
+} sl_edit_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -664,8 +680,9 @@ typedef struct sl_stats {
     sl_refine_info refine;
     sl_change_info change;
     sl_restrict_info restriction;
+    sl_edit_info edit;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[15];
+    sl_off reserved[10];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -2844,6 +2861,46 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
                                                    const sl_factor *F, const sl_csc *A,
                                                    const sl_int *rows, sl_int count,
                                                    const sl_options *opt, sl_stats *stats);
+
+/* src/public/edit.h: an analysis that follows edits of the pattern: rows and entries that come and go */
+
+/** Analyzes an edited matrix B from the analysis of the matrix A that it was before.
+ *
+ *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
+ *  vertices doubled. The elimination tree of A stays where B has the same neighbors. A row that is
+ *  new or has other neighbors goes to the lowest supernode from which they are all above or below;
+ *  so an entry between two subtrees moves one of its rows into their separator. Small subtrees with
+ *  many such rows are ordered anew.
+ *
+ *  The result is an analysis as any other. Its order is as good as the one before if edits are
+ *  local, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
+ *  stats.edit.is_due, create a new analysis of the present matrix, when there is time for it. If a
+ *  quarter of the rows has other neighbors, or the edits are no local ones, this call does that
+ *  itself (stats.edit.is_anew).
+ *
+ *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
+ *                 depend on S. It has no separator tree, unless it is a new one.
+ *  S       [in]   an analysis of A.
+ *  A       [in]   the matrix that S was created from; values are not read.
+ *  B       [in]   n x n, symmetric, any n; values are not read; not kept.
+ *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
+ *                 gone. Rows of B that do not occur are new.
+ *  opt     [in]   allocator, triangle, relaxation; with a new order all that sl_symbolic_create
+ *                 reads; may be NULL.
+ *  stats   [out]  symbolic, edit; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
+ *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
+ *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
+ *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz) with small constants: mostly to compare the patterns.
+ *  Threads  reads S; otherwise as sl_symbolic_create.
+ *  Source   [Liu90] elimination trees; [George73] separators.
+ *  Example  tests/core/test_edit.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
+                                                 const sl_csc *A, const sl_csc *B,
+                                                 const sl_int *new_of, const sl_options *opt,
+                                                 sl_stats *stats);
 
 #ifdef __cplusplus
 }
@@ -9902,6 +9959,7 @@ struct sl_symbolic {
   sl_int *node_parent, *node_level;
   sli_mapping mapping;
   int is_partial;
+  sl_off ordered_l, ordered_a;
 };
 
 /* src/impl/analysis/etree.h: elimination tree, postorder, and renumbering of the columns */
@@ -10882,6 +10940,12 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
   to->symbolic = from->symbolic;
 }
 
+static int sli_symbolic_options_are_valid(const sl_options *opt) {
+  return sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) &&
+       (opt == NULL || opt->relaxation == SL_RELAXATION_DEFAULT ||
+      opt->relaxation == SL_RELAXATION_NONE);
+}
+
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
@@ -10900,10 +10964,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   if (status != SL_OK) {
     return status;
   }
-  if (A->n_rows != A->n_cols ||
-    !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) ||
-    (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
-     opt->relaxation != SL_RELAXATION_NONE)) {
+  if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
     return SL_ERR_ARGUMENT;
   }
   memset(&w, 0, sizeof w);
@@ -21566,6 +21627,696 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     info->seconds = sli_seconds() - started;
   }
   sli_restriction_free(&r, &a);
+  return status;
+}
+
+/* src/impl/change/edit_match.h: which rows of an edited matrix have other neighbors than before */
+
+typedef struct sli_edit {
+  const sl_symbolic *S;
+  const sl_csc *A, *B;
+  const sl_int *new_of;
+  sl_triangle triangle;
+  sl_int n;
+  sl_int *column_of;
+  sl_int *node;
+  sl_int *number;
+  unsigned char *is_active;
+  unsigned char *is_matched;
+  sl_int *position;
+  sl_int *cursor, *waiting;
+
+  sl_int n_active;
+  sl_int *active;
+  sl_off *begin;
+  sl_int *to;
+  uint64_t *list, *scratch;
+  sl_off steps;
+
+  unsigned char *mark;
+  sl_int *weight;
+  sl_int *head, *next;
+  sl_int n_grouped;
+  sl_int n_fresh;
+  sl_int *fresh;
+  sl_int moved;
+  void *blocks[3];
+} sli_edit;
+
+enum { SLI_NODE_KEPT = 0, SLI_NODE_FRESH, SLI_NODE_GROUPED };
+
+static void sli_edit_layout(sli_edit *e, sli_block *b) {
+  const uint64_t n = (uint64_t)e->n, supers = (uint64_t)e->S->n_supers;
+  e->column_of = SLI_TAKE(b, sl_int, n);
+  e->node = SLI_TAKE(b, sl_int, n);
+  e->number = SLI_TAKE(b, sl_int, n);
+  e->is_active = SLI_TAKE(b, unsigned char, n);
+  e->is_matched = SLI_TAKE(b, unsigned char, sli_nnz(e->B));
+  e->position = SLI_TAKE(b, sl_int, sli_nnz(e->A));
+  e->cursor = SLI_TAKE(b, sl_int, n);
+  e->waiting = SLI_TAKE(b, sl_int, n);
+  e->mark = SLI_TAKE(b, unsigned char, supers + 1);
+  e->weight = SLI_TAKE(b, sl_int, supers + 1);
+  e->head = SLI_TAKE(b, sl_int, supers + 1);
+  e->next = SLI_TAKE(b, sl_int, n);
+  e->active = SLI_TAKE(b, sl_int, n);
+  e->fresh = SLI_TAKE(b, sl_int, n);
+}
+
+static sl_status sli_edit_rows(sli_edit *e, sl_stats *stats) {
+  const sl_symbolic *S = e->S;
+  sl_int j;
+  memset(e->mark, SLI_NODE_KEPT, (size_t)S->n_supers + 1);
+  for (j = 0; j < e->n; j++) {
+    e->column_of[j] = -1;
+  }
+  for (j = 0; j < S->n; j++) {
+    const sl_int row = e->new_of[j];
+    if (row < -1 || row >= e->n || (row >= 0 && e->column_of[row] != -1)) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row);
+    }
+    if (row >= 0) {
+      e->column_of[row] = S->iperm[j];
+    } else {
+      e->mark[S->super_of[S->iperm[j]]] = SLI_NODE_FRESH;
+    }
+  }
+  for (j = 0; j < e->n; j++) {
+    e->node[j] = e->column_of[j] == -1 ? -1 : S->super_of[e->column_of[j]];
+    e->is_active[j] = e->column_of[j] == -1;
+  }
+  return SL_OK;
+}
+
+#define SLI_EDIT_AHEAD 12
+
+#define SLI_EDIT_LAST INT32_MIN
+
+SLI_INLINE sl_int sli_edit_link(sl_int p) {
+  return -1 - p;
+}
+
+SLI_INLINE int sli_edit_place(const sli_edit *e, sl_int i, sl_int j, sl_int *row, sl_int *column) {
+  const int is_upper = e->triangle == SL_TRIANGLE_UPPER;
+  *row = is_upper ? sli_min(i, j) : sli_max(i, j);
+  *column = is_upper ? sli_max(i, j) : sli_min(i, j);
+  return i == j || e->triangle != SL_TRIANGLE_NONE;
+}
+
+SLI_INLINE void sli_edit_activate(sli_edit *e, sl_int row) {
+  if (row != -1) {
+    e->is_active[row] = 1;
+  }
+}
+
+static void sli_edit_match_ahead(sli_edit *e, sl_int j) {
+  const sl_csc *A = e->A, *B = e->B;
+  const sl_triangle triangle = e->S->stats.symbolic.triangle;
+  const sl_int own = e->new_of[j];
+  sl_int p, row, column;
+  for (p = A->p[j]; p < A->p[j + 1]; p++) {
+    const sl_int other = e->new_of[A->i[p]];
+    e->position[p] = -1;
+    if (!sli_is_read(triangle, A->i[p], j)) {
+      continue;
+    }
+    if (own != -1 && other != -1 && sli_edit_place(e, own, other, &row, &column)) {
+      sl_int q = e->cursor[column];
+      const sl_int end = sli_min(q + SLI_EDIT_AHEAD, B->p[column + 1]);
+      while (q < end && B->i[q] != row) {
+        q++;
+      }
+      if (q < end) {
+        e->position[p] = q;
+        e->is_matched[q] = 1;
+        e->cursor[column] = q + 1;
+      } else {
+        e->position[p] = e->waiting[column];
+        e->waiting[column] = sli_edit_link(p);
+      }
+    } else {
+      sli_edit_activate(e, own);
+      sli_edit_activate(e, other);
+    }
+  }
+}
+
+static void sli_edit_match_waiting(sli_edit *e, sl_int column, sl_int *where) {
+  const sl_csc *B = e->B;
+  sl_int q, link = e->waiting[column];
+  for (q = B->p[column + 1] - 1; q >= B->p[column]; q--) {
+    where[B->i[q]] = e->is_matched[q] ? where[B->i[q]] : q + 1;
+  }
+  while (link != SLI_EDIT_LAST) {
+    const sl_int p = sli_edit_link(link), next = e->position[p];
+    const sl_int i = e->new_of[e->A->i[p]];
+    const sl_int row = i != column ? i : e->new_of[sli_column_of(e->A, p)];
+    e->position[p] = where[row] - 1;
+    if (where[row] != 0) {
+      e->is_matched[where[row] - 1] = 1;
+      where[row] = 0;
+    } else {
+      sli_edit_activate(e, row);
+      sli_edit_activate(e, column);
+    }
+    link = next;
+  }
+  for (q = B->p[column]; q < B->p[column + 1]; q++) {
+    where[B->i[q]] = 0;
+  }
+}
+
+static void sli_edit_match(sli_edit *e) {
+  const sl_csc *A = e->A, *B = e->B;
+  sl_int j, q, *where = e->number;
+  for (j = 0; j < e->n; j++) {
+    e->cursor[j] = B->p[j];
+    e->waiting[j] = SLI_EDIT_LAST;
+    where[j] = 0;
+  }
+  memset(e->is_matched, 0, (size_t)sli_nnz(B));
+  for (j = 0; j < A->n_cols; j++) {
+    sli_edit_match_ahead(e, j);
+  }
+  for (j = 0; j < e->n; j++) {
+    if (e->waiting[j] != SLI_EDIT_LAST) {
+      sli_edit_match_waiting(e, j, where);
+    }
+  }
+  for (j = 0; j < e->n; j++) {
+    for (q = B->p[j]; q < B->p[j + 1]; q++) {
+      if (!e->is_matched[q] && sli_is_read(e->triangle, B->i[q], j)) {
+        e->is_active[B->i[q]] = e->is_active[j] = 1;
+      }
+    }
+  }
+}
+
+/* src/impl/change/edit_place.h: places new rows in the tree of supernodes, and moves rows until every entry of the */
+
+static void sli_edit_list(sli_edit *e) {
+  sl_int j;
+  e->n_active = 0;
+  for (j = 0; j < e->n; j++) {
+    e->number[j] = -1;
+    if (e->is_active[j]) {
+      e->number[j] = e->n_active;
+      e->active[e->n_active++] = j;
+    }
+  }
+}
+
+SLI_INLINE void sli_edit_enter(sli_edit *e, sl_int i, sl_int j) {
+  const sl_int k = e->number[i];
+  if (k != -1 && e->to == NULL) {
+    e->begin[k]++;
+  } else if (k != -1) {
+    e->to[e->begin[k]++] = j;
+  }
+}
+
+static void sli_edit_scan(sli_edit *e) {
+  const sl_csc *B = e->B;
+  sl_int j, k, p;
+  for (k = 0; k < e->n_active && e->triangle == SL_TRIANGLE_BOTH; k++) {
+    j = e->active[k];
+    for (p = B->p[j]; p < B->p[j + 1]; p++) {
+      if (B->i[p] != j) {
+        sli_edit_enter(e, j, B->i[p]);
+      }
+    }
+  }
+  for (j = 0; j < e->n && e->triangle != SL_TRIANGLE_BOTH; j++) {
+    const int is_active = e->is_active[j];
+    for (p = B->p[j]; p < B->p[j + 1]; p++) {
+      if ((is_active || e->is_active[B->i[p]]) && B->i[p] != j &&
+        sli_is_read(e->triangle, B->i[p], j)) {
+        sli_edit_enter(e, j, B->i[p]);
+        sli_edit_enter(e, B->i[p], j);
+      }
+    }
+  }
+}
+
+static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
+  sli_block b = {NULL, 0, 0};
+  sl_off total = 0;
+  sl_int k, pass;
+  sl_status status = SL_OK;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_active + 1);
+    e->list = SLI_TAKE(&b, uint64_t, e->n_active);
+    e->scratch = SLI_TAKE(&b, uint64_t, e->n_active);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  e->blocks[1] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(e->begin, 0, ((size_t)e->n_active + 1) * sizeof(sl_off));
+  e->to = NULL;
+  sli_edit_scan(e);
+  for (k = 0; k <= e->n_active; k++) {
+    const sl_off here = e->begin[k];
+    e->begin[k] = total;
+    total += here;
+  }
+  memset(&b, 0, sizeof b);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    e->to = SLI_TAKE(&b, sl_int, total);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  e->blocks[2] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_edit_scan(e);
+  memmove(e->begin + 1, e->begin, (size_t)e->n_active * sizeof(sl_off));
+  e->begin[0] = 0;
+  return SL_OK;
+}
+
+SLI_INLINE int sli_edit_is_above(const sli_edit *e, sl_int a, sl_int b) {
+  return a == e->S->n_supers || (e->S->first_descendant[a] <= b && b <= a);
+}
+
+static sl_int sli_edit_join(sli_edit *e, sl_int a, sl_int b) {
+  while (!sli_edit_is_above(e, a, b) && e->steps > 0) {
+    a = e->S->super_parent[a];
+    a = a == -1 ? e->S->n_supers : a;
+    e->steps--;
+  }
+  return a;
+}
+
+static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
+  const sl_int own = e->node[row], k = e->number[row];
+  sl_int lowest = -1;
+  int is_join = 0;
+  sl_off at;
+  *conflicts = 0;
+  for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
+    const sl_int node = e->node[e->to[at]];
+    if (node == -1) {
+      continue;
+    }
+    *conflicts +=
+      own != -1 && !sli_edit_is_above(e, own, node) && !sli_edit_is_above(e, node, own);
+    if (lowest == -1) {
+      lowest = node;
+    } else if (sli_edit_is_above(e, lowest, node)) {
+      lowest = is_join ? lowest : node;
+    } else if (!sli_edit_is_above(e, node, lowest)) {
+      lowest = sli_edit_join(e, lowest, node);
+      is_join = 1;
+    }
+  }
+  return lowest;
+}
+
+static void sli_edit_move(sli_edit *e, sl_int row, sl_int node) {
+  if (e->node[row] != -1) {
+    e->mark[e->node[row]] = SLI_NODE_FRESH;
+    e->moved++;
+  }
+  e->mark[node] = SLI_NODE_FRESH;
+  e->node[row] = node;
+}
+
+static void sli_edit_resolve(sli_edit *e) {
+  sl_int k, count = 0, conflicts;
+  for (k = 0; k < e->n_active && e->steps > 0; k++) {
+    const sl_int row = e->active[k];
+    if (e->node[row] != -1) {
+      (void)sli_edit_lowest(e, row, &conflicts);
+      if (conflicts > 0) {
+        e->list[count++] = sli_keyed(INT32_MAX - conflicts, row);
+      }
+    }
+  }
+  sli_sort(e->list, count, e->scratch);
+  for (k = 0; k < count && e->steps > 0; k++) {
+    const sl_int row = sli_value(e->list[k]);
+    const sl_int node = sli_edit_lowest(e, row, &conflicts);
+    if (conflicts > 0) {
+      sli_edit_move(e, row, node);
+    }
+  }
+}
+
+static void sli_edit_place_new(sli_edit *e) {
+  sl_int *queue = e->next, head, tail = 0, k, conflicts;
+  sl_off at;
+  for (k = 0; k < e->n_active; k++) {
+    const sl_int row = e->active[k];
+    for (at = e->begin[k]; e->node[row] == -1 && at < e->begin[k + 1]; at++) {
+      if (e->node[e->to[at]] != -1) {
+        e->cursor[row] = 1;
+        queue[tail++] = row;
+        break;
+      }
+    }
+  }
+  for (head = 0; head < tail && e->steps > 0; head++) {
+    const sl_int row = queue[head];
+    sli_edit_move(e, row, sli_edit_lowest(e, row, &conflicts));
+    k = e->number[row];
+    for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
+      if (e->node[e->to[at]] == -1 && e->cursor[e->to[at]] == 0) {
+        e->cursor[e->to[at]] = 1;
+        queue[tail++] = e->to[at];
+      }
+    }
+  }
+}
+
+static void sli_edit_lower(sli_edit *e) {
+  sl_int k, conflicts;
+  for (k = 0; k < e->n_active && e->steps > 0; k++) {
+    const sl_int row = e->active[k], own = e->node[row];
+    const sl_int lowest = own == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
+    if (lowest != -1 && lowest != own && sli_edit_is_above(e, own, lowest)) {
+      sli_edit_move(e, row, lowest);
+    }
+  }
+}
+
+static int sli_edit_place_all(sli_edit *e) {
+  sl_int k;
+  for (k = 0; k < e->n_active; k++) {
+    e->cursor[e->active[k]] = 0;
+    if (e->node[e->active[k]] != -1) {
+      e->mark[e->node[e->active[k]]] = SLI_NODE_FRESH;
+    }
+  }
+  e->steps = 4 * ((sl_off)e->n + e->S->n_supers) + 1000;
+  sli_edit_resolve(e);
+  sli_edit_place_new(e);
+  sli_edit_lower(e);
+  return e->steps > 0;
+}
+
+/* src/impl/change/edit_order.h: the order of an edited matrix: small subtrees with active rows are ordered anew */
+
+#define SLI_EDIT_SHARE 8
+
+static void sli_edit_mark(sli_edit *e) {
+  const sl_symbolic *S = e->S;
+  sl_int s, k;
+  memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+  for (k = 0; k < e->n_active; k++) {
+    if (e->node[e->active[k]] != -1) {
+      e->weight[e->node[e->active[k]]]++;
+    }
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int up = S->super_parent[s];
+    if (up != -1) {
+      e->weight[up] += e->weight[s];
+      e->mark[up] = e->mark[s] == SLI_NODE_KEPT ? e->mark[up] : e->mark[s];
+    }
+  }
+  for (s = S->n_supers - 1; s >= 0; s--) {
+    const sl_int low = S->first_descendant[s];
+    const sl_off size = S->super_first[s + 1] - S->super_first[low];
+    if (e->weight[s] > 0 && size <= (sl_off)SLI_EDIT_SHARE * e->weight[s]) {
+      memset(e->mark + low, SLI_NODE_GROUPED, (size_t)(s - low + 1));
+      s = low;
+    }
+  }
+}
+
+SLI_INLINE int sli_edit_stays(const sli_edit *e, sl_int row, sl_int s) {
+  return row != -1 && e->node[row] == s;
+}
+
+static void sli_edit_append(sli_edit *e, sl_int s) {
+  const sl_symbolic *S = e->S;
+  sl_int k, row;
+  for (row = e->head[s]; row != -1; row = e->next[row]) {
+    e->fresh[e->n_fresh++] = row;
+  }
+  for (k = s < S->n_supers ? S->super_first[s] : 0; s < S->n_supers && k < S->super_first[s + 1];
+     k++) {
+    row = e->new_of[S->perm[k]];
+    if (sli_edit_stays(e, row, s)) {
+      e->fresh[e->n_fresh++] = row;
+    }
+  }
+}
+
+static void sli_edit_collect(sli_edit *e) {
+  const sl_symbolic *S = e->S;
+  sl_int s, k;
+  for (s = 0; s <= S->n_supers; s++) {
+    e->head[s] = -1;
+  }
+  e->n_fresh = 0;
+  for (k = e->n_active - 1; k >= 0; k--) {
+    const sl_int row = e->active[k], node = e->node[row];
+    if (node == -1) {
+      e->fresh[e->n_fresh++] = row;
+    } else if (e->column_of[row] == -1 || S->super_of[e->column_of[row]] != node) {
+      e->next[row] = e->head[node];
+      e->head[node] = row;
+    }
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    if (e->mark[s] == SLI_NODE_GROUPED) {
+      sli_edit_append(e, s);
+    }
+  }
+  e->n_grouped = e->n_fresh;
+  for (s = 0; s <= S->n_supers; s++) {
+    if (e->mark[s] == SLI_NODE_FRESH) {
+      sli_edit_append(e, s);
+    }
+  }
+}
+
+static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
+  const sl_csc *B = e->B;
+  sl_int k, p;
+  for (k = 0; k < e->n_grouped; k++) {
+    const sl_int j = e->fresh[k];
+    for (p = B->p[j]; p < B->p[j + 1]; p++) {
+      const sl_int i = e->number[B->i[p]];
+      if (i != -1 && i != k && sli_is_read(e->triangle, B->i[p], j) && G->to == NULL) {
+        G->begin[i]++;
+        G->begin[k]++;
+      } else if (i != -1 && i != k && sli_is_read(e->triangle, B->i[p], j)) {
+        G->to[G->begin[i]++] = k;
+        G->to[G->begin[k]++] = i;
+      }
+    }
+  }
+}
+
+static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
+  const sl_int count = e->n_grouped;
+  sli_graph G;
+  sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
+  sli_septree septree;
+  sl_int *perm = NULL, *scratch = NULL, k, pass;
+  sl_off total = 0;
+  double flops;
+  sl_status status = SL_OK;
+  memset(&G, 0, sizeof G);
+  memset(&septree, 0, sizeof septree);
+  if (count == 0) {
+    return SL_OK;
+  }
+  G.n = count;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    G.begin = SLI_TAKE(&b, sl_off, (uint64_t)count + 1);
+    perm = SLI_TAKE(&b, sl_int, count);
+    scratch = SLI_TAKE(&b, sl_int, count);
+    septree.node_of = SLI_TAKE(&b, sl_int, count);
+    septree.parent = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (k = 0; k < e->n; k++) {
+    e->number[k] = -1;
+  }
+  for (k = 0; k < count; k++) {
+    e->number[e->fresh[k]] = k;
+  }
+  memset(G.begin, 0, ((size_t)count + 1) * sizeof(sl_off));
+  sli_edit_graph(e, &G);
+  for (k = 0; k <= count; k++) {
+    const sl_off here = G.begin[k];
+    G.begin[k] = total;
+    total += here;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    G.to = SLI_TAKE(&edges, sl_int, total);
+    status = pass == 0 ? sli_block_alloc(&edges, a) : SL_OK;
+  }
+  if (status == SL_OK) {
+    sli_edit_graph(e, &G);
+    memmove(G.begin + 1, G.begin, (size_t)count * sizeof(sl_off));
+    G.begin[0] = 0;
+    status = sli_order_canonical(&G, a);
+  }
+  if (status == SL_OK) {
+    status = sli_order_is_irregular(&G)
+           ? sli_order_mindeg(&G, perm, &flops, a)
+           : sli_order_compressed(&G, 0, perm, scratch, &septree, a);
+  }
+  if (status == SL_OK) {
+    for (k = 0; k < count; k++) {
+      scratch[k] = e->fresh[perm[k]];
+    }
+    memcpy(e->fresh, scratch, (size_t)count * sizeof(sl_int));
+  }
+  sli_free(a, edges.base);
+  sli_free(a, b.base);
+  return status;
+}
+
+/* src/impl/change/edit.h: sl_symbolic_edit: the analysis of an edited matrix from that of the matrix before */
+
+#define SLI_EDIT_MOST_ACTIVE 0.25
+
+#define SLI_EDIT_DUE 1.1
+
+static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const sl_csc *B,
+                  const sl_int *new_of, const sl_options *opt) {
+  sli_hash pattern;
+  if (S == NULL || A == NULL || B == NULL || (S->n > 0 && new_of == NULL) ||
+    !sli_symbolic_options_are_valid(opt) || (A->n_cols > 0 && A->p == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (S->is_pivoted || S->nnz_input < 0) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
+    return SL_ERR_PATTERN;
+  }
+  if (sli_nnz(A) > 0 && A->i == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
+                                         : SL_ERR_PATTERN;
+}
+
+static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  *is_local = 0;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_edit_layout(e, &b);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  e->blocks[0] = b.base;
+  status = status == SL_OK ? sli_edit_rows(e, stats) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_edit_match(e);
+  sli_edit_list(e);
+  if (e->n_active > SLI_EDIT_MOST_ACTIVE * e->n) {
+    return SL_OK;
+  }
+  status = sli_edit_neighbors(e, a);
+  if (status != SL_OK || !sli_edit_place_all(e)) {
+    return status;
+  }
+  sli_edit_mark(e);
+  sli_edit_collect(e);
+  *is_local = 1;
+  return sli_edit_order(e, a);
+}
+
+static sl_status sli_edit_analyze(sl_symbolic **out, const sli_edit *e, const sl_options *opt,
+                  const sl_allocator *a, sl_stats *stats) {
+  sl_options given = sli_options_with(a);
+  sl_int *perm = e->cursor, k, at = 0;
+  for (k = 0; k < e->S->n; k++) {
+    if (e->mark[e->S->super_of[k]] == SLI_NODE_KEPT) {
+      perm[at++] = e->new_of[e->S->perm[k]];
+    }
+  }
+  for (k = 0; k < e->n_fresh; k++) {
+    perm[at++] = e->fresh[k];
+  }
+  SLI_ASSERT(at == e->n);
+  given.ordering = SL_ORDERING_GIVEN;
+  given.perm = perm;
+  given.triangle = e->triangle;
+  given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
+  return sl_symbolic_create(out, e->B, &given, stats);
+}
+
+static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, double started,
+               sl_edit_info *info) {
+  const sl_symbolic *S = e->S;
+  const sl_symbolic_info *now = &T->stats.symbolic, *before = &S->stats.symbolic;
+  memset(info, 0, sizeof *info);
+  info->is_anew = is_anew;
+  info->changed = e->n_active;
+  info->moved = is_anew ? 0 : e->moved;
+  info->reordered = is_anew ? e->n : e->n_grouped;
+  info->computed = is_anew ? e->n : e->n_fresh;
+  info->growth = 1.0;
+  if (!is_anew) {
+    T->ordered_l = S->ordered_l > 0 ? S->ordered_l : before->nnz_l;
+    T->ordered_a = S->ordered_a > 0 ? S->ordered_a : before->nnz_a;
+  }
+  if (!is_anew && T->ordered_a > 0 && T->ordered_l > 0 && now->nnz_a > 0) {
+    info->growth = ((double)now->nnz_l / (double)T->ordered_l) /
+             ((double)now->nnz_a / (double)T->ordered_a);
+  }
+  info->is_due = info->growth > SLI_EDIT_DUE;
+  info->seconds = sli_seconds() - started;
+}
+
+SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const sl_csc *A,
+                  const sl_csc *B, const sl_int *new_of, const sl_options *opt,
+                  sl_stats *stats) {
+  const double started = sli_seconds();
+  const sl_allocator a = sli_allocator(opt);
+  sli_edit e;
+  sl_edit_info info;
+  sl_status status;
+  int is_local = 0, k;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status = sli_edit_arguments(S, A, B, new_of, opt);
+  status = status == SL_OK ? sl_csc_check(B, stats) : status;
+  if (status == SL_OK && B->n_rows != B->n_cols) {
+    status = SL_ERR_ARGUMENT;
+  }
+  memset(&e, 0, sizeof e);
+  if (status == SL_OK) {
+    e.S = S;
+    e.A = A;
+    e.B = B;
+    e.new_of = new_of;
+    e.n = B->n_cols;
+    status = sli_csc_triangle(B, &e.triangle, opt, stats);
+  }
+  status = status == SL_OK ? sli_edit_find(&e, &is_local, &a, stats) : status;
+  if (status == SL_OK) {
+    status = is_local ? sli_edit_analyze(out, &e, opt, &a, stats)
+              : sl_symbolic_create(out, B, opt, stats);
+  }
+  if (status == SL_OK) {
+    sli_edit_count(*out, &e, !is_local, started, &info);
+    if (stats != NULL) {
+      stats->edit = info;
+    }
+  }
+  for (k = 0; k < 3; k++) {
+    sli_free(&a, e.blocks[k]);
+  }
   return status;
 }
 

@@ -28,6 +28,7 @@ extern "C" {
 #include "public/pins.h"
 #include "public/complex.h"
 #include "public/restrict.h"
+#include "public/edit.h"
 #ifdef __cplusplus
 }
 #endif
@@ -157,6 +158,10 @@ extern "C" {
 #include "impl/change/restrict_anew.h"
 #include "impl/change/restrict_symbolic.h"
 #include "impl/change/restrict.h"
+#include "impl/change/edit_match.h"
+#include "impl/change/edit_place.h"
+#include "impl/change/edit_order.h"
+#include "impl/change/edit.h"
 /* save: factors in files */
 #include "impl/save/format.h"
 #include "impl/save/decode.h"

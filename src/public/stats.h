@@ -47,9 +47,9 @@ typedef struct sl_factor_info {
     /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
-    double pivot_min;   /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
-    double pivot_max;   /* largest */
-    double entry_max;   /* largest |a| among the entries of A that were read */
+    double pivot_min; /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
+    double pivot_max; /* largest */
+    double entry_max; /* largest |a| among the entries of A that were read */
     /* pivot growth, max_k (|L| |D| |L'|)_kk / max |a|, the maximum over the connected components
      * of the pattern: about 1 to 2 for definite matrices, whatever their scaling. The backward
      * error of a solve without refinement is at most about growth * epsilon (sl_factor_create) */
@@ -134,6 +134,20 @@ typedef struct sl_restrict_info {
     double seconds;  /* processor seconds, analysis included */
 } sl_restrict_info;
 
+/** An analysis that follows an edit of the pattern: sl_symbolic_edit. */
+typedef struct sl_edit_info {
+    sl_int changed;   /* rows of B that are new or have other neighbors than before */
+    sl_int moved;     /* rows that moved to another separator */
+    sl_int reordered; /* rows of subtrees that were ordered anew; n if is_anew */
+    sl_int computed;  /* columns of L whose structure was computed anew */
+    int is_anew;      /* 1: the edit is not local: all rows were ordered anew */
+    int is_due;       /* 1: a new order is due, as growth exceeds 1.1 */
+    /* nnz_l relative to that of a new order, which is estimated: the entries of the last one, times
+     * the growth of the entries of A since then. A loaded analysis counts as a new one */
+    double growth;
+    double seconds; /* processor seconds, all included */
+} sl_edit_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -148,8 +162,9 @@ typedef struct sl_stats {
     sl_refine_info refine;
     sl_change_info change;
     sl_restrict_info restriction;
+    sl_edit_info edit;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[15];
+    sl_off reserved[10];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

@@ -8,6 +8,7 @@ typedef struct fixture_t {
     double B[225 * 3], X[225 * 3], before[225 * 3];
     char text[4096];
     size_t length;
+    int is_upper; /* y stores the upper triangle only */
 } fixture_t;
 
 /* Runs one function with the allocator of opt. Checks that the object is NULL after an error, and
@@ -265,9 +266,41 @@ static sl_status restrict_few(fixture_t *f, const sl_options *opt) {
     return restriction(f, f->bset, 20, opt);
 }
 
+/* Three rows in the middle of the grid are joined with rows below them, and row 7 is gone. */
+static sl_status edit(fixture_t *f, const sl_options *opt) {
+    const sl_csc *A = &f->y.M.view;
+    gen_list_t t = gen_list(A->n_cols);
+    sl_int new_of[225];
+    sl_symbolic *T = GARBAGE(sl_symbolic);
+    for (sl_int j = 0; j < A->n_cols; j++) {
+        new_of[j] = j < 7 ? j : j == 7 ? -1 : j - 1;
+    }
+    t.n--;
+    for (sl_int j = 0; j < A->n_cols; j++) {
+        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
+            if (A->i[p] >= j && A->i[p] != 7 && j != 7) {
+                gen_add(&t, new_of[A->i[p]], new_of[j], 1.0);
+            } else if (A->i[p] < j && A->i[p] != 7 && j != 7 && f->is_upper) {
+                gen_add(&t, new_of[j], new_of[A->i[p]], 1.0);
+            }
+        }
+    }
+    for (sl_int k = 110; k < 113; k++) {
+        gen_add(&t, k + 31, k, 1.0);
+    }
+    gen_matrix_t B = gen_store(&t, gen_style(0), 1);
+    const sl_status status = sl_symbolic_edit(&T, f->y.S, A, &B.view, new_of, opt, NULL);
+    MADE_OR_NULL(status, T);
+    sl_symbolic_free(T);
+    gen_matrix_free(&B);
+    gen_list_free(&t);
+    return status;
+}
+
 static void fixture_make(fixture_t *f, int style) {
     uint64_t seed = 2;
     f->y = factored_make(GEN_GRID2, 225, 1, style, NULL);
+    f->is_upper = gen_style(style).triangle == SL_TRIANGLE_UPPER;
     gen_set(f->bset, 20, 225, gen_bits(&seed));
     gen_set(f->xset, 30, 225, gen_bits(&seed));
     gen_permutation(f->perm, 225, gen_bits(&seed));
@@ -301,6 +334,7 @@ static void every_allocation_may_fail(void **state) {
         {"sl_factor_lower", lower},
         {"sl_factor_restrict", restrict_half},
         {"sl_factor_restrict, few rows", restrict_few},
+        {"sl_symbolic_edit", edit},
         {"sl_plan_create", plan},
         {"sl_work_create", work},
         {"sl_work_reserve_factor", reserve_factor},

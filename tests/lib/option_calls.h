@@ -135,6 +135,10 @@ static inline sl_status option_save_set(option_fixture_t *f, const sl_options *o
     return sl_save_set_file(NOWHERE, &set, opt);
 }
 
+/* The identity of U's rows: an edit that changes nothing. */
+OPTION_CALL(option_edit, sl_symbolic,
+            sl_symbolic_edit(&out, f->pair.S, &f->U, &f->U, f->perm, opt, NULL))
+
 static inline sl_status option_restrict(option_fixture_t *f, const sl_options *opt) {
     sl_symbolic *S = OPTION_GARBAGE(sl_symbolic);
     sl_factor *G = OPTION_GARBAGE(sl_factor);
@@ -223,6 +227,7 @@ static const struct {
     {"sl_matrix_sum", option_sum, READS_TRIANGLE},
     {"sl_symbolic_create", option_symbolic, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_symbolic_create_pivoted", option_pivoted, READS_ANALYSIS | READS_TRIANGLE},
+    {"sl_symbolic_edit", option_edit, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_create_combination", option_combination, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},

@@ -342,6 +342,13 @@ static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
     to->symbolic = from->symbolic;
 }
 
+/* Checks the options of an analysis. */
+static int sli_symbolic_options_are_valid(const sl_options *opt) {
+    return sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) &&
+           (opt == NULL || opt->relaxation == SL_RELAXATION_DEFAULT ||
+            opt->relaxation == SL_RELAXATION_NONE);
+}
+
 /* sl_symbolic_create of a matrix for which 2x2 pivots are given, or pairs NULL. opt then gives the
  * order, and pairs[k] = 1 if its rows k and k + 1 are a 2x2 pivot. */
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
@@ -362,10 +369,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols ||
-        !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) ||
-        (opt != NULL && opt->relaxation != SL_RELAXATION_DEFAULT &&
-         opt->relaxation != SL_RELAXATION_NONE)) {
+    if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
         return SL_ERR_ARGUMENT;
     }
     memset(&w, 0, sizeof w);

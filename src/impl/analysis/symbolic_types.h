@@ -53,6 +53,8 @@ struct sl_symbolic {
     sli_mapping mapping;              /* the mapped file that holds the arrays; empty: none */
     /* made from a file that has more than this library reads, or a restriction: it is not saved */
     int is_partial;
+    /* after edits of the pattern: nnz_l and nnz_a of the last analysis with a new order; 0: none */
+    sl_off ordered_l, ordered_a;
 };
 
 #endif

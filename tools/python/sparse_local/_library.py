@@ -74,6 +74,9 @@ _ChangeInfo = _struct("_ChangeInfo", [
 _RestrictInfo = _struct("_RestrictInfo", [
     ("kept", _INT), ("computed", _INT), ("entries", _OFF), ("is_anew", ctypes.c_int),
     ("padding", ctypes.c_int), ("seconds", _REAL)])
+_EditInfo = _struct("_EditInfo", [
+    ("changed", _INT), ("moved", _INT), ("reordered", _INT), ("computed", _INT),
+    ("is_anew", ctypes.c_int), ("is_due", ctypes.c_int), ("growth", _REAL), ("seconds", _REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", _INT), ("backward_error", _REAL)])
 
 
@@ -83,7 +86,7 @@ class Stats(ctypes.Structure):
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
-                ("reserved", _OFF * 15)]
+                ("edit", _EditInfo), ("reserved", _OFF * 10)]
 
 
 class SymbolicArrays(ctypes.Structure):

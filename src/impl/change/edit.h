@@ -1,0 +1,156 @@
+/* edit.h: sl_symbolic_edit: the analysis of an edited matrix from that of the matrix before */
+#ifndef SLI_CHANGE_EDIT_H
+#define SLI_CHANGE_EDIT_H
+
+#include "../../public/edit.h"
+#include "edit_order.h"
+
+/* Beyond this share of active rows an order of its own is as fast. */
+#define SLI_EDIT_MOST_ACTIVE 0.25
+
+/* A new order is due if L has so many times the entries that are expected of one. */
+#define SLI_EDIT_DUE 1.1
+
+/* Checks what can be checked before the matrices are read. */
+static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const sl_csc *B,
+                                    const sl_int *new_of, const sl_options *opt) {
+    sli_hash pattern;
+    if (S == NULL || A == NULL || B == NULL || (S->n > 0 && new_of == NULL) ||
+        !sli_symbolic_options_are_valid(opt) || (A->n_cols > 0 && A->p == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (S->is_pivoted || S->nnz_input < 0) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
+        return SL_ERR_PATTERN;
+    }
+    if (sli_nnz(A) > 0 && A->i == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
+                                                                                 : SL_ERR_PATTERN;
+}
+
+/* Finds the rows whose columns are analyzed anew and their order. *is_local := 0 if all rows should
+ * be ordered anew. */
+static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    *is_local = 0;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_edit_layout(e, &b);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    e->blocks[0] = b.base;
+    status = status == SL_OK ? sli_edit_rows(e, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_edit_match(e);
+    sli_edit_list(e);
+    if (e->n_active > SLI_EDIT_MOST_ACTIVE * e->n) {
+        return SL_OK;
+    }
+    status = sli_edit_neighbors(e, a);
+    if (status != SL_OK || !sli_edit_place_all(e)) {
+        return status;
+    }
+    sli_edit_mark(e);
+    sli_edit_collect(e);
+    *is_local = 1;
+    return sli_edit_order(e, a);
+}
+
+/* Analyzes B in the order that was found. */
+static sl_status sli_edit_analyze(sl_symbolic **out, const sli_edit *e, const sl_options *opt,
+                                  const sl_allocator *a, sl_stats *stats) {
+    sl_options given = sli_options_with(a);
+    sl_int *perm = e->cursor, k, at = 0;
+    for (k = 0; k < e->S->n; k++) {
+        if (e->mark[e->S->super_of[k]] == SLI_NODE_KEPT) {
+            perm[at++] = e->new_of[e->S->perm[k]];
+        }
+    }
+    for (k = 0; k < e->n_fresh; k++) {
+        perm[at++] = e->fresh[k];
+    }
+    SLI_ASSERT(at == e->n);
+    given.ordering = SL_ORDERING_GIVEN;
+    given.perm = perm;
+    given.triangle = e->triangle;
+    given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
+    return sl_symbolic_create(out, e->B, &given, stats);
+}
+
+/* Compares the entries of L with those of the last new order. */
+static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, double started,
+                           sl_edit_info *info) {
+    const sl_symbolic *S = e->S;
+    const sl_symbolic_info *now = &T->stats.symbolic, *before = &S->stats.symbolic;
+    memset(info, 0, sizeof *info);
+    info->is_anew = is_anew;
+    info->changed = e->n_active;
+    info->moved = is_anew ? 0 : e->moved;
+    info->reordered = is_anew ? e->n : e->n_grouped;
+    info->computed = is_anew ? e->n : e->n_fresh;
+    info->growth = 1.0;
+    if (!is_anew) {
+        T->ordered_l = S->ordered_l > 0 ? S->ordered_l : before->nnz_l;
+        T->ordered_a = S->ordered_a > 0 ? S->ordered_a : before->nnz_a;
+    }
+    if (!is_anew && T->ordered_a > 0 && T->ordered_l > 0 && now->nnz_a > 0) {
+        info->growth = ((double)now->nnz_l / (double)T->ordered_l) /
+                       ((double)now->nnz_a / (double)T->ordered_a);
+    }
+    info->is_due = info->growth > SLI_EDIT_DUE;
+    info->seconds = sli_seconds() - started;
+}
+
+SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const sl_csc *A,
+                                  const sl_csc *B, const sl_int *new_of, const sl_options *opt,
+                                  sl_stats *stats) {
+    const double started = sli_seconds();
+    const sl_allocator a = sli_allocator(opt);
+    sli_edit e;
+    sl_edit_info info;
+    sl_status status;
+    int is_local = 0, k;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sli_edit_arguments(S, A, B, new_of, opt);
+    status = status == SL_OK ? sl_csc_check(B, stats) : status;
+    if (status == SL_OK && B->n_rows != B->n_cols) {
+        status = SL_ERR_ARGUMENT;
+    }
+    memset(&e, 0, sizeof e);
+    if (status == SL_OK) {
+        e.S = S;
+        e.A = A;
+        e.B = B;
+        e.new_of = new_of;
+        e.n = B->n_cols;
+        status = sli_csc_triangle(B, &e.triangle, opt, stats);
+    }
+    status = status == SL_OK ? sli_edit_find(&e, &is_local, &a, stats) : status;
+    if (status == SL_OK) {
+        status = is_local ? sli_edit_analyze(out, &e, opt, &a, stats)
+                          : sl_symbolic_create(out, B, opt, stats);
+    }
+    if (status == SL_OK) {
+        sli_edit_count(*out, &e, !is_local, started, &info);
+        if (stats != NULL) {
+            stats->edit = info;
+        }
+    }
+    for (k = 0; k < 3; k++) {
+        sli_free(&a, e.blocks[k]);
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,175 @@
+/* edit_order.h: the order of an edited matrix: small subtrees with active rows are ordered anew */
+#ifndef SLI_CHANGE_EDIT_ORDER_H
+#define SLI_CHANGE_EDIT_ORDER_H
+
+#include "edit_place.h"
+
+/* A subtree is ordered anew if at least one in so many of its rows is active. */
+#define SLI_EDIT_SHARE 8
+
+/* Marks the ancestors of fresh nodes as fresh, and the subtrees that are ordered anew. */
+static void sli_edit_mark(sli_edit *e) {
+    const sl_symbolic *S = e->S;
+    sl_int s, k;
+    memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+    for (k = 0; k < e->n_active; k++) {
+        if (e->node[e->active[k]] != -1) {
+            e->weight[e->node[e->active[k]]]++;
+        }
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int up = S->super_parent[s];
+        if (up != -1) {
+            e->weight[up] += e->weight[s];
+            e->mark[up] = e->mark[s] == SLI_NODE_KEPT ? e->mark[up] : e->mark[s];
+        }
+    }
+    for (s = S->n_supers - 1; s >= 0; s--) {
+        const sl_int low = S->first_descendant[s];
+        const sl_off size = S->super_first[s + 1] - S->super_first[low];
+        if (e->weight[s] > 0 && size <= (sl_off)SLI_EDIT_SHARE * e->weight[s]) {
+            memset(e->mark + low, SLI_NODE_GROUPED, (size_t)(s - low + 1));
+            s = low;
+        }
+    }
+}
+
+/* Does this column of S, of a row of B, stay in its node? */
+SLI_INLINE int sli_edit_stays(const sli_edit *e, sl_int row, sl_int s) {
+    return row != -1 && e->node[row] == s;
+}
+
+/* Appends the rows of node s to fresh: first those that came to it, so that they do not enter the
+ * structure of the others without need. */
+static void sli_edit_append(sli_edit *e, sl_int s) {
+    const sl_symbolic *S = e->S;
+    sl_int k, row;
+    for (row = e->head[s]; row != -1; row = e->next[row]) {
+        e->fresh[e->n_fresh++] = row;
+    }
+    for (k = s < S->n_supers ? S->super_first[s] : 0; s < S->n_supers && k < S->super_first[s + 1];
+         k++) {
+        row = e->new_of[S->perm[k]];
+        if (sli_edit_stays(e, row, s)) {
+            e->fresh[e->n_fresh++] = row;
+        }
+    }
+}
+
+/* Lists the rows whose columns are analyzed anew: those to be ordered anew first, in any order. */
+static void sli_edit_collect(sli_edit *e) {
+    const sl_symbolic *S = e->S;
+    sl_int s, k;
+    for (s = 0; s <= S->n_supers; s++) {
+        e->head[s] = -1;
+    }
+    e->n_fresh = 0;
+    for (k = e->n_active - 1; k >= 0; k--) {
+        const sl_int row = e->active[k], node = e->node[row];
+        if (node == -1) {
+            e->fresh[e->n_fresh++] = row;
+        } else if (e->column_of[row] == -1 || S->super_of[e->column_of[row]] != node) {
+            e->next[row] = e->head[node];
+            e->head[node] = row;
+        }
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        if (e->mark[s] == SLI_NODE_GROUPED) {
+            sli_edit_append(e, s);
+        }
+    }
+    e->n_grouped = e->n_fresh;
+    for (s = 0; s <= S->n_supers; s++) {
+        if (e->mark[s] == SLI_NODE_FRESH) {
+            sli_edit_append(e, s);
+        }
+    }
+}
+
+/* Fills the graph of the rows that are ordered anew; number: their positions in fresh, -1 for all
+ * other rows. Without G->to the edges are counted. */
+static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
+    const sl_csc *B = e->B;
+    sl_int k, p;
+    for (k = 0; k < e->n_grouped; k++) {
+        const sl_int j = e->fresh[k];
+        for (p = B->p[j]; p < B->p[j + 1]; p++) {
+            const sl_int i = e->number[B->i[p]];
+            if (i != -1 && i != k && sli_is_read(e->triangle, B->i[p], j) && G->to == NULL) {
+                G->begin[i]++;
+                G->begin[k]++;
+            } else if (i != -1 && i != k && sli_is_read(e->triangle, B->i[p], j)) {
+                G->to[G->begin[i]++] = k;
+                G->to[G->begin[k]++] = i;
+            }
+        }
+    }
+}
+
+/* Orders the grouped rows by their graph. */
+static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
+    const sl_int count = e->n_grouped;
+    sli_graph G;
+    sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
+    sli_septree septree;
+    sl_int *perm = NULL, *scratch = NULL, k, pass;
+    sl_off total = 0;
+    double flops;
+    sl_status status = SL_OK;
+    memset(&G, 0, sizeof G);
+    memset(&septree, 0, sizeof septree);
+    if (count == 0) {
+        return SL_OK;
+    }
+    G.n = count;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        G.begin = SLI_TAKE(&b, sl_off, (uint64_t)count + 1);
+        perm = SLI_TAKE(&b, sl_int, count);
+        scratch = SLI_TAKE(&b, sl_int, count);
+        septree.node_of = SLI_TAKE(&b, sl_int, count);
+        septree.parent = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k < e->n; k++) {
+        e->number[k] = -1;
+    }
+    for (k = 0; k < count; k++) {
+        e->number[e->fresh[k]] = k;
+    }
+    memset(G.begin, 0, ((size_t)count + 1) * sizeof(sl_off));
+    sli_edit_graph(e, &G);
+    for (k = 0; k <= count; k++) {
+        const sl_off here = G.begin[k];
+        G.begin[k] = total;
+        total += here;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        G.to = SLI_TAKE(&edges, sl_int, total);
+        status = pass == 0 ? sli_block_alloc(&edges, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_edit_graph(e, &G);
+        memmove(G.begin + 1, G.begin, (size_t)count * sizeof(sl_off));
+        G.begin[0] = 0;
+        status = sli_order_canonical(&G, a);
+    }
+    if (status == SL_OK) {
+        status = sli_order_is_irregular(&G)
+                     ? sli_order_mindeg(&G, perm, &flops, a)
+                     : sli_order_compressed(&G, 0, perm, scratch, &septree, a);
+    }
+    if (status == SL_OK) {
+        for (k = 0; k < count; k++) {
+            scratch[k] = e->fresh[perm[k]];
+        }
+        memcpy(e->fresh, scratch, (size_t)count * sizeof(sl_int));
+    }
+    sli_free(a, edges.base);
+    sli_free(a, b.base);
+    return status;
+}
+
+#endif

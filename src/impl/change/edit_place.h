@@ -1,0 +1,229 @@
+/* edit_place.h: places new rows in the tree of supernodes, and moves rows until every entry of the
+ * edited matrix joins two nodes of which one is an ancestor of the other */
+#ifndef SLI_CHANGE_EDIT_PLACE_H
+#define SLI_CHANGE_EDIT_PLACE_H
+
+#include "edit_match.h"
+
+/* Lists the active rows, all in `active`. */
+static void sli_edit_list(sli_edit *e) {
+    sl_int j;
+    e->n_active = 0;
+    for (j = 0; j < e->n; j++) {
+        e->number[j] = -1;
+        if (e->is_active[j]) {
+            e->number[j] = e->n_active;
+            e->active[e->n_active++] = j;
+        }
+    }
+}
+
+/* Enters two rows into each other's lists, where they have one; without `to` the lengths are
+ * counted. */
+SLI_INLINE void sli_edit_enter(sli_edit *e, sl_int i, sl_int j) {
+    const sl_int k = e->number[i];
+    if (k != -1 && e->to == NULL) {
+        e->begin[k]++;
+    } else if (k != -1) {
+        e->to[e->begin[k]++] = j;
+    }
+}
+
+/* Counts the neighbors of the active rows, or lists them; begin then moves to the end of each
+ * list. The columns of a matrix with both triangles are complete. */
+static void sli_edit_scan(sli_edit *e) {
+    const sl_csc *B = e->B;
+    sl_int j, k, p;
+    for (k = 0; k < e->n_active && e->triangle == SL_TRIANGLE_BOTH; k++) {
+        j = e->active[k];
+        for (p = B->p[j]; p < B->p[j + 1]; p++) {
+            if (B->i[p] != j) {
+                sli_edit_enter(e, j, B->i[p]);
+            }
+        }
+    }
+    for (j = 0; j < e->n && e->triangle != SL_TRIANGLE_BOTH; j++) {
+        const int is_active = e->is_active[j];
+        for (p = B->p[j]; p < B->p[j + 1]; p++) {
+            if ((is_active || e->is_active[B->i[p]]) && B->i[p] != j &&
+                sli_is_read(e->triangle, B->i[p], j)) {
+                sli_edit_enter(e, j, B->i[p]);
+                sli_edit_enter(e, B->i[p], j);
+            }
+        }
+    }
+}
+
+/* Lists the neighbors of each active row. */
+static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
+    sli_block b = {NULL, 0, 0};
+    sl_off total = 0;
+    sl_int k, pass;
+    sl_status status = SL_OK;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_active + 1);
+        e->list = SLI_TAKE(&b, uint64_t, e->n_active);
+        e->scratch = SLI_TAKE(&b, uint64_t, e->n_active);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    e->blocks[1] = b.base;
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(e->begin, 0, ((size_t)e->n_active + 1) * sizeof(sl_off));
+    e->to = NULL;
+    sli_edit_scan(e);
+    for (k = 0; k <= e->n_active; k++) {
+        const sl_off here = e->begin[k];
+        e->begin[k] = total;
+        total += here;
+    }
+    memset(&b, 0, sizeof b);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        e->to = SLI_TAKE(&b, sl_int, total);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    e->blocks[2] = b.base;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_edit_scan(e);
+    memmove(e->begin + 1, e->begin, (size_t)e->n_active * sizeof(sl_off));
+    e->begin[0] = 0;
+    return SL_OK;
+}
+
+/* Is node a an ancestor of b, or the same? */
+SLI_INLINE int sli_edit_is_above(const sli_edit *e, sl_int a, sl_int b) {
+    return a == e->S->n_supers || (e->S->first_descendant[a] <= b && b <= a);
+}
+
+/* The lowest common ancestor of two nodes. */
+static sl_int sli_edit_join(sli_edit *e, sl_int a, sl_int b) {
+    while (!sli_edit_is_above(e, a, b) && e->steps > 0) {
+        a = e->S->super_parent[a];
+        a = a == -1 ? e->S->n_supers : a;
+        e->steps--;
+    }
+    return a;
+}
+
+/* The lowest node that is above or below the nodes of all neighbors of an active row, or -1 if none
+ * of them is placed: the lowest of their nodes if these are on one path to a root, else the lowest
+ * common ancestor of the ends of the paths. *conflicts := neighbors that are on no path with the
+ * row itself. */
+static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
+    const sl_int own = e->node[row], k = e->number[row];
+    sl_int lowest = -1;
+    int is_join = 0;
+    sl_off at;
+    *conflicts = 0;
+    for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
+        const sl_int node = e->node[e->to[at]];
+        if (node == -1) {
+            continue;
+        }
+        *conflicts +=
+            own != -1 && !sli_edit_is_above(e, own, node) && !sli_edit_is_above(e, node, own);
+        if (lowest == -1) {
+            lowest = node;
+        } else if (sli_edit_is_above(e, lowest, node)) {
+            lowest = is_join ? lowest : node;
+        } else if (!sli_edit_is_above(e, node, lowest)) {
+            lowest = sli_edit_join(e, lowest, node);
+            is_join = 1;
+        }
+    }
+    return lowest;
+}
+
+/* Moves a row to a node, or places it there. */
+static void sli_edit_move(sli_edit *e, sl_int row, sl_int node) {
+    if (e->node[row] != -1) {
+        e->mark[e->node[row]] = SLI_NODE_FRESH;
+        e->moved++;
+    }
+    e->mark[node] = SLI_NODE_FRESH;
+    e->node[row] = node;
+}
+
+/* Moves one end of each new entry between two subtrees to their separator: first the rows with the
+ * most of these entries. */
+static void sli_edit_resolve(sli_edit *e) {
+    sl_int k, count = 0, conflicts;
+    for (k = 0; k < e->n_active && e->steps > 0; k++) {
+        const sl_int row = e->active[k];
+        if (e->node[row] != -1) {
+            (void)sli_edit_lowest(e, row, &conflicts);
+            if (conflicts > 0) {
+                e->list[count++] = sli_keyed(INT32_MAX - conflicts, row);
+            }
+        }
+    }
+    sli_sort(e->list, count, e->scratch);
+    for (k = 0; k < count && e->steps > 0; k++) {
+        const sl_int row = sli_value(e->list[k]);
+        const sl_int node = sli_edit_lowest(e, row, &conflicts);
+        if (conflicts > 0) {
+            sli_edit_move(e, row, node);
+        }
+    }
+}
+
+/* Places new rows in breadth-first order from the rows that have places. Those that are not
+ * connected with them get none. */
+static void sli_edit_place_new(sli_edit *e) {
+    sl_int *queue = e->next, head, tail = 0, k, conflicts;
+    sl_off at;
+    for (k = 0; k < e->n_active; k++) {
+        const sl_int row = e->active[k];
+        for (at = e->begin[k]; e->node[row] == -1 && at < e->begin[k + 1]; at++) {
+            if (e->node[e->to[at]] != -1) {
+                e->cursor[row] = 1;
+                queue[tail++] = row;
+                break;
+            }
+        }
+    }
+    for (head = 0; head < tail && e->steps > 0; head++) {
+        const sl_int row = queue[head];
+        sli_edit_move(e, row, sli_edit_lowest(e, row, &conflicts));
+        k = e->number[row];
+        for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
+            if (e->node[e->to[at]] == -1 && e->cursor[e->to[at]] == 0) {
+                e->cursor[e->to[at]] = 1;
+                queue[tail++] = e->to[at];
+            }
+        }
+    }
+}
+
+/* Moves active rows down, out of separators in which they separate nothing any more. */
+static void sli_edit_lower(sli_edit *e) {
+    sl_int k, conflicts;
+    for (k = 0; k < e->n_active && e->steps > 0; k++) {
+        const sl_int row = e->active[k], own = e->node[row];
+        const sl_int lowest = own == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
+        if (lowest != -1 && lowest != own && sli_edit_is_above(e, own, lowest)) {
+            sli_edit_move(e, row, lowest);
+        }
+    }
+}
+
+/* Places all active rows. Returns whether that took a moderate number of steps. */
+static int sli_edit_place_all(sli_edit *e) {
+    sl_int k;
+    for (k = 0; k < e->n_active; k++) {
+        e->cursor[e->active[k]] = 0;
+        if (e->node[e->active[k]] != -1) {
+            e->mark[e->node[e->active[k]]] = SLI_NODE_FRESH;
+        }
+    }
+    e->steps = 4 * ((sl_off)e->n + e->S->n_supers) + 1000;
+    sli_edit_resolve(e);
+    sli_edit_place_new(e);
+    sli_edit_lower(e);
+    return e->steps > 0;
+}
+
+#endif

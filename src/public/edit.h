@@ -1,0 +1,46 @@
+/* edit.h: an analysis that follows edits of the pattern: rows and entries that come and go */
+#ifndef SL_PUBLIC_EDIT_H
+#define SL_PUBLIC_EDIT_H
+
+#include "options.h"
+#include "stats.h"
+
+/** Analyzes an edited matrix B from the analysis of the matrix A that it was before.
+ *
+ *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
+ *  vertices doubled. The elimination tree of A stays where B has the same neighbors. A row that is
+ *  new or has other neighbors goes to the lowest supernode from which they are all above or below;
+ *  so an entry between two subtrees moves one of its rows into their separator. Small subtrees with
+ *  many such rows are ordered anew.
+ *
+ *  The result is an analysis as any other. Its order is as good as the one before if edits are
+ *  local, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
+ *  stats.edit.is_due, create a new analysis of the present matrix, when there is time for it. If a
+ *  quarter of the rows has other neighbors, or the edits are no local ones, this call does that
+ *  itself (stats.edit.is_anew).
+ *
+ *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
+ *                 depend on S. It has no separator tree, unless it is a new one.
+ *  S       [in]   an analysis of A.
+ *  A       [in]   the matrix that S was created from; values are not read.
+ *  B       [in]   n x n, symmetric, any n; values are not read; not kept.
+ *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
+ *                 gone. Rows of B that do not occur are new.
+ *  opt     [in]   allocator, triangle, relaxation; with a new order all that sl_symbolic_create
+ *                 reads; may be NULL.
+ *  stats   [out]  symbolic, edit; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
+ *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
+ *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
+ *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz) with small constants: mostly to compare the patterns.
+ *  Threads  reads S; otherwise as sl_symbolic_create.
+ *  Source   [Liu90] elimination trees; [George73] separators.
+ *  Example  tests/core/test_edit.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
+                                                 const sl_csc *A, const sl_csc *B,
+                                                 const sl_int *new_of, const sl_options *opt,
+                                                 sl_stats *stats);
+
+#endif
