@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 15e78dce6a3e1c45
+ * FNV-1a of the lines after this comment, without the license: b501792f7417c52b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,58 +26,58 @@
  *   2514 change.h     a factor that follows small changes of its matrix
  *   2601 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2691 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2816 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2865 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *   2818 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2867 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2915 base.h   3140 status.h   3201 options.h   3259 alloc.h   3369 hash.h   3499 file_map.h
- *   3595 sort.h   3659 parallel.h
+ *   2917 base.h   3142 status.h   3203 options.h   3261 alloc.h   3371 hash.h   3501 file_map.h
+ *   3597 sort.h   3661 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3692 panel.h   3714 step.h   3755 pivot_rule.h   3822 front.h   3866 pairs.h
- *   4073 inverse_front.h   4145 table.h   4169 simd.h   4239 simd_scalar.h   4368 simd_avx2.h
- *   4569 simd_avx512.h   4678 simd_neon.h   4873 dispatch.h
+ *   3694 panel.h   3716 step.h   3757 pivot_rule.h   3824 front.h   3868 pairs.h
+ *   4075 inverse_front.h   4147 table.h   4171 simd.h   4241 simd_scalar.h   4370 simd_avx2.h
+ *   4571 simd_avx512.h   4680 simd_neon.h   4875 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4953 csc.h   5067 csc_build.h   5201 csc64.h   5272 csc_triangle.h   5338 csc_products.h
- *   5455 permute.h   5521 sum.h   5603 output_file.h   5812 matrix_market.h
+ *   4955 csc.h   5069 csc_build.h   5203 csc64.h   5274 csc_triangle.h   5340 csc_products.h
+ *   5457 permute.h   5523 sum.h   5605 output_file.h   5814 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6258 graph.h   6407 coarsen.h   6672 labels.h   6866 subgraph.h   7061 heap.h   7121 bisect.h
- *   7351 separator.h   7613 mindeg.h   7796 dissect.h   8122 levelset.h   8241 geometric.h
- *   8416 cells.h   8596 septree.h   8656 metis.h   8805 metis_refined.h   8919 nd.h
- *   9111 compress.h   9232 quotient.h   9646 order.h
+ *   6260 graph.h   6409 coarsen.h   6674 labels.h   6868 subgraph.h   7063 heap.h   7123 bisect.h
+ *   7353 separator.h   7615 mindeg.h   7798 dissect.h   8124 levelset.h   8243 geometric.h
+ *   8418 cells.h   8598 septree.h   8658 metis.h   8807 metis_refined.h   8921 nd.h
+ *   9113 compress.h   9234 quotient.h   9648 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9928 symbolic_types.h   9965 etree.h  10038 counts.h  10095 supernodes.h  10317 structure.h
- *  10438 schedule.h  10627 symbolic.h  11037 reach.h
+ *   9930 symbolic_types.h   9967 etree.h  10040 counts.h  10097 supernodes.h  10319 structure.h
+ *  10440 schedule.h  10629 symbolic.h  11039 reach.h
  * (factor: the numbers of L and D)
- *  11308 factor_types.h  11635 storage.h  11706 pivot_search.h  12052 pivoted.h  12120 scatter.h
- *  12278 uplooking.h  12350 null_product.h  12554 null_dense.h  12631 null_basis.h
- *  12939 null_vectors.h  13083 multifrontal.h  13319 nullspace.h  13522 growth.h
- *  13598 factor_setup.h  13890 factor.h  14096 leftlooking.h  14280 factor_query.h
- *  14415 combination.h
+ *  11310 factor_types.h  11637 storage.h  11708 pivot_search.h  12054 pivoted.h  12122 scatter.h
+ *  12280 uplooking.h  12352 null_product.h  12556 null_dense.h  12633 null_basis.h
+ *  12941 null_vectors.h  13085 multifrontal.h  13321 nullspace.h  13524 growth.h
+ *  13600 factor_setup.h  13892 factor.h  14098 leftlooking.h  14282 factor_query.h
+ *  14417 combination.h
  * (solve: full and local solves)
- *  14476 region_types.h  14580 work.h  14677 query.h  14851 singular.h  15118 backward.h
- *  15148 sweep.h  15334 compile.h  15527 plan.h  15634 local.h  15784 parts.h  16071 refine.h
- *  16250 refine_local.h  16465 rcond.h  16622 defects.h
+ *  14478 region_types.h  14582 work.h  14679 query.h  14853 singular.h  15120 backward.h
+ *  15150 sweep.h  15336 compile.h  15529 plan.h  15636 local.h  15786 parts.h  16073 refine.h
+ *  16252 refine_local.h  16467 rcond.h  16624 defects.h
  * (inverse: entries of the inverse, regions)
- *  16699 traversal.h  16944 traversal_run.h  17127 row_sets.h  17154 unit_vectors.h
- *  17379 bilinear.h  17556 entries.h  17837 block.h  18077 reserve.h  18269 selected.h
- *  18479 selected_query.h  18581 region_choose.h  18808 region.h
+ *  16701 traversal.h  16946 traversal_run.h  17129 row_sets.h  17156 unit_vectors.h
+ *  17381 bilinear.h  17558 entries.h  17839 block.h  18079 reserve.h  18271 selected.h
+ *  18481 selected_query.h  18583 region_choose.h  18810 region.h
  * (change: a factor that follows changes of its matrix)
- *  19056 update.h  19406 rank.h  19735 edges.h  19889 choose.h  20083 pins.h  20648 subset.h
- *  20755 restrict_analysis.h  21050 restrict_anew.h  21104 restrict_symbolic.h  21285 restrict.h
- *  21633 edit_match.h  21815 edit_place.h  22019 edit_order.h  22180 edit.h
+ *  19058 update.h  19408 rank.h  19737 edges.h  19891 choose.h  20085 pins.h  20650 subset.h
+ *  20757 restrict_analysis.h  21052 restrict_anew.h  21106 restrict_symbolic.h  21287 restrict.h
+ *  21635 edit_match.h  21817 edit_place.h  22021 edit_order.h  22182 edit.h
  * (save: factors in files)
- *  22324 format.h  22620 decode.h  22766 check.h  23098 write.h  23401 load.h  23669 load_inverse.h
- *  24001 load_calls.h
+ *  22326 format.h  22622 decode.h  22768 check.h  23100 write.h  23403 load.h  23671 load_inverse.h
+ *  24003 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  24200 batch_solve.h  24409 batch_factor.h  24610 batch_diagonal.h
+ *  24202 batch_solve.h  24411 batch_factor.h  24612 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  24750 hermitian.h  24892 complex_rows.h
+ *  24752 hermitian.h  24914 complex_rows.h
  * (last: undefine every internal macro)
- *  25060 undef.h
+ *  25082 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  25238 multi_rhs.inl.h  25621 sweeps.inl.h  25623 unit_triangle.inl.h  25660 two_rhs.inl.h
- *  25829 small_supernode.inl.h  25988 single_rhs.inl.h  26232 kernel_set.inl.h  26234 product.inl.h
- *  26362 front.inl.h  26576 inverse_front.inl.h  26861 row.inl.h  26891 change.inl.h
+ *  25260 multi_rhs.inl.h  25643 sweeps.inl.h  25645 unit_triangle.inl.h  25682 two_rhs.inl.h
+ *  25851 small_supernode.inl.h  26010 single_rhs.inl.h  26254 kernel_set.inl.h  26256 product.inl.h
+ *  26384 front.inl.h  26598 inverse_front.inl.h  26883 row.inl.h  26913 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2722,7 +2722,9 @@ typedef struct sl_hermitian {
     const double *im; /* p[n] imaginary parts, or NULL */
 } sl_hermitian;
 
-/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores.
+/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores, and zeros
+ *  beside the diagonal: with options.block_size 2 the columns of a block then follow each other in
+ *  one supernode.
  *
  *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
  *  opt    [in]   allocator; may be NULL.
@@ -24772,12 +24774,29 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
   return status;
 }
 
-static sl_off sli_hermitian_entries(const sl_hermitian *H) {
+typedef struct sli_hermitian_sides {
+  int lower, upper;
+} sli_hermitian_sides;
+
+static sli_hermitian_sides sli_hermitian_sides_of(const sl_hermitian *H) {
+  sli_hermitian_sides sides = {0, 0};
+  sl_int j, p;
+  for (j = 0; j < H->n; j++) {
+    for (p = H->p[j]; p < H->p[j + 1]; p++) {
+      sides.lower |= H->i[p] > j;
+      sides.upper |= H->i[p] < j;
+    }
+  }
+  sides.lower |= !sides.upper;
+  return sides;
+}
+
+static sl_off sli_hermitian_entries(const sl_hermitian *H, sli_hermitian_sides sides) {
   sl_off count = 0;
   sl_int j, p;
   for (j = 0; j < H->n; j++) {
     for (p = H->p[j]; p < H->p[j + 1]; p++) {
-      count += H->i[p] == j ? 2 : 4;
+      count += H->i[p] == j ? 2 + sides.lower + sides.upper : 4;
     }
   }
   return count;
@@ -24788,16 +24807,17 @@ typedef struct sli_hermitian_column {
   double x[2];
 } sli_hermitian_column;
 
-static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sl_int p, sl_int j,
-                        int second) {
+static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sli_hermitian_sides sides,
+                        sl_int p, sl_int j, int second) {
   const double a = H->x == NULL ? 0.0 : H->im != NULL ? H->x[p] : H->x[2 * (size_t)p];
   const double b = H->x == NULL ? 0.0 : H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
   sli_hermitian_column out;
   if (H->i[p] == j) {
-    out.row = 2 * j + second;
-    out.count = 1;
-    out.x[0] = a;
-    out.x[1] = 0.0;
+    const int whole = second ? sides.upper : sides.lower;
+    out.row = 2 * j + (second && !whole);
+    out.count = 1 + whole;
+    out.x[0] = second && whole ? 0.0 : a;
+    out.x[1] = second && whole ? a : 0.0;
   } else {
     out.row = 2 * H->i[p];
     out.count = 2;
@@ -24808,12 +24828,13 @@ static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sl_int p,
 }
 
 static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
+  const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
   sl_int j, p, k, second, at = 0;
   M->p[0] = 0;
   for (j = 0; j < H->n; j++) {
     for (second = 0; second < 2; second++) {
       for (p = H->p[j]; p < H->p[j + 1]; p++) {
-        const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+        const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
         for (k = 0; k < e.count; k++, at++) {
           M->i[at] = e.row + k;
           if (M->x != NULL) {
@@ -24827,6 +24848,7 @@ static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
 }
 
 static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M, sl_stats *stats) {
+  const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
   sl_int j, p, k, second, at = 0;
   if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
     return SL_ERR_PATTERN;
@@ -24835,7 +24857,7 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
     for (second = 0; second < 2; second++) {
       const sl_int end = M->p[2 * j + second + 1];
       for (p = H->p[j]; p < H->p[j + 1]; p++) {
-        const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+        const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
         for (k = 0; k < e.count; k++, at++) {
           if (at >= end || M->i[at] != e.row + k) {
             return sli_fail_at(stats, SL_ERR_PATTERN, H->i[p], j, 0.0);
@@ -24865,8 +24887,8 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
   if (status != SL_OK) {
     return status;
   }
-  count = sli_hermitian_entries(H);
-  if (count > INT32_MAX) {      /* untested: 2^29 entries */
+  count = sli_hermitian_entries(H, sli_hermitian_sides_of(H));
+  if (count > INT32_MAX) {     /* untested: 2^29 entries */
     return SL_ERR_TOO_LARGE; /* untested: the same */
   }
   status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);

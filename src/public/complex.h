@@ -37,7 +37,9 @@ typedef struct sl_hermitian {
     const double *im; /* p[n] imaginary parts, or NULL */
 } sl_hermitian;
 
-/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores.
+/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores, and zeros
+ *  beside the diagonal: with options.block_size 2 the columns of a block then follow each other in
+ *  one supernode.
  *
  *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
  *  opt    [in]   allocator; may be NULL.

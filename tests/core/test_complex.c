@@ -415,6 +415,56 @@ static void failing_allocations(void **state) {
     free(c);
 }
 
+/* The two columns of a complex row follow each other in one supernode, whichever triangles H
+ * stores, also if it is diagonal. */
+static void columns_stay_in_pairs(void **state) {
+    (void)state;
+    connection_t *c = connection_make(0.5, 8);
+    sl_options opt;
+    sl_options_init(&opt, sizeof opt);
+    opt.block_size = 2;
+    for (int kind = 0; kind < 4; kind++) { /* lower triangle, both, upper, diagonal */
+        sl_int p[N + 1], i[2 * ENTRIES], at = 0, count = 0;
+        double x[4 * ENTRIES];
+        for (sl_int j = 0; j < N; j++) {
+            p[j] = at;
+            for (sl_int k = 0; k < N; k++) {
+                for (sl_int q = c->p[k]; q < c->p[k + 1]; q++) {
+                    const int lower = k == j, upper = c->i[q] == j && c->i[q] != k;
+                    const sl_int row = lower ? c->i[q] : k;
+                    if ((kind == 3 && row != j) || (lower && row != j && kind >= 2) ||
+                        (upper && kind == 0) || (!lower && !upper)) {
+                        continue;
+                    }
+                    i[at] = row;
+                    x[2 * at] = c->re[q];
+                    x[2 * at++ + 1] = lower ? c->im[q] : -c->im[q];
+                }
+            }
+        }
+        p[N] = at;
+        const sl_hermitian H = {N, p, i, x, NULL};
+        sl_matrix *M = NULL;
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_matrix_from_hermitian(&M, &H, NULL, NULL));
+        const sl_csc A = sl_matrix_view(M);
+        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        const sl_symbolic_arrays v = sl_symbolic_view(S);
+        for (sl_int s = 0; s <= v.n_supers; s++) {
+            assert_int_equal(v.super_first[s] % 2, 0);
+        }
+        for (sl_int k = 0; k < 2 * N; k += 2) {
+            assert_int_equal(v.perm[k] % 2, 0);
+            assert_int_equal(v.perm[k + 1], v.perm[k] + 1);
+            count += A.p[k + 2] - A.p[k];
+        }
+        assert_int_equal(count, A.p[2 * N]);
+        sl_symbolic_free(S);
+        sl_matrix_free(M);
+    }
+    free(c);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_form_gives_the_same_solution),
@@ -422,6 +472,7 @@ int main(void) {
         cmocka_unit_test(entries_of_the_inverse),
         cmocka_unit_test(determinants_and_inertia),
         cmocka_unit_test(new_values_in_the_same_pattern),
+        cmocka_unit_test(columns_stay_in_pairs),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(odd_systems_are_refused),
         cmocka_unit_test(failing_allocations),

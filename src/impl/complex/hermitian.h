@@ -29,13 +29,32 @@ static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
     return status;
 }
 
-/* Entries of the real matrix: 4 for each complex entry, 2 on the diagonal. */
-static sl_off sli_hermitian_entries(const sl_hermitian *H) {
+/* The triangles that H stores. */
+typedef struct sli_hermitian_sides {
+    int lower, upper;
+} sli_hermitian_sides;
+
+static sli_hermitian_sides sli_hermitian_sides_of(const sl_hermitian *H) {
+    sli_hermitian_sides sides = {0, 0};
+    sl_int j, p;
+    for (j = 0; j < H->n; j++) {
+        for (p = H->p[j]; p < H->p[j + 1]; p++) {
+            sides.lower |= H->i[p] > j;
+            sides.upper |= H->i[p] < j;
+        }
+    }
+    sides.lower |= !sides.upper;
+    return sides;
+}
+
+/* Entries of the real matrix: 4 for each complex entry, and on the diagonal 2 and a zero in each
+ * triangle. The zeros make the two columns of a block follow each other in one supernode. */
+static sl_off sli_hermitian_entries(const sl_hermitian *H, sli_hermitian_sides sides) {
     sl_off count = 0;
     sl_int j, p;
     for (j = 0; j < H->n; j++) {
         for (p = H->p[j]; p < H->p[j + 1]; p++) {
-            count += H->i[p] == j ? 2 : 4;
+            count += H->i[p] == j ? 2 + sides.lower + sides.upper : 4;
         }
     }
     return count;
@@ -48,16 +67,17 @@ typedef struct sli_hermitian_column {
     double x[2];
 } sli_hermitian_column;
 
-static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sl_int p, sl_int j,
-                                                int second) {
+static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sli_hermitian_sides sides,
+                                                sl_int p, sl_int j, int second) {
     const double a = H->x == NULL ? 0.0 : H->im != NULL ? H->x[p] : H->x[2 * (size_t)p];
     const double b = H->x == NULL ? 0.0 : H->im != NULL ? H->im[p] : H->x[2 * (size_t)p + 1];
     sli_hermitian_column out;
     if (H->i[p] == j) {
-        out.row = 2 * j + second;
-        out.count = 1;
-        out.x[0] = a;
-        out.x[1] = 0.0;
+        const int whole = second ? sides.upper : sides.lower;
+        out.row = 2 * j + (second && !whole);
+        out.count = 1 + whole;
+        out.x[0] = second && whole ? 0.0 : a;
+        out.x[1] = second && whole ? a : 0.0;
     } else {
         out.row = 2 * H->i[p];
         out.count = 2;
@@ -69,12 +89,13 @@ static sli_hermitian_column sli_hermitian_entry(const sl_hermitian *H, sl_int p,
 
 /* Writes positions, rows and values of the real matrix. */
 static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
+    const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
     sl_int j, p, k, second, at = 0;
     M->p[0] = 0;
     for (j = 0; j < H->n; j++) {
         for (second = 0; second < 2; second++) {
             for (p = H->p[j]; p < H->p[j + 1]; p++) {
-                const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+                const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
                 for (k = 0; k < e.count; k++, at++) {
                     M->i[at] = e.row + k;
                     if (M->x != NULL) {
@@ -89,6 +110,7 @@ static void sli_hermitian_fill(const sl_hermitian *H, sl_matrix *M) {
 
 /* Has M the pattern of H? Names the first complex row and column where it differs. */
 static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M, sl_stats *stats) {
+    const sli_hermitian_sides sides = sli_hermitian_sides_of(H);
     sl_int j, p, k, second, at = 0;
     if (M->n_cols != 2 * H->n || M->n_rows != 2 * H->n) {
         return SL_ERR_PATTERN;
@@ -97,7 +119,7 @@ static sl_status sli_hermitian_compare(const sl_hermitian *H, const sl_matrix *M
         for (second = 0; second < 2; second++) {
             const sl_int end = M->p[2 * j + second + 1];
             for (p = H->p[j]; p < H->p[j + 1]; p++) {
-                const sli_hermitian_column e = sli_hermitian_entry(H, p, j, second);
+                const sli_hermitian_column e = sli_hermitian_entry(H, sides, p, j, second);
                 for (k = 0; k < e.count; k++, at++) {
                     if (at >= end || M->i[at] != e.row + k) {
                         return sli_fail_at(stats, SL_ERR_PATTERN, H->i[p], j, 0.0);
@@ -127,8 +149,8 @@ SL_API sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H
     if (status != SL_OK) {
         return status;
     }
-    count = sli_hermitian_entries(H);
-    if (count > INT32_MAX) {      /* untested: 2^29 entries */
+    count = sli_hermitian_entries(H, sli_hermitian_sides_of(H));
+    if (count > INT32_MAX) {     /* untested: 2^29 entries */
         return SL_ERR_TOO_LARGE; /* untested: the same */
     }
     status = sli_matrix_new(&M, 2 * H->n, 2 * H->n, (sl_int)count, H->x != NULL, &a);
