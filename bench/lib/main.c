@@ -74,6 +74,8 @@ static const question questions[] = {
     {"peers_harmonic", "the same steps on harmonic, biharmonic and triharmonic systems",
      bench_peers_harmonic},
     {"peers_shifted", "eight refactorizations of M + t L against CHOLMOD", bench_peers_shifted},
+    {"peers_complex", "a connection Laplacian against CHOLMOD and Eigen, complex",
+     bench_peers_complex},
 #endif
 };
 

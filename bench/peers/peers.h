@@ -17,6 +17,10 @@ typedef struct peer_cholmod peer_cholmod;
 peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm);
 void peer_cholmod_free(peer_cholmod *peer);
 
+/** The same for a Hermitian matrix with its values in turn, H->x. Right-hand sides and solutions
+ *  are complex; peer_cholmod_local is for real ones. */
+peer_cholmod *peer_cholmod_create_complex(const sl_hermitian *H, const sl_int *perm);
+
 /** Repeats the supernodal analysis and releases it. */
 void peer_cholmod_analyze(peer_cholmod *peer);
 
@@ -157,6 +161,17 @@ void peer_eigen_amd_solve(peer_eigen_amd *peer, double *X, const double *B, sl_i
 
 /** Entries of L, the diagonal included; after compute. */
 double peer_eigen_amd_nnz(const peer_eigen_amd *peer);
+
+/** Eigen's SimplicialLDLT of complex numbers with its defaults, AMD ordering included. */
+typedef struct peer_eigen_complex peer_eigen_complex;
+
+/** H stores its lower triangle, with its values in turn, and is copied. Analyzes and factors. */
+peer_eigen_complex *peer_eigen_complex_create(const sl_hermitian *H);
+void peer_eigen_complex_free(peer_eigen_complex *peer);
+void peer_eigen_complex_factor(peer_eigen_complex *peer);
+
+/** Solves H x = b, one complex right-hand side. */
+void peer_eigen_complex_solve(peer_eigen_complex *peer, double *x, const double *b);
 
 #ifdef __cplusplus
 }

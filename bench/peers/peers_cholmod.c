@@ -61,20 +61,21 @@ static void make_simplicial(peer_cholmod *peer) {
     cholmod_common *c = &peer->simplicial.common;
     cholmod_factor *L = cholmod_copy_factor(peer->supernodal.L, c);
     peer_must(L != NULL, "memory");
-    peer_must(cholmod_change_factor(CHOLMOD_REAL, 0, 0, 1, 1, L, c) &&
+    peer_must(cholmod_change_factor(L->xtype, 0, 0, 1, 1, L, c) &&
                   cholmod_resymbol(&peer->A, NULL, 0, 1, L, c),
               "from supernodal to simplicial");
     peer->simplicial.L = L;
-    peer_must(!L->is_super && !L->is_ll && L->xtype == CHOLMOD_REAL, "a simplicial LDL' is needed");
+    peer_must(!L->is_super && !L->is_ll && L->xtype == peer->A.xtype,
+              "a simplicial LDL' is needed");
     peer_must((double)L->nzmax <= 1.001 * peer->supernodal.common.lnz + 1, "a packed L is needed");
 }
 
-peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
+static peer_cholmod *create(const cholmod_sparse *A, const sl_int *perm) {
     peer_cholmod *peer = calloc(1, sizeof *peer);
     peer_must(peer != NULL, "memory");
-    size_t n = (size_t)A->n_rows;
+    size_t n = A->nrow;
     openblas_set_num_threads(1);
-    peer->A = wrap(A);
+    peer->A = *A;
     peer->perm = malloc((n + 1) * sizeof *peer->perm);
     peer_must(peer->perm != NULL, "memory");
     memcpy(peer->perm, perm, n * sizeof *perm);
@@ -88,7 +89,7 @@ peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
     factor(peer, &peer->supernodal);
     peer->peak = (double)(peer->supernodal.common.memory_usage - analysis);
     make_simplicial(peer);
-    peer->b = cholmod_zeros(n, 1, CHOLMOD_REAL, &peer->simplicial.common);
+    peer->b = cholmod_zeros(n, 1, A->xtype, &peer->simplicial.common);
     peer->bset =
         cholmod_allocate_sparse(n, 1, n, 0, 1, 0, CHOLMOD_PATTERN, &peer->simplicial.common);
     peer_must(peer->b && peer->bset, "memory");
@@ -99,6 +100,18 @@ peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
         (void)peer_cholmod_local(peer, &first, 1, &zero);
     }
     return peer;
+}
+
+peer_cholmod *peer_cholmod_create(const sl_csc *A, const sl_int *perm) {
+    const cholmod_sparse wrapped = wrap(A);
+    return create(&wrapped, perm);
+}
+
+peer_cholmod *peer_cholmod_create_complex(const sl_hermitian *H, const sl_int *perm) {
+    const sl_csc pattern = {H->n, H->n, H->p, H->i, H->x};
+    cholmod_sparse wrapped = wrap(&pattern);
+    wrapped.xtype = CHOLMOD_COMPLEX;
+    return create(&wrapped, perm);
 }
 
 static void release(cholmod_solver *s) {
@@ -164,7 +177,7 @@ static const double *solve(cholmod_solver *s, const double *B, sl_int nrhs) {
     b.ncol = (size_t)nrhs;
     b.nzmax = b.nrow * b.ncol;
     memcpy(&b.x, &B, sizeof B);
-    b.xtype = CHOLMOD_REAL;
+    b.xtype = s->L->xtype;
     b.dtype = CHOLMOD_DOUBLE;
     peer_must(cholmod_solve2(CHOLMOD_A, s->L, &b, NULL, &s->X, NULL, &s->Y, &s->E, &s->common),
               "solve");

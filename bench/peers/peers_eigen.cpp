@@ -1,9 +1,16 @@
 /* peers_eigen.cpp: Eigen's simplicial LDL' in a given permutation and with AMD */
 #include "peers.h"
 
+#if defined(__GNUC__) && !defined(__clang__)
+/* gcc 12: its own _mm512_undefined_pd, in complex packets */
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <complex>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -37,6 +44,18 @@ struct peer_eigen_amd {
     }
     matrix A;
     std::unique_ptr<amd_solver> solver;
+};
+
+struct peer_eigen_complex {
+    typedef std::complex<double> number;
+    typedef Eigen::SparseMatrix<number> sparse;
+    typedef Eigen::Matrix<number, Eigen::Dynamic, 1> vector;
+    explicit peer_eigen_complex(const sl_hermitian &H)
+        : A(Eigen::Map<const sparse>(H.n, H.n, H.p[H.n], H.p, H.i,
+                                     reinterpret_cast<const number *>(H.x))) {
+    }
+    sparse A;
+    Eigen::SimplicialLDLT<sparse, Eigen::Lower> solver;
 };
 
 template <typename solver_type> static void must(const solver_type &solver, const char *doing) {
@@ -108,5 +127,30 @@ void peer_eigen_amd_solve(peer_eigen_amd *peer, double *X, const double *B, sl_i
 
 double peer_eigen_amd_nnz(const peer_eigen_amd *peer) {
     return peer->solver->entries(1);
+}
+
+peer_eigen_complex *peer_eigen_complex_create(const sl_hermitian *H) {
+    peer_eigen_complex *peer = new peer_eigen_complex(*H);
+    peer->solver.compute(peer->A);
+    must(peer->solver, "complex compute");
+    return peer;
+}
+
+void peer_eigen_complex_free(peer_eigen_complex *peer) {
+    delete peer;
+}
+
+void peer_eigen_complex_factor(peer_eigen_complex *peer) {
+    peer->solver.factorize(peer->A);
+    must(peer->solver, "complex factorization");
+}
+
+void peer_eigen_complex_solve(peer_eigen_complex *peer, double *x, const double *b) {
+    typedef peer_eigen_complex::vector vector;
+    typedef peer_eigen_complex::number number;
+    const Eigen::Index n = peer->A.rows();
+    Eigen::Map<const vector> rhs(reinterpret_cast<const number *>(b), n);
+    Eigen::Map<vector> result(reinterpret_cast<number *>(x), n);
+    result = peer->solver.solve(rhs);
 }
 }
