@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b501792f7417c52b
+ * FNV-1a of the lines after this comment, without the license: 97d14bcc58613d52
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,76 +8,76 @@
  *    154 config.h     macros that a user may define before the include, the version, and the integer types
  *    233 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    385 options.h    options of all calls, threads, and the allocator
- *    523 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    691 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    863 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    993 factor.h     the numerical factorization P A P' = L D L'
- *   1240 solve.h      full solves, and the workspace of all solves
- *   1350 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1444 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1557 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1670 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1806 batch.h      many independent solves by one call, distributed over threads
- *   1856 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2034 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2153 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2257 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2396 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2514 change.h     a factor that follows small changes of its matrix
- *   2601 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2691 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2818 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2867 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *    524 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    692 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    864 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    994 factor.h     the numerical factorization P A P' = L D L'
+ *   1243 solve.h      full solves, and the workspace of all solves
+ *   1353 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1447 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1560 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1673 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1809 batch.h      many independent solves by one call, distributed over threads
+ *   1859 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2037 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2156 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2260 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2399 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2517 change.h     a factor that follows small changes of its matrix
+ *   2604 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2694 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2821 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2870 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2917 base.h   3142 status.h   3203 options.h   3261 alloc.h   3371 hash.h   3501 file_map.h
- *   3597 sort.h   3661 parallel.h
+ *   2920 base.h   3199 status.h   3260 options.h   3318 alloc.h   3428 hash.h   3558 file_map.h
+ *   3654 sort.h   3718 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3694 panel.h   3716 step.h   3757 pivot_rule.h   3824 front.h   3868 pairs.h
- *   4075 inverse_front.h   4147 table.h   4171 simd.h   4241 simd_scalar.h   4370 simd_avx2.h
- *   4571 simd_avx512.h   4680 simd_neon.h   4875 dispatch.h
+ *   3801 panel.h   3823 step.h   3864 pivot_rule.h   3931 front.h   3979 pairs.h
+ *   4186 inverse_front.h   4258 table.h   4282 simd.h   4352 simd_scalar.h   4481 simd_avx2.h
+ *   4682 simd_avx512.h   4791 simd_neon.h   4986 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4955 csc.h   5069 csc_build.h   5203 csc64.h   5274 csc_triangle.h   5340 csc_products.h
- *   5457 permute.h   5523 sum.h   5605 output_file.h   5814 matrix_market.h
+ *   5066 csc.h   5180 csc_build.h   5314 csc64.h   5385 csc_triangle.h   5451 csc_products.h
+ *   5568 permute.h   5634 sum.h   5716 output_file.h   5925 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6260 graph.h   6409 coarsen.h   6674 labels.h   6868 subgraph.h   7063 heap.h   7123 bisect.h
- *   7353 separator.h   7615 mindeg.h   7798 dissect.h   8124 levelset.h   8243 geometric.h
- *   8418 cells.h   8598 septree.h   8658 metis.h   8807 metis_refined.h   8921 nd.h
- *   9113 compress.h   9234 quotient.h   9648 order.h
+ *   6371 graph.h   6520 coarsen.h   6785 labels.h   6979 subgraph.h   7174 heap.h   7234 bisect.h
+ *   7464 separator.h   7726 mindeg.h   7909 dissect.h   8235 levelset.h   8354 geometric.h
+ *   8529 cells.h   8709 septree.h   8769 metis.h   8918 metis_refined.h   9032 nd.h
+ *   9224 compress.h   9345 quotient.h   9759 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9930 symbolic_types.h   9967 etree.h  10040 counts.h  10097 supernodes.h  10319 structure.h
- *  10440 schedule.h  10629 symbolic.h  11039 reach.h
+ *  10041 symbolic_types.h  10078 etree.h  10151 counts.h  10208 supernodes.h  10430 structure.h
+ *  10551 schedule.h  10831 symbolic.h  11241 reach.h
  * (factor: the numbers of L and D)
- *  11310 factor_types.h  11637 storage.h  11708 pivot_search.h  12054 pivoted.h  12122 scatter.h
- *  12280 uplooking.h  12352 null_product.h  12556 null_dense.h  12633 null_basis.h
- *  12941 null_vectors.h  13085 multifrontal.h  13321 nullspace.h  13524 growth.h
- *  13600 factor_setup.h  13892 factor.h  14098 leftlooking.h  14282 factor_query.h
- *  14417 combination.h
+ *  11512 factor_types.h  11839 storage.h  11910 pivot_search.h  12256 pivoted.h  12324 scatter.h
+ *  12482 uplooking.h  12554 null_product.h  12758 null_dense.h  12835 null_basis.h
+ *  13143 null_vectors.h  13287 multifrontal.h  13413 front_tasks.h  13743 nullspace.h
+ *  13946 growth.h  14022 factor_setup.h  14319 factor.h  14525 leftlooking.h  14709 factor_query.h
+ *  14844 combination.h
  * (solve: full and local solves)
- *  14478 region_types.h  14582 work.h  14679 query.h  14853 singular.h  15120 backward.h
- *  15150 sweep.h  15336 compile.h  15529 plan.h  15636 local.h  15786 parts.h  16073 refine.h
- *  16252 refine_local.h  16467 rcond.h  16624 defects.h
+ *  14905 region_types.h  15009 work.h  15106 query.h  15280 singular.h  15547 backward.h
+ *  15577 sweep.h  15763 compile.h  15956 plan.h  16063 local.h  16213 parts.h  16500 refine.h
+ *  16679 refine_local.h  16894 rcond.h  17051 defects.h
  * (inverse: entries of the inverse, regions)
- *  16701 traversal.h  16946 traversal_run.h  17129 row_sets.h  17156 unit_vectors.h
- *  17381 bilinear.h  17558 entries.h  17839 block.h  18079 reserve.h  18271 selected.h
- *  18481 selected_query.h  18583 region_choose.h  18810 region.h
+ *  17128 traversal.h  17373 traversal_run.h  17556 row_sets.h  17583 unit_vectors.h
+ *  17808 bilinear.h  17985 entries.h  18266 block.h  18506 reserve.h  18698 selected.h
+ *  18908 selected_query.h  19010 region_choose.h  19237 region.h
  * (change: a factor that follows changes of its matrix)
- *  19058 update.h  19408 rank.h  19737 edges.h  19891 choose.h  20085 pins.h  20650 subset.h
- *  20757 restrict_analysis.h  21052 restrict_anew.h  21106 restrict_symbolic.h  21287 restrict.h
- *  21635 edit_match.h  21817 edit_place.h  22021 edit_order.h  22182 edit.h
+ *  19485 update.h  19835 rank.h  20164 edges.h  20318 choose.h  20512 pins.h  21077 subset.h
+ *  21184 restrict_analysis.h  21479 restrict_anew.h  21533 restrict_symbolic.h  21714 restrict.h
+ *  22062 edit_match.h  22244 edit_place.h  22448 edit_order.h  22609 edit.h
  * (save: factors in files)
- *  22326 format.h  22622 decode.h  22768 check.h  23100 write.h  23403 load.h  23671 load_inverse.h
- *  24003 load_calls.h
+ *  22753 format.h  23049 decode.h  23195 check.h  23527 write.h  23830 load.h  24098 load_inverse.h
+ *  24430 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  24202 batch_solve.h  24411 batch_factor.h  24612 batch_diagonal.h
+ *  24629 batch_solve.h  24838 batch_factor.h  25039 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  24752 hermitian.h  24914 complex_rows.h
+ *  25179 hermitian.h  25341 complex_rows.h
  * (last: undefine every internal macro)
- *  25082 undef.h
+ *  25509 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  25260 multi_rhs.inl.h  25643 sweeps.inl.h  25645 unit_triangle.inl.h  25682 two_rhs.inl.h
- *  25851 small_supernode.inl.h  26010 single_rhs.inl.h  26254 kernel_set.inl.h  26256 product.inl.h
- *  26384 front.inl.h  26598 inverse_front.inl.h  26883 row.inl.h  26913 change.inl.h
+ *  25695 multi_rhs.inl.h  26078 sweeps.inl.h  26080 unit_triangle.inl.h  26117 two_rhs.inl.h
+ *  26286 small_supernode.inl.h  26445 single_rhs.inl.h  26689 kernel_set.inl.h  26691 product.inl.h
+ *  26819 front.inl.h  27033 inverse_front.inl.h  27318 row.inl.h  27348 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -385,7 +385,8 @@ typedef struct sl_region sl_region;     /* a part of the matrix where local solv
 /* src/public/options.h: options of all calls, threads, and the allocator */
 
 /** Runs body(data, k) once for each k = 0 .. count-1, in any order and concurrently if it can, and
- *  returns when all are done. */
+ *  returns when all are done. A body may wait for others that have begun, never for one that has
+ *  not: fewer threads, or one, only take longer. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
 
@@ -1110,15 +1111,17 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
  *           largest panel in double for each thread, and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
- *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
+ *           meshes, more with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
  *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
  *           bytes per row, and 2 k operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
- *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
- *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
- *           threads.
+ *           sl_factor_refactor of the factor, by one loop of the pool, whose bodies draw subtrees
+ *           and pieces of large fronts until none is left. A thread that begins late, or never,
+ *           leaves its share to the others. Small systems use fewer threads. L has the same bits
+ *           for any number of threads. Only the supernodal method uses threads, where the compiler
+ *           has atomic operations (gcc, clang, MSVC).
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
  *  Example  tests/core/test_factor.c, test_growth.c
@@ -2980,11 +2983,14 @@ extern int sli_fileno(FILE *file) __asm__("fileno");
 extern FILE *sli_fdopen(int file, const char *mode) __asm__("fdopen");
 extern int sli_linkat(int from_folder, const char *from, int to_folder, const char *to,
             int flags) __asm__("linkat");
+#define SLI_USLEEP 1
+extern int sli_usleep(unsigned microseconds) __asm__("usleep");
 #endif
 
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #if !defined(SL_NO_MMAP)
@@ -3002,6 +3008,7 @@ extern "C" {
 __declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
                         unsigned long flags);
 __declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
+__declspec(dllimport) void __stdcall Sleep(unsigned long milliseconds);
 #if !defined(SL_NO_MMAP)
 #define SLI_MAP_VIEW 1
 #if defined(_WIN64)
@@ -3073,6 +3080,56 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #else
 #define SLI_PIN(a) ((void)0)
 #define SLI_PIN_ANY(a) ((void)0)
+#endif
+
+#if defined(SLI_GNU) && (defined(__x86_64__) || defined(__i386__))
+#define SLI_SPIN() __builtin_ia32_pause()
+#elif defined(SLI_GNU) && defined(__aarch64__)
+#define SLI_SPIN() __asm__ __volatile__("yield")
+#elif defined(_MSC_VER) && defined(SLI_X86)
+#define SLI_SPIN() _mm_pause()
+#else
+#define SLI_SPIN() ((void)0)
+#endif
+
+#if defined(SLI_GNU)
+#define SLI_ATOMIC 1
+typedef int sli_atomic;
+SLI_INLINE sli_atomic sli_atomic_exchange(sli_atomic *word, sli_atomic value) {
+  return __atomic_exchange_n(word, value, __ATOMIC_ACQ_REL);
+}
+SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
+  return __atomic_load_n(word, __ATOMIC_ACQUIRE);
+}
+SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
+  __atomic_store_n(word, value, __ATOMIC_RELEASE);
+}
+#elif defined(_MSC_VER)
+#include <intrin.h>
+#define SLI_ATOMIC 1
+typedef long sli_atomic;
+SLI_INLINE sli_atomic sli_atomic_exchange(sli_atomic *word, sli_atomic value) {
+  return _InterlockedExchange((volatile long *)word, value);
+}
+SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
+  return _InterlockedOr((volatile long *)word, 0);
+}
+SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
+  (void)_InterlockedExchange((volatile long *)word, value);
+}
+#else
+typedef int sli_atomic;
+SLI_INLINE sli_atomic sli_atomic_exchange(sli_atomic *word, sli_atomic value) {
+  const sli_atomic old = *word;
+  *word = value;
+  return old;
+}
+SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
+  return *word;
+}
+SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
+  *word = value;
+}
 #endif
 
 #if defined(SL_VERIFY)
@@ -3658,7 +3715,7 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
   }
 }
 
-/* src/impl/base/parallel.h: runs work items on the caller's thread pool, with OpenMP, or one after another */
+/* src/impl/base/parallel.h: runs work items on the caller's threads; a lock and a pause for those that share */
 
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #if !defined(_OPENMP)
@@ -3667,6 +3724,56 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
   }
 #endif
   return sli_max(t->count, 1);
+}
+
+#if defined(SL_VERIFY) && !defined(SLI_SMALL_TASKS)
+#define SLI_SMALL_TASKS 1
+#endif
+
+#if defined(SLI_SMALL_TASKS)
+#define SLI_WORKER_FLOPS 1.0
+#else
+#define SLI_WORKER_FLOPS 1.5e7
+#endif
+
+static sl_int sli_workers_for(const sl_threads *t, double flops) {
+#if defined(SLI_ATOMIC)
+  const sl_int most = sli_workers(t);
+  return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
+#else
+  (void)t;
+  (void)flops;
+  return 1;
+#endif
+}
+
+static void sli_pause(int turn) {
+  if (turn < 1000) {
+    SLI_SPIN();
+    return;
+  }
+#if defined(SLI_WINDOWS)
+  Sleep(turn < 1200 ? 0 : 1);
+#elif defined(SLI_POSIX)
+#if defined(SLI_USLEEP)
+  if (turn >= 1200) {
+    (void)sli_usleep(50);
+    return;
+  }
+#endif
+  (void)sched_yield();
+#endif
+}
+
+static void sli_lock(sli_atomic *lock) {
+  int turn;
+  for (turn = 0; sli_atomic_exchange(lock, 1) != 0; turn++) {
+    sli_pause(turn);
+  }
+}
+
+SLI_INLINE void sli_unlock(sli_atomic *lock) {
+  sli_atomic_write(lock, 0);
 }
 
 static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *data, sl_int k),
@@ -3839,6 +3946,10 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
 }
 
 #define SLI_FRONT_RECIPROCALS (3 * SLI_GROUP_TILES * SLI_TILE)
+
+SLI_INLINE sl_int sli_front_groups(sl_int width) {
+  return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
+}
 
 typedef struct sli_front {
   double *panel;
@@ -10439,13 +10550,27 @@ static void sli_scatter_map_pivots(const sl_symbolic *S, sl_int s, sl_off m, sl_
 
 /* src/impl/analysis/schedule.h: tasks of the tree of fronts for parallel workers, and the layout of update stacks */
 
+typedef struct sli_top {
+  sl_int children, waiting;
+  sl_int pieces;
+  sl_int first_piece;
+  sl_int piece_tiles;
+  sl_int cleared, pivots, eliminated, updated;
+  int is_begun, is_loading, is_loaded, is_finishing;
+} sli_top;
+
 typedef struct sli_schedule {
   sl_int workers;
-  sl_int n_tasks, n_tops;
+  sl_int n_tasks, n_tops, n_bundles;
   sl_int *first, *last;
   sl_int *worker;
+  sl_int *bundle_end;
   sl_int *top;
   sl_off *stack_begin;
+  sli_top *tops;
+  sl_int *ready;
+  sl_int *steps;
+  sl_off own;
   sl_off stack;
 } sli_schedule;
 
@@ -10457,6 +10582,7 @@ typedef struct sli_forest {
 
 typedef struct sli_schedule_work {
   double *flops;
+  double *path;
   double *load;
   sl_int *side;
   uint64_t *order;
@@ -10465,7 +10591,17 @@ typedef struct sli_schedule_work {
 
 #define SLI_TASKS_PER_WORKER 8
 
+#define SLI_FRONT_COST 4000.0
+
+#if defined(SLI_SMALL_TASKS)
+#define SLI_SHARED_FLOPS 2e4
+#define SLI_BUNDLE_FLOPS 1e4
+#define SLI_WORTHWHILE 0.0
+#else
 #define SLI_SHARED_FLOPS 4e6
+#define SLI_BUNDLE_FLOPS 2e5
+#define SLI_WORTHWHILE 1.25
+#endif
 
 SLI_INLINE sl_off sli_update_size(const sli_step *s) {
   const sl_int tiles = sli_update_tiles(s->width, s->below);
@@ -10477,6 +10613,21 @@ SLI_INLINE double sli_front_flops(const sli_step *s) {
   return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
 }
 
+SLI_INLINE int sli_front_is_large(const sli_step *s) {
+  return sli_front_flops(s) >= SLI_SHARED_FLOPS;
+}
+
+SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
+  return SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
+       SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width);
+}
+
+static sl_int sli_large_pieces(const sli_step *s, sl_int workers, sl_int *tiles) {
+  const sl_int below = sli_tiles(s->width + s->below) - sli_tiles(s->width);
+  *tiles = sli_max(SLI_GROUP_TILES, below / (4 * workers) + 1);
+  return sli_front_groups(s->width) + (below + *tiles - 1) / *tiles;
+}
+
 typedef struct sli_stacks {
   sl_off top[2];
   sl_off most;
@@ -10484,55 +10635,42 @@ typedef struct sli_stacks {
 
 static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
               sl_off *begin) {
-  const int own = side[s] & 1, in_task = side[s] & 2;
+  const int own = side[s];
   const sl_off size = sli_update_size(&S->steps[s]);
   sl_int c;
   begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
   k->top[own] += size;
   k->most = k->top[0] + k->top[1] > k->most ? k->top[0] + k->top[1] : k->most;
   for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    if ((side[c] & 2) == in_task) {
-      k->top[1 - own] -= sli_update_size(&S->steps[c]);
-    }
+    k->top[1 - own] -= sli_update_size(&S->steps[c]);
   }
-}
-
-SLI_INLINE void sli_stacks_settle(const sli_stacks *k, sl_int s, const sl_int *side, sl_off base,
-                  sl_off *begin) {
-  begin[s] += base + ((side[s] & 1) == 0 ? 0 : k->most);
 }
 
 static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
-  sli_stacks k;
-  sl_int m, s, worker;
-  p->stack = 0;
-  for (worker = 0; worker < p->workers; worker++) {
+  sl_int m, s;
+  p->own = 0;
+  for (m = 0; m < p->n_tasks; m++) {
+    sli_stacks k;
     memset(&k, 0, sizeof k);
-    for (m = 0; m < p->n_tasks; m++) {
-      k.top[0] = k.top[1] = 0;
-      for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
-        sli_stacks_push(&k, S, s, side, p->stack_begin);
-      }
+    for (s = p->first[m]; s < p->last[m]; s++) {
+      sli_stacks_push(&k, S, s, side, p->stack_begin);
     }
-    for (m = 0; m < p->n_tasks; m++) {
-      for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
-        sli_stacks_settle(&k, s, side, p->stack, p->stack_begin);
-      }
+    for (s = p->first[m]; s < p->last[m]; s++) {
+      p->stack_begin[s] += side[s] == 0 ? 0 : k.most;
     }
-    p->stack += k.most;
+    p->own = k.most > p->own ? k.most : p->own;
   }
+  p->stack = p->workers * p->own;
   for (m = 0; m < p->n_tasks; m++) {
     p->stack_begin[p->last[m]] = p->stack;
     p->stack += sli_update_size(&S->steps[p->last[m]]);
   }
-  memset(&k, 0, sizeof k);
   for (m = 0; m < p->n_tops; m++) {
-    sli_stacks_push(&k, S, p->top[m], side, p->stack_begin);
+    const sli_step *step = &S->steps[p->top[m]];
+    p->stack_begin[p->top[m]] = p->stack;
+    p->stack += sli_update_size(step);
+    p->stack += sli_front_is_large(step) ? sli_large_scratch(step) : 0;
   }
-  for (m = 0; m < p->n_tops; m++) {
-    sli_stacks_settle(&k, p->top[m], side, p->stack, p->stack_begin);
-  }
-  p->stack += k.most;
 }
 
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
@@ -10592,18 +10730,52 @@ static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_wo
   sli_share_tasks(p, f, w);
 }
 
+static void sli_bundle_tasks(sli_schedule *p, const sli_schedule_work *w) {
+  double flops = 0.0;
+  sl_int m;
+  p->n_bundles = 0;
+  for (m = 0; m < p->n_tasks; m++) {
+    flops += p->workers > 1 ? w->flops[p->last[m]] : 0.0;
+    if (flops >= SLI_BUNDLE_FLOPS || m == p->n_tasks - 1) {
+      p->bundle_end[p->n_bundles++] = m + 1;
+      flops = 0.0;
+    }
+  }
+}
+
+SLI_INLINE double sli_schedule_flops(const sl_symbolic *S) {
+  return S->stats.symbolic.flops + SLI_FRONT_COST * S->n_supers;
+}
+
+static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w, sl_int workers) {
+  double total = 0.0, longest = 0.0;
+  sl_int s;
+  memset(w->path, 0, (size_t)S->n_supers * sizeof(double));
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int up = S->super_parent[s];
+    total += w->flops[s];
+    w->path[s] += sli_front_is_large(&S->steps[s]) ? w->flops[s] / workers : w->flops[s];
+    longest = w->path[s] > longest ? w->path[s] : longest;
+    if (up != -1) {
+      w->path[up] = w->path[s] > w->path[up] ? w->path[s] : w->path[up];
+    }
+  }
+  return longest > 0.0 ? total / longest : 1.0;
+}
+
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedule_work *w) {
   const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
-  sl_int s, m;
-  for (s = 0; s < S->n_supers; s++) {
-    w->flops[s] = sli_front_flops(&S->steps[s]);
+  sl_int s;
+  if (p->workers > 1) {
+    for (s = 0; s < S->n_supers; s++) {
+      w->flops[s] = sli_front_flops(&S->steps[s]) + SLI_FRONT_COST;
+    }
+    p->workers = sli_schedule_gain(S, w, p->workers) >= SLI_WORTHWHILE ? p->workers : 1;
   }
   sli_plan_tasks(p, &f, w);
+  sli_bundle_tasks(p, w);
   for (s = S->n_supers - 1; s >= 0; s--) {
-    w->side[s] = S->super_parent[s] == -1 ? 2 : 3 - (w->side[S->super_parent[s]] & 1);
-  }
-  for (m = 0; m < p->n_tops; m++) {
-    w->side[p->top[m]] &= 1;
+    w->side[s] = S->super_parent[s] == -1 ? 0 : 1 - w->side[S->super_parent[s]];
   }
   sli_plan_stacks(p, S, w->side);
 }
@@ -10613,13 +10785,43 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
   p->first = SLI_TAKE(b, sl_int, tasks);
   p->last = SLI_TAKE(b, sl_int, tasks);
   p->worker = SLI_TAKE(b, sl_int, tasks);
+  p->bundle_end = SLI_TAKE(b, sl_int, tasks);
   p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
   p->stack_begin = SLI_TAKE(b, sl_off, fronts);
+}
+
+static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_block *b) {
+  sl_int m, tiles, pieces = 0;
+  for (m = 0; m < p->n_tops; m++) {
+    const sli_step *step = &S->steps[p->top[m]];
+    pieces += sli_front_is_large(step) ? sli_large_pieces(step, p->workers, &tiles) : 0;
+  }
+  p->tops = SLI_TAKE(b, sli_top, p->n_tops);
+  p->ready = SLI_TAKE(b, sl_int, p->n_tops);
+  p->steps = SLI_TAKE(b, sl_int, pieces);
+}
+
+static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
+  sl_int m, c, pieces = 0;
+  for (m = 0; m < p->n_tops; m++) {
+    const sl_int s = p->top[m];
+    sli_top *top = &p->tops[m];
+    memset(top, 0, sizeof *top);
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+      top->children++;
+    }
+    if (sli_front_is_large(&S->steps[s])) {
+      top->pieces = sli_large_pieces(&S->steps[s], p->workers, &top->piece_tiles);
+    }
+    top->first_piece = pieces;
+    pieces += top->pieces;
+  }
 }
 
 static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
                    sl_int workers) {
   w->flops = SLI_TAKE(b, double, count);
+  w->path = SLI_TAKE(b, double, count);
   w->load = SLI_TAKE(b, double, workers);
   w->side = SLI_TAKE(b, sl_int, count);
   w->order = SLI_TAKE(b, uint64_t, count);
@@ -13082,14 +13284,12 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
   return SL_OK;
 }
 
-/* src/impl/factor/multifrontal.h: supernodal factorization: fronts in postorder pass update matrices upward */
+/* src/impl/factor/multifrontal.h: the fronts of the supernodal factorization: each passes its update matrix up */
 
-typedef struct sli_job {
-  sl_factor *F;
-  const sli_source *from;
-  sl_int super, group;
-  sli_front front;
-} sli_job;
+SLI_INLINE double *sli_update_of(const sl_factor *F, sl_int s, sl_int worker) {
+  const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
+  return F->stack + (begin < own ? begin + worker * own : begin);
+}
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   const sli_step *step = &F->S->steps[s];
@@ -13098,7 +13298,7 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   f.panel = sli_front_panel(F, s, worker);
   f.width = step->width;
   f.below = step->below;
-  f.update = F->stack + F->schedule.stack_begin[s];
+  f.update = sli_update_of(F, s, worker);
   f.D = F->D + step->column;
   f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
   f.E = F->E == NULL ? NULL : F->E + step->column;
@@ -13136,14 +13336,14 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
   return status;
 }
 
-static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int t0,
-                 sl_int t1) {
+static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int worker,
+                 sl_int t0, sl_int t1) {
   const sl_symbolic *S = F->S;
   sl_int c, k;
   for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
     const sli_step *child = &S->steps[c];
     const sl_int *relative = S->relative + S->rows_begin[c];
-    const double *from = F->stack + F->schedule.stack_begin[c];
+    const double *from = sli_update_of(F, c, worker);
     const double *magnitude = from + child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
     const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
@@ -13203,117 +13403,339 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
   if (status != SL_OK) {
     return status;
   }
-  sli_front_assemble(F, &f, s, 0, tiles);
+  sli_front_assemble(F, &f, s, worker, 0, tiles);
   sli_front_eliminate(F->kernels, &f, scratch);
   sli_front_update(F->kernels, &f, scratch);
   sli_front_hand_over(&f);
   return sli_front_check(F, &f, s, failure);
 }
 
-static void sli_run_tasks(void *data, sl_int k) {
-  const sli_job *job = (const sli_job *)data;
-  const sli_schedule *schedule = &job->F->schedule;
-  sl_int m, s;
-  for (m = 0; m < schedule->n_tasks; m++) {
+/* src/impl/factor/front_tasks.h: the multifrontal factorization as a list of tasks from which workers draw */
+
+typedef enum sli_task_kind {
+  SLI_TASK_NONE,
+  SLI_TASK_SUBTREES,
+  SLI_TASK_FRONT,
+  SLI_TASK_LOAD,
+  SLI_TASK_PIECE,
+  SLI_TASK_FINISH
+} sli_task_kind;
+
+typedef struct sli_task {
+  sli_task_kind kind;
+  sl_int at;
+  sl_int piece, step;
+} sli_task;
+
+typedef struct sli_job {
+  sl_factor *F;
+  const sli_source *from;
+  sli_atomic lock;
+  sli_atomic changes;
+  sl_int next;
+  sl_int left;
+  sl_int n_ready;
+  sl_int failed;
+  sl_int rounded;
+} sli_job;
+
+enum { SLI_STEP_CLEAR, SLI_STEP_ASSEMBLE, SLI_STEP_ROWS };
+
+SLI_INLINE sl_int sli_piece_begin(const sli_step *s, const sli_top *top, sl_int piece) {
+  const sl_int groups = sli_front_groups(s->width);
+  return piece < groups
+         ? SLI_GROUP_TILES * piece
+         : sli_min(sli_tiles(s->width) + (piece - groups) * top->piece_tiles,
+             sli_tiles(s->width + s->below));
+}
+
+SLI_INLINE sl_int sli_piece_last_step(const sli_step *s, sl_int piece) {
+  const sl_int groups = sli_front_groups(s->width);
+  return SLI_STEP_ROWS + (piece < groups ? piece : groups - 1);
+}
+
+SLI_INLINE int sli_piece_has_update(const sli_step *s, const sli_top *top, sl_int piece) {
+  return s->below > 0 && sli_piece_begin(s, top, piece + 1) > s->width / SLI_TILE;
+}
+
+SLI_INLINE int sli_piece_is_ready(const sli_step *s, const sli_top *top, sl_int piece,
+                  sl_int step) {
+  const sl_int last = sli_piece_last_step(s, piece), group = step - SLI_STEP_ROWS;
+  if (step <= SLI_STEP_ASSEMBLE) {
+    return step == SLI_STEP_CLEAR || top->is_loaded;
+  }
+  return step > last ? top->eliminated == top->pieces : group == piece || group < top->pivots;
+}
+
+static void sli_job_pass(sli_job *job, sl_int s) {
+  const sli_schedule *p = &job->F->schedule;
+  const sl_int up = job->F->S->super_parent[s];
+  if (up != -1) {
+    const sl_int at = sli_lower_bound(p->top, p->n_tops, up);
+    if (--p->tops[at].waiting == 0) {
+      p->ready[job->n_ready++] = at;
+    }
+  }
+}
+
+static void sli_job_end_front(sli_job *job, sl_int at) {
+  job->left--;
+  sli_job_pass(job, job->F->schedule.top[at]);
+}
+
+static void sli_job_end_large_front(sli_job *job, sl_int at) {
+  sl_int *ready = job->F->schedule.ready, k;
+  for (k = 0; ready[k] != at; k++) {
+  }
+  ready[k] = ready[--job->n_ready];
+  job->rounded = -1;
+  sli_job_end_front(job, at);
+}
+
+static int sli_top_draw(sli_job *job, sl_int at, sli_task *task) {
+  const sli_schedule *p = &job->F->schedule;
+  const sli_step *s = &job->F->S->steps[p->top[at]];
+  sli_top *top = &p->tops[at];
+  sl_int k;
+  task->at = at;
+  task->kind = SLI_TASK_LOAD;
+  if (top->cleared == top->pieces && !top->is_loading) {
+    return top->is_loading = 1;
+  }
+  task->kind = SLI_TASK_FINISH;
+  if (top->updated == top->pieces) {
+    return !top->is_finishing && (top->is_finishing = 1);
+  }
+  task->kind = SLI_TASK_PIECE;
+  for (k = 0; k < top->pieces; k++) {
+    sl_int *step = &p->steps[top->first_piece + k];
+    const sl_int end = sli_piece_last_step(s, k) + sli_piece_has_update(s, top, k);
+    if (*step >= 0 && *step <= end && sli_piece_is_ready(s, top, k, *step)) {
+      task->piece = k;
+      task->step = *step;
+      *step = -1;
+      return 1;
+    }
+  }
+  return 0;
+}
+
+static sli_task sli_job_draw(sli_job *job) {
+  const sli_schedule *p = &job->F->schedule;
+  sli_task task = {SLI_TASK_NONE, 0, 0, 0};
+  sl_int k = 0;
+  while (k < job->n_ready) {
+    const sl_int at = p->ready[k];
+    const sli_top *top = &p->tops[at];
+    const int is_whole = top->pieces == 0, skip = !top->is_begun && p->top[at] > job->failed;
+    if (is_whole || skip) {
+      p->ready[k] = p->ready[--job->n_ready];
+      if (skip) {
+        sli_job_end_front(job, at);
+        continue;
+      }
+      task.kind = SLI_TASK_FRONT;
+      task.at = at;
+      return task;
+    }
+    if ((job->F->storage == SL_STORAGE_DOUBLE || job->rounded == -1 || job->rounded == at) &&
+      sli_top_draw(job, at, &task)) {
+      job->rounded = at;
+      p->tops[at].is_begun = 1;
+      return task;
+    }
+    k++;
+  }
+  task.kind = job->next < p->n_bundles ? SLI_TASK_SUBTREES : SLI_TASK_NONE;
+  task.at = job->next;
+  job->next += task.kind == SLI_TASK_SUBTREES;
+  return task;
+}
+
+static void sli_job_return_piece(sli_job *job, const sli_task *task) {
+  const sli_schedule *p = &job->F->schedule;
+  const sli_step *s = &job->F->S->steps[p->top[task->at]];
+  sli_top *top = &p->tops[task->at];
+  const sl_int last = sli_piece_last_step(s, task->piece);
+  const int has_update = sli_piece_has_update(s, top, task->piece);
+  p->steps[top->first_piece + task->piece] = task->step + 1;
+  top->cleared += task->step == SLI_STEP_CLEAR;
+  top->pivots += task->step == last && task->piece < sli_front_groups(s->width);
+  top->eliminated += task->step == last;
+  top->updated += task->step == last + has_update;
+}
+
+static void sli_job_return(sli_job *job, const sli_task *task, sl_status status) {
+  const sli_schedule *p = &job->F->schedule;
+  sl_int m;
+  switch (task->kind) {
+  case SLI_TASK_SUBTREES:
+    job->left--;
+    for (m = task->at > 0 ? p->bundle_end[task->at - 1] : 0; m < p->bundle_end[task->at]; m++) {
+      sli_job_pass(job, p->last[m]);
+    }
+    break;
+  case SLI_TASK_PIECE:
+    sli_job_return_piece(job, task);
+    break;
+  case SLI_TASK_FRONT:
+    sli_job_end_front(job, task->at);
+    break;
+  default:
+    if (task->kind == SLI_TASK_LOAD && status == SL_OK) {
+      p->tops[task->at].is_loaded = 1;
+    } else {
+      sli_job_end_large_front(job, task->at);
+    }
+    break;
+  }
+}
+
+static sli_front sli_large_front(const sl_factor *F, sl_int s) {
+  const sli_step *step = &F->S->steps[s];
+  sli_front f = sli_front_of(F, s, 0);
+  f.magnitude = f.update + sli_update_size(step);
+  f.reciprocals = f.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
+  f.panel = sli_front_panel(F, s, F->schedule.workers);
+  return f;
+}
+
+static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
+  const sl_int s = F->schedule.top[task->at], piece = task->piece;
+  const sli_step *step = &F->S->steps[s];
+  const sli_top *top = &F->schedule.tops[task->at];
+  const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
+  const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
+  double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+  sli_front f = sli_large_front(F, s);
+  if (task->step == SLI_STEP_CLEAR) {
+    sli_front_clear(&f, t0, t1);
+  } else if (task->step == SLI_STEP_ASSEMBLE) {
+    sli_front_assemble(F, &f, s, worker, t0, t1);
+  } else if (task->step > sli_piece_last_step(step, piece)) {
+    F->kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+  } else {
+    f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+    if (group == piece) {
+      F->kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
+    } else {
+      F->kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
+    }
+  }
+}
+
+static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle, sl_int worker) {
+  const sli_schedule *p = &F->schedule;
+  sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0, s;
+  for (; m < p->bundle_end[bundle]; m++) {
     sli_failure failure;
     sl_status status = SL_OK;
-    if (schedule->worker[m] != k) {
-      continue;
-    }
-    for (s = schedule->first[m]; s <= schedule->last[m] && status == SL_OK; s++) {
-      status = sli_front_factor(job->F, job->from, s, k, &failure);
+    for (s = p->first[m]; s <= p->last[m] && status == SL_OK; s++) {
+      status = sli_front_factor(F, from, s, worker, &failure);
       if (status != SL_OK) {
-        sli_keep_first_failure(&job->F->failures[k], &failure);
+        sli_keep_first_failure(&F->failures[worker], &failure);
       }
     }
   }
 }
 
-static void sli_shared_clear(void *data, sl_int k) {
-  const sli_job *job = (const sli_job *)data;
-  const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
-  sli_front_clear(&job->front, sli_tile_range_begin(0, tiles, k, workers, 1),
-          sli_tile_range_begin(0, tiles, k + 1, workers, 1));
-}
-
-static void sli_shared_assemble(void *data, sl_int k) {
-  const sli_job *job = (const sli_job *)data;
-  const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
-  sli_front_assemble(job->F, &job->front, job->super,
-             sli_tile_range_begin(0, tiles, k, workers, 1),
-             sli_tile_range_begin(0, tiles, k + 1, workers, 1));
-}
-
-static void sli_shared_rows(void *data, sl_int k) {
-  const sli_job *job = (const sli_job *)data;
-  const sl_factor *F = job->F;
-  const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
-  const sl_int c1 = sli_min(job->group + SLI_GROUP_TILES, sli_tiles(job->front.width));
-  F->kernels->rows(&job->front, job->group, sli_tile_range_begin(c1, tiles, k, workers, 0),
-           sli_tile_range_begin(c1, tiles, k + 1, workers, 0),
-           F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
-}
-
-static void sli_shared_update(void *data, sl_int k) {
-  const sli_job *job = (const sli_job *)data;
-  const sl_factor *F = job->F;
-  const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
-  const sl_int whole = job->front.width / SLI_TILE;
-  F->kernels->update(&job->front, whole, tiles, sli_tile_range_begin(whole, tiles, k, workers, 1),
-             sli_tile_range_begin(whole, tiles, k + 1, workers, 1),
-             F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
-}
-
-static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
-  sl_factor *F = job->F;
-  const sl_threads *threads = &F->threads;
-  const sl_int workers = F->schedule.workers;
-  sl_status status;
-  job->front = sli_front_of(F, job->super, 0);
-  sli_parallel(threads, workers, sli_shared_clear, job);
-  status = sli_front_load(F, job->from, &job->front, job->super, failure);
-  if (status != SL_OK) {
-    return status;
+static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_task *task,
+                sl_int worker) {
+  const sl_int s = task->kind == SLI_TASK_SUBTREES ? 0 : F->schedule.top[task->at];
+  sli_failure failure;
+  sli_front f;
+  failure.status = SL_OK;
+  switch (task->kind) {
+  case SLI_TASK_SUBTREES:
+    sli_subtrees_run(F, from, task->at, worker);
+    break;
+  case SLI_TASK_FRONT:
+    (void)sli_front_factor(F, from, s, worker, &failure);
+    break;
+  case SLI_TASK_LOAD:
+    f = sli_large_front(F, s);
+    (void)sli_front_load(F, from, &f, s, &failure);
+    break;
+  case SLI_TASK_FINISH:
+    f = sli_large_front(F, s);
+    sli_front_hand_over(&f);
+    (void)sli_front_check(F, &f, s, &failure);
+    break;
+  default:
+    sli_piece_run(F, task, worker);
+    break;
   }
-  sli_parallel(threads, workers, sli_shared_assemble, job);
-  for (job->group = 0; job->group < sli_tiles(job->front.width); job->group += SLI_GROUP_TILES) {
-    F->kernels->pivots(&job->front, job->group, F->buffer);
-    sli_parallel(threads, workers, sli_shared_rows, job);
+  sli_keep_first_failure(&F->failures[worker], &failure);
+  return failure.status;
+}
+
+static void sli_worker_run(void *data, sl_int worker) {
+  sli_job *job = (sli_job *)data;
+  const sli_failure *failure = &job->F->failures[worker];
+  sli_task task = {SLI_TASK_NONE, 0, 0, 0};
+  sl_status status = SL_OK;
+  sli_atomic seen;
+  sl_int left;
+  int turn;
+  for (;;) {
+    sli_lock(&job->lock);
+    if (failure->status != SL_OK) {
+      job->failed = sli_min(job->failed, failure->super);
+    }
+    if (task.kind != SLI_TASK_NONE) {
+      sli_job_return(job, &task, status);
+      sli_atomic_write(&job->changes, job->changes + 1);
+    }
+    task = sli_job_draw(job);
+    left = job->left;
+    seen = job->changes;
+    sli_unlock(&job->lock);
+    if (task.kind != SLI_TASK_NONE) {
+      status = sli_task_run(job->F, job->from, &task, worker);
+    } else if (left == 0) {
+      return;
+    }
+    if (task.kind == SLI_TASK_NONE) {
+      for (turn = 0; sli_atomic_read(&job->changes) == seen; turn++) {
+        sli_pause(turn);
+      }
+    }
   }
-  if (job->front.below > 0) {
-    sli_parallel(threads, workers, sli_shared_update, job);
+}
+
+static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
+  const sli_schedule *p = &F->schedule;
+  sl_int m, k;
+  memset(job, 0, sizeof *job);
+  job->F = F;
+  job->from = from;
+  job->left = p->n_bundles + p->n_tops;
+  job->failed = F->S->n_supers;
+  job->rounded = -1;
+  for (m = 0; m < p->n_tops; m++) {
+    sli_top *top = &p->tops[m];
+    top->waiting = top->children;
+    top->cleared = top->pivots = top->eliminated = top->updated = 0;
+    top->is_begun = top->is_loading = top->is_loaded = top->is_finishing = 0;
+    for (k = 0; k < top->pieces; k++) {
+      p->steps[top->first_piece + k] = SLI_STEP_CLEAR;
+    }
+    if (top->waiting == 0) {
+      p->ready[job->n_ready++] = m;
+    }
   }
-  sli_front_hand_over(&job->front);
-  return sli_front_check(F, &job->front, job->super, failure);
+  for (k = 0; k < p->workers; k++) {
+    F->failures[k].status = SL_OK;
+  }
 }
 
 static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
-  const sli_schedule *schedule = &F->schedule;
   sli_job job;
-  sl_int m, k;
-  memset(&job, 0, sizeof job);
-  job.F = F;
-  job.from = from;
-  for (k = 0; k < schedule->workers; k++) {
-    F->failures[k].status = SL_OK;
-  }
-  sli_parallel(&F->threads, schedule->workers, sli_run_tasks, &job);
-  for (k = 0; k < schedule->workers; k++) {
+  sl_int k;
+  sli_job_begin(&job, F, from);
+  sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
+  for (k = 0; k < F->schedule.workers; k++) {
     sli_keep_first_failure(failure, &F->failures[k]);
-  }
-  for (m = 0; m < schedule->n_tops; m++) {
-    sli_failure here;
-    here.status = SL_OK;
-    job.super = schedule->top[m];
-    if (failure->status != SL_OK && failure->super < job.super) {
-      break;
-    }
-    if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
-      (void)sli_front_factor_shared(&job, &here);
-    } else {
-      (void)sli_front_factor(F, from, job.super, 0, &here);
-    }
-    sli_keep_first_failure(failure, &here);
   }
   return failure->status;
 }
@@ -13635,7 +14057,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
 
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
-  const uint64_t workers = (uint64_t)F->schedule.workers;
+  const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
   const uint64_t suspects =
     sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
   sl_int s;
@@ -13703,8 +14125,12 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     b.used = 0;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
       F->stack = SLI_TAKE(&b, double, F->schedule.stack);
+      sli_schedule_layout_tops(&F->schedule, S, &b);
       F->stats.factor.bytes += pass == 0 ? b.used : 0;
       status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+      sli_schedule_fill_tops(&F->schedule, S);
     }
   }
   return status;
@@ -13835,7 +14261,8 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   F->schedule.workers = 1;
   if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
     F->threads = opt->threads;
-    F->schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(F->S->n_supers, 1));
+    F->schedule.workers = sli_min(
+      sli_workers_for(&opt->threads, sli_schedule_flops(F->S)), sli_max(F->S->n_supers, 1));
   }
   F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
   if (F->kernels == NULL) {
@@ -25097,6 +25524,11 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_UNROLL
 #undef SLI_ALIGNED
 #undef SLI_PREFETCH
+#undef SLI_SPIN
+#undef SLI_ATOMIC
+#undef SLI_USLEEP
+#undef SLI_WORKER_FLOPS
+#undef SLI_SMALL_TASKS
 #undef SLI_ASSERT
 #undef SLI_HASH_STRIPE
 #undef SLI_HASH_1
@@ -25171,6 +25603,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PANEL_AHEAD
 #undef SLI_TASKS_PER_WORKER
 #undef SLI_SHARED_FLOPS
+#undef SLI_FRONT_COST
+#undef SLI_BUNDLE_FLOPS
+#undef SLI_WORTHWHILE
 #undef SLI_SUM_ENTRIES
 #undef SLI_ROWS_AHEAD
 #undef SLI_TEMPORARY_NAMES

@@ -123,15 +123,17 @@
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
  *           largest panel in double for each thread, and, with the
  *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
- *           meshes, twice that with threads. SL_NULL_PIVOT_SKIP adds a product
+ *           meshes, more with threads. SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
  *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
  *           bytes per row, and 2 k operations per visited column in solves.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
- *           sl_factor_refactor of the factor: first over subtrees, then over the rows of large
- *           fronts. L has the same bits for any number of threads. Only the supernodal method uses
- *           threads.
+ *           sl_factor_refactor of the factor, by one loop of the pool, whose bodies draw subtrees
+ *           and pieces of large fronts until none is left. A thread that begins late, or never,
+ *           leaves its share to the others. Small systems use fewer threads. L has the same bits
+ *           for any number of threads. Only the supernodal method uses threads, where the compiler
+ *           has atomic operations (gcc, clang, MSVC).
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
  *  Example  tests/core/test_factor.c, test_growth.c

@@ -1,6 +1,40 @@
 /* test_threads.c: factorizations by several threads: the same bits, errors and memory */
+#define _POSIX_C_SOURCE 200112L /* nanosleep */
+#define SPARSE_LOCAL_IMPLEMENTATION
+#define SLI_SMALL_TASKS 1 /* small systems are divided too, small fronts into pieces */
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/factored.h"
+#include <time.h>
+
+/* One after the other: the first index does all work. */
+static void run_in_order(void *context, sl_int count, void (*body)(void *data, sl_int k),
+                         void *data) {
+    ++*(int *)context;
+    for (sl_int k = 0; k < count; k++) {
+        body(data, k);
+    }
+}
+
+typedef struct late_t {
+    void (*body)(void *data, sl_int k);
+    void *data;
+} late_t;
+
+static void late_body(void *data, sl_int k) {
+    const late_t *late = (const late_t *)data;
+    const struct timespec delay = {0, 100000 * (k % 4)};
+    nanosleep(&delay, NULL);
+    late->body(late->data, k);
+}
+
+/* Threads that begin one after the other, when others are done or amid their work. */
+static void run_late(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
+    late_t late = {body, data};
+    run_threads(context, count, late_body, &late);
+}
+
+enum { RUNS = 4 };
+static const sl_parallel_for runs[RUNS] = {run_threads, run_backwards, run_in_order, run_late};
 
 static sl_options options_with_threads(sl_parallel_for run, sl_int count, int *calls) {
     sl_options opt = options_none();
@@ -12,13 +46,12 @@ static sl_options options_with_threads(sl_parallel_for run, sl_int count, int *c
 }
 
 static void assert_same_bits_for_any_thread_count(gen_kind_t kind, sl_int size, sl_isa isa) {
-    static const sl_parallel_for runs[2] = {run_threads, run_backwards};
     sl_options opt = options_none();
     opt.isa = isa;
     opt.method = SL_METHOD_SUPERNODAL;
     factored_t y = factored_make(kind, size, 0, 0, &opt);
-    for (int run = 0; run < 2; run++) {
-        for (sl_int count = 0; count <= 9; count = count * 2 + 1) {
+    for (int run = 0; run < RUNS; run++) {
+        for (sl_int count = 0; count <= 8; count += count < 3 ? 1 : 5) {
             int calls = 0;
             sl_factor *F = NULL;
             opt = options_with_threads(runs[run], count, &calls);
@@ -27,7 +60,8 @@ static void assert_same_bits_for_any_thread_count(gen_kind_t kind, sl_int size, 
             assert_same_bits(F, y.F);
             SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
             assert_same_bits(F, y.F);
-            assert_int_equal(calls > 0, count > 1 && sl_symbolic_view(y.S).n_supers > 1);
+            /* one parallel call in each factorization */
+            assert_int_equal(calls, count > 1 && sl_symbolic_view(y.S).n_supers > 1 ? 2 : 0);
             sl_factor_free(F);
         }
     }
@@ -44,8 +78,7 @@ static void bits_do_not_depend_on_the_thread_count(void **state) {
     }
 }
 
-/* Fronts above SLI_SHARED_FLOPS are shared between threads: a dense matrix, the separators of a 3D
- * grid. */
+/* Large fronts, of many pieces: a dense matrix, the separators of a 3D grid. */
 static void large_fronts_give_the_same_bits(void **state) {
     (void)state;
     assert_same_bits_for_any_thread_count(GEN_DENSE, 400, SL_ISA_AUTO);
@@ -53,9 +86,8 @@ static void large_fronts_give_the_same_bits(void **state) {
 }
 
 /* Two dense blocks of w columns, both adjacent to the h rows of a dense last block. In natural
- * order each is a front with rows below that all threads share, and the fronts follow one another.
- */
-static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa) {
+ * order each is a large front with rows below. */
+static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa, sl_storage storage) {
     gen_list_t t = gen_list(2 * w + h);
     uint64_t seed = 7;
     for (sl_int j = 0; j < t.n; j++) {
@@ -71,6 +103,7 @@ static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa) {
     opt.isa = isa;
     opt.ordering = SL_ORDERING_NATURAL;
     opt.relaxation = SL_RELAXATION_NONE;
+    opt.storage = storage;
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, FOR_ANALYSIS(&opt), NULL));
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
     assert_int_equal(sl_symbolic_view(y.S).n_supers, 3);
@@ -78,18 +111,19 @@ static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa) {
     return y;
 }
 
-/* The update matrices of shared fronts are computed by all threads, each for its own row tiles. */
+/* Both fronts are factored at the same time, or one after the other where L is in float. */
 static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
     (void)state;
-    static const sl_parallel_for runs[2] = {run_threads, run_backwards};
     isa_list_t isas = isas_present();
-    for (int k = 0; k < isas.count; k++) {
-        factored_t y = two_large_fronts(101, 150, isas.isa[k]);
+    for (int k = 0; k < 2 * isas.count; k++) {
+        const sl_storage storage = k % 2 ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
+        factored_t y = two_large_fronts(101, 150, isas.isa[k / 2], storage);
         for (sl_int count = 2; count <= 5; count++) {
             int calls = 0;
             sl_factor *F = NULL;
-            sl_options opt = options_with_threads(runs[count % 2], count, &calls);
-            opt.isa = isas.isa[k];
+            sl_options opt = options_with_threads(runs[count % RUNS], count, &calls);
+            opt.isa = isas.isa[k / 2];
+            opt.storage = storage;
             SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
             assert_same_bits(F, y.F);
             sl_factor_free(F);
@@ -99,10 +133,10 @@ static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
 }
 
 /* A shared front that fails is reported as it is without threads: a value that is not finite is met
- * before the front, a null pivot after it. No later front is begun. */
+ * before the front, a null pivot after it. */
 static void failures_in_large_fronts_are_reported(void **state) {
     (void)state;
-    factored_t y = two_large_fronts(101, 150, SL_ISA_AUTO);
+    factored_t y = two_large_fronts(101, 150, SL_ISA_AUTO, SL_STORAGE_DOUBLE);
     for (int kind = 0; kind < 2; kind++) {
         for (sl_int front = 0; front < 2; front++) {
             const sl_int row = front * 101, later = kind == 0 ? 202 : 230;
@@ -118,7 +152,7 @@ static void failures_in_large_fronts_are_reported(void **state) {
             const sl_status status = sl_factor_create(&F, y.S, &y.M.view, &opt, &one);
             assert_int_equal(status, kind == 0 ? SL_ERR_NOT_FINITE : SL_ERR_PIVOT);
             assert_int_equal(one.error.row, row);
-            opt = options_with_threads(run_threads, 2, &calls);
+            opt = options_with_threads(runs[front + 2 * kind], 2, &calls);
             SL_EXPECT(status, sl_factor_create(&F, y.S, &y.M.view, &opt, &many));
             assert_null(F);
             assert_int_equal(many.error.row, row);
@@ -152,8 +186,7 @@ static void errors_do_not_depend_on_the_thread_count(void **state) {
         sl_options opt = options_with_threads(NULL, 1, NULL);
         sl_status status = sl_factor_create(&F, y.S, &y.M.view, &opt, &one);
         sl_factor_free(F);
-        opt =
-            options_with_threads(turn % 4 < 2 ? run_threads : run_backwards, 2 + turn % 5, &calls);
+        opt = options_with_threads(runs[turn % RUNS], 2 + turn % 5, &calls);
         SL_EXPECT(status, sl_factor_create(&F, y.S, &y.M.view, &opt, &many));
         sl_factor_free(F);
         assert_int_equal(one.error.row, many.error.row);

@@ -7,17 +7,36 @@
 #include "../kernels/front.h"
 #include "symbolic_types.h"
 
+/* A front above all tasks, while its matrix is factored. */
+typedef struct sli_top {
+    sl_int children, waiting; /* waiting: of the children that are not done */
+    sl_int pieces;            /* of a large front, which several workers factor; else 0 */
+    sl_int first_piece;       /* in the schedule's steps */
+    sl_int piece_tiles;       /* row tiles of a piece below the pivots */
+    /* pieces that are cleared, groups of pivots that are done, pieces that are eliminated and whose
+     * rows of the update matrix are done */
+    sl_int cleared, pivots, eliminated, updated;
+    int is_begun, is_loading, is_loaded, is_finishing;
+} sli_top;
+
 /* A task is a subtree, a run of consecutive supernodes, that is factored by one worker. The fronts
- * above all tasks follow one by one, with all workers in each. A single worker has one task: the
- * whole forest. */
+ * above all tasks follow, large ones by several workers. A single worker has one task: the whole
+ * forest. */
 typedef struct sli_schedule {
     sl_int workers;
-    sl_int n_tasks, n_tops;
-    sl_int *first, *last; /* n_tasks: supernodes first..last */
-    sl_int *worker;       /* n_tasks: its worker */
+    sl_int n_tasks, n_tops, n_bundles;
+    sl_int *first, *last; /* n_tasks: supernodes first..last; large tasks first */
+    sl_int *worker;       /* n_tasks: its worker, where that is fixed */
+    sl_int *bundle_end;   /* n_bundles: the tasks that are taken at a time end here */
     sl_int *top;          /* n_tops: supernodes above the tasks, ascending */
-    sl_off *stack_begin;  /* n_supers: start of each update matrix, in doubles */
-    sl_off stack;         /* doubles of all stacks together */
+    /* n_supers: start of each update matrix, in doubles. Positions below `own` are relative to the
+     * room of the worker that factors the task */
+    sl_off *stack_begin;
+    sli_top *tops; /* n_tops */
+    sl_int *ready; /* n_tops: those whose children are done */
+    sl_int *steps; /* the next step of each piece of a large front; -1: it is being run */
+    sl_off own;   /* doubles of a worker's stacks */
+    sl_off stack; /* doubles of all stacks together */
 } sli_schedule;
 
 /* A forest of fronts numbered in postorder: all supernodes of an analysis, or those of a reach. */
@@ -30,8 +49,9 @@ typedef struct sli_forest {
 /* Scratch of the scheduling. */
 typedef struct sli_schedule_work {
     double *flops;   /* count: of the front, later of the subtree */
+    double *path;    /* count: flops that follow one another, up to the front */
     double *load;    /* workers: flops assigned */
-    sl_int *side;    /* count: 0 or 1, the stack; plus 2 within a task */
+    sl_int *side;    /* count: 0 or 1, the stack */
     uint64_t *order; /* count: tasks, the largest last */
     uint64_t *scratch;
 } sli_schedule_work;
@@ -39,9 +59,21 @@ typedef struct sli_schedule_work {
 /* Tasks per worker, on average. Small tasks even out the error of the flop estimate. */
 #define SLI_TASKS_PER_WORKER 8
 
-/* A front of this many flops takes about 50 us. Sharing it among workers costs 1 to 2 us a step
- * with OpenMP, more with other thread pools. */
+/* What a front costs besides its flops. */
+#define SLI_FRONT_COST 4000.0
+
+/* A front of SLI_SHARED_FLOPS takes about 50 us; taking a piece of it costs up to 1 us. A bundle of
+ * tasks has at least SLI_BUNDLE_FLOPS. Several workers that are SLI_WORTHWHILE times as fast at
+ * best are no faster than one. */
+#if defined(SLI_SMALL_TASKS)
+#define SLI_SHARED_FLOPS 2e4
+#define SLI_BUNDLE_FLOPS 1e4
+#define SLI_WORTHWHILE 0.0
+#else
 #define SLI_SHARED_FLOPS 4e6
+#define SLI_BUNDLE_FLOPS 2e5
+#define SLI_WORTHWHILE 1.25
+#endif
 
 /* Doubles that a supernode passes to its parent: the update matrix and the magnitudes of its
  * rows. */
@@ -56,6 +88,24 @@ SLI_INLINE double sli_front_flops(const sli_step *s) {
     return w * (h * h - (w - 1.0) * h + (w - 1.0) * (2.0 * w - 1.0) / 6.0);
 }
 
+/* Is the front large enough for several workers? */
+SLI_INLINE int sli_front_is_large(const sli_step *s) {
+    return sli_front_flops(s) >= SLI_SHARED_FLOPS;
+}
+
+/* Doubles that follow the update matrix of a large front: its magnitudes and reciprocals. */
+SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
+    return SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
+           SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width);
+}
+
+/* Pieces of a large front, and the row tiles of those below the pivots. */
+static sl_int sli_large_pieces(const sli_step *s, sl_int workers, sl_int *tiles) {
+    const sl_int below = sli_tiles(s->width + s->below) - sli_tiles(s->width);
+    *tiles = sli_max(SLI_GROUP_TILES, below / (4 * workers) + 1);
+    return sli_front_groups(s->width) + (below + *tiles - 1) / *tiles;
+}
+
 /* Two update stacks that grow towards each other, one for supernodes of even depth and one for odd
  * depth. Supernodes are pushed in ascending order. When a supernode is done, its children are on
  * top of the other stack, so that no update matrix is ever moved. */
@@ -65,63 +115,48 @@ typedef struct sli_stacks {
 } sli_stacks;
 
 /* Pushes the update matrix of supernode s, then pops those of its children: they are free once s is
- * factored. Within a task only children of the same task are on these stacks. */
+ * factored. */
 static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const sl_int *side,
                             sl_off *begin) {
-    const int own = side[s] & 1, in_task = side[s] & 2;
+    const int own = side[s];
     const sl_off size = sli_update_size(&S->steps[s]);
     sl_int c;
     begin[s] = own == 0 ? k->top[0] : -(k->top[1] + size);
     k->top[own] += size;
     k->most = k->top[0] + k->top[1] > k->most ? k->top[0] + k->top[1] : k->most;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-        if ((side[c] & 2) == in_task) {
-            k->top[1 - own] -= sli_update_size(&S->steps[c]);
-        }
+        k->top[1 - own] -= sli_update_size(&S->steps[c]);
     }
 }
 
-/* Turns a position into a final one: the second stack counts from the end, which is known only
- * now. */
-SLI_INLINE void sli_stacks_settle(const sli_stacks *k, sl_int s, const sl_int *side, sl_off base,
-                                  sl_off *begin) {
-    begin[s] += base + ((side[s] & 1) == 0 ? 0 : k->most);
-}
-
-/* Lays out the update stacks. All tasks of a worker use its two stacks, one task after the other.
- * The update matrices of task roots wait for the fronts above and have memory of their own; so have
- * the stacks of the fronts above. */
+/* Lays out the update stacks. Each worker has room for the two stacks of any task. The update
+ * matrices of task roots wait for the fronts above, which several workers may factor at the same
+ * time, so that each of these has memory of its own. */
 static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
-    sli_stacks k;
-    sl_int m, s, worker;
-    p->stack = 0;
-    for (worker = 0; worker < p->workers; worker++) {
+    sl_int m, s;
+    p->own = 0;
+    for (m = 0; m < p->n_tasks; m++) {
+        sli_stacks k;
         memset(&k, 0, sizeof k);
-        for (m = 0; m < p->n_tasks; m++) {
-            k.top[0] = k.top[1] = 0;
-            for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
-                sli_stacks_push(&k, S, s, side, p->stack_begin);
-            }
+        for (s = p->first[m]; s < p->last[m]; s++) {
+            sli_stacks_push(&k, S, s, side, p->stack_begin);
         }
-        for (m = 0; m < p->n_tasks; m++) {
-            for (s = p->first[m]; s < p->last[m] && p->worker[m] == worker; s++) {
-                sli_stacks_settle(&k, s, side, p->stack, p->stack_begin);
-            }
+        for (s = p->first[m]; s < p->last[m]; s++) { /* the second stack counts from the end */
+            p->stack_begin[s] += side[s] == 0 ? 0 : k.most;
         }
-        p->stack += k.most;
+        p->own = k.most > p->own ? k.most : p->own;
     }
+    p->stack = p->workers * p->own;
     for (m = 0; m < p->n_tasks; m++) {
         p->stack_begin[p->last[m]] = p->stack;
         p->stack += sli_update_size(&S->steps[p->last[m]]);
     }
-    memset(&k, 0, sizeof k);
     for (m = 0; m < p->n_tops; m++) {
-        sli_stacks_push(&k, S, p->top[m], side, p->stack_begin);
+        const sli_step *step = &S->steps[p->top[m]];
+        p->stack_begin[p->top[m]] = p->stack;
+        p->stack += sli_update_size(step);
+        p->stack += sli_front_is_large(step) ? sli_large_scratch(step) : 0;
     }
-    for (m = 0; m < p->n_tops; m++) {
-        sli_stacks_settle(&k, p->top[m], side, p->stack, p->stack_begin);
-    }
-    p->stack += k.most;
 }
 
 /* Finds the tasks: largest subtrees of at most `limit` flops, in ascending order of flops. */
@@ -185,19 +220,57 @@ static void sli_plan_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_wo
     sli_share_tasks(p, f, w);
 }
 
-/* Fills a schedule for p->workers. The arrays of p and w have room. */
+/* Bundles small tasks, in the order of tasks. w->flops: those of the subtrees. */
+static void sli_bundle_tasks(sli_schedule *p, const sli_schedule_work *w) {
+    double flops = 0.0;
+    sl_int m;
+    p->n_bundles = 0;
+    for (m = 0; m < p->n_tasks; m++) {
+        flops += p->workers > 1 ? w->flops[p->last[m]] : 0.0;
+        if (flops >= SLI_BUNDLE_FLOPS || m == p->n_tasks - 1) {
+            p->bundle_end[p->n_bundles++] = m + 1;
+            flops = 0.0;
+        }
+    }
+}
+
+/* About what a factorization costs, in flops. */
+SLI_INLINE double sli_schedule_flops(const sl_symbolic *S) {
+    return S->stats.symbolic.flops + SLI_FRONT_COST * S->n_supers;
+}
+
+/* The most that workers could gain: all flops, divided by those of the longest path, where large
+ * fronts are shared. w->flops: of each front. */
+static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w, sl_int workers) {
+    double total = 0.0, longest = 0.0;
+    sl_int s;
+    memset(w->path, 0, (size_t)S->n_supers * sizeof(double));
+    for (s = 0; s < S->n_supers; s++) {
+        const sl_int up = S->super_parent[s];
+        total += w->flops[s];
+        w->path[s] += sli_front_is_large(&S->steps[s]) ? w->flops[s] / workers : w->flops[s];
+        longest = w->path[s] > longest ? w->path[s] : longest;
+        if (up != -1) {
+            w->path[up] = w->path[s] > w->path[up] ? w->path[s] : w->path[up];
+        }
+    }
+    return longest > 0.0 ? total / longest : 1.0;
+}
+
+/* Fills a schedule for at most p->workers. The arrays of p and w have room. */
 static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedule_work *w) {
     const sli_forest f = {S->n_supers, S->super_parent, S->first_descendant};
-    sl_int s, m;
-    for (s = 0; s < S->n_supers; s++) {
-        w->flops[s] = sli_front_flops(&S->steps[s]);
+    sl_int s;
+    if (p->workers > 1) {
+        for (s = 0; s < S->n_supers; s++) {
+            w->flops[s] = sli_front_flops(&S->steps[s]) + SLI_FRONT_COST;
+        }
+        p->workers = sli_schedule_gain(S, w, p->workers) >= SLI_WORTHWHILE ? p->workers : 1;
     }
     sli_plan_tasks(p, &f, w);
+    sli_bundle_tasks(p, w);
     for (s = S->n_supers - 1; s >= 0; s--) {
-        w->side[s] = S->super_parent[s] == -1 ? 2 : 3 - (w->side[S->super_parent[s]] & 1);
-    }
-    for (m = 0; m < p->n_tops; m++) {
-        w->side[p->top[m]] &= 1;
+        w->side[s] = S->super_parent[s] == -1 ? 0 : 1 - w->side[S->super_parent[s]];
     }
     sli_plan_stacks(p, S, w->side);
 }
@@ -207,13 +280,44 @@ static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
     p->first = SLI_TAKE(b, sl_int, tasks);
     p->last = SLI_TAKE(b, sl_int, tasks);
     p->worker = SLI_TAKE(b, sl_int, tasks);
+    p->bundle_end = SLI_TAKE(b, sl_int, tasks);
     p->top = SLI_TAKE(b, sl_int, p->workers == 1 ? 0 : fronts);
     p->stack_begin = SLI_TAKE(b, sl_off, fronts);
+}
+
+/* The tops of a filled schedule. */
+static void sli_schedule_layout_tops(sli_schedule *p, const sl_symbolic *S, sli_block *b) {
+    sl_int m, tiles, pieces = 0;
+    for (m = 0; m < p->n_tops; m++) {
+        const sli_step *step = &S->steps[p->top[m]];
+        pieces += sli_front_is_large(step) ? sli_large_pieces(step, p->workers, &tiles) : 0;
+    }
+    p->tops = SLI_TAKE(b, sli_top, p->n_tops);
+    p->ready = SLI_TAKE(b, sl_int, p->n_tops);
+    p->steps = SLI_TAKE(b, sl_int, pieces);
+}
+
+static void sli_schedule_fill_tops(sli_schedule *p, const sl_symbolic *S) {
+    sl_int m, c, pieces = 0;
+    for (m = 0; m < p->n_tops; m++) {
+        const sl_int s = p->top[m];
+        sli_top *top = &p->tops[m];
+        memset(top, 0, sizeof *top);
+        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+            top->children++;
+        }
+        if (sli_front_is_large(&S->steps[s])) {
+            top->pieces = sli_large_pieces(&S->steps[s], p->workers, &top->piece_tiles);
+        }
+        top->first_piece = pieces;
+        pieces += top->pieces;
+    }
 }
 
 static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int count,
                                      sl_int workers) {
     w->flops = SLI_TAKE(b, double, count);
+    w->path = SLI_TAKE(b, double, count);
     w->load = SLI_TAKE(b, double, workers);
     w->side = SLI_TAKE(b, sl_int, count);
     w->order = SLI_TAKE(b, uint64_t, count);

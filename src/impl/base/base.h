@@ -73,12 +73,15 @@ extern int sli_fileno(FILE *file) __asm__("fileno");
 extern FILE *sli_fdopen(int file, const char *mode) __asm__("fdopen");
 extern int sli_linkat(int from_folder, const char *from, int to_folder, const char *to,
                       int flags) __asm__("linkat");
+#define SLI_USLEEP 1
+extern int sli_usleep(unsigned microseconds) __asm__("usleep");
 #endif
 
 /* POSIX systems: what a path is and who may read it. */
 #if defined(__unix__) || defined(__APPLE__)
 #define SLI_POSIX 1
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #if !defined(SL_NO_MMAP)
@@ -97,6 +100,7 @@ extern "C" {
 __declspec(dllimport) int __stdcall MoveFileExA(const char *from, const char *to,
                                                 unsigned long flags);
 __declspec(dllimport) unsigned long __stdcall GetFileAttributesA(const char *path);
+__declspec(dllimport) void __stdcall Sleep(unsigned long milliseconds);
 #if !defined(SL_NO_MMAP)
 #define SLI_MAP_VIEW 1
 #if defined(_WIN64)
@@ -174,6 +178,58 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #else
 #define SLI_PIN(a) ((void)0)
 #define SLI_PIN_ANY(a) ((void)0)
+#endif
+
+/* Tells the processor that a loop waits for another thread. */
+#if defined(SLI_GNU) && (defined(__x86_64__) || defined(__i386__))
+#define SLI_SPIN() __builtin_ia32_pause()
+#elif defined(SLI_GNU) && defined(__aarch64__)
+#define SLI_SPIN() __asm__ __volatile__("yield")
+#elif defined(_MSC_VER) && defined(SLI_X86)
+#define SLI_SPIN() _mm_pause()
+#else
+#define SLI_SPIN() ((void)0)
+#endif
+
+/* Words that threads share. Without them, a call whose workers wait for each other has one. */
+#if defined(SLI_GNU)
+#define SLI_ATOMIC 1
+typedef int sli_atomic;
+SLI_INLINE sli_atomic sli_atomic_exchange(sli_atomic *word, sli_atomic value) {
+    return __atomic_exchange_n(word, value, __ATOMIC_ACQ_REL);
+}
+SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
+    return __atomic_load_n(word, __ATOMIC_ACQUIRE);
+}
+SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
+    __atomic_store_n(word, value, __ATOMIC_RELEASE);
+}
+#elif defined(_MSC_VER)
+#include <intrin.h>
+#define SLI_ATOMIC 1
+typedef long sli_atomic;
+SLI_INLINE sli_atomic sli_atomic_exchange(sli_atomic *word, sli_atomic value) {
+    return _InterlockedExchange((volatile long *)word, value);
+}
+SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
+    return _InterlockedOr((volatile long *)word, 0);
+}
+SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
+    (void)_InterlockedExchange((volatile long *)word, value);
+}
+#else
+typedef int sli_atomic;
+SLI_INLINE sli_atomic sli_atomic_exchange(sli_atomic *word, sli_atomic value) {
+    const sli_atomic old = *word;
+    *word = value;
+    return old;
+}
+SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
+    return *word;
+}
+SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
+    *word = value;
+}
 #endif
 
 /* A precondition. SL_VERIFY builds check it. */

@@ -1,4 +1,4 @@
-/* parallel.h: runs work items on the caller's thread pool, with OpenMP, or one after another */
+/* parallel.h: runs work items on the caller's threads; a lock and a pause for those that share */
 #ifndef SLI_BASE_PARALLEL_H
 #define SLI_BASE_PARALLEL_H
 
@@ -14,6 +14,64 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
     }
 #endif
     return sli_max(t->count, 1);
+}
+
+/* SL_VERIFY builds, and a test that defines it, exercise threads on small systems. */
+#if defined(SL_VERIFY) && !defined(SLI_SMALL_TASKS)
+#define SLI_SMALL_TASKS 1
+#endif
+
+/* Each worker has at least this much work, in flops, which take about half a ms. Starting a thread
+ * and waiting for its end takes 5 to 50 us, and several ms where the processors are busy. */
+#if defined(SLI_SMALL_TASKS)
+#define SLI_WORKER_FLOPS 1.0
+#else
+#define SLI_WORKER_FLOPS 1.5e7
+#endif
+
+/* The number of workers that share so many flops as tasks. */
+static sl_int sli_workers_for(const sl_threads *t, double flops) {
+#if defined(SLI_ATOMIC)
+    const sl_int most = sli_workers(t);
+    return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
+#else
+    (void)t;
+    (void)flops;
+    return 1;
+#endif
+}
+
+/* Waits a moment, longer with each turn: most tasks take less than the 30 us of the first turns.
+ * Then a thread lets others run on its processor, perhaps the one that it waits for, and sleeps
+ * where that takes long. */
+static void sli_pause(int turn) {
+    if (turn < 1000) {
+        SLI_SPIN();
+        return;
+    }
+#if defined(SLI_WINDOWS)
+    Sleep(turn < 1200 ? 0 : 1);
+#elif defined(SLI_POSIX)
+#if defined(SLI_USLEEP)
+    if (turn >= 1200) {
+        (void)sli_usleep(50);
+        return;
+    }
+#endif
+    (void)sched_yield();
+#endif
+}
+
+/* A lock for a few hundred ns. */
+static void sli_lock(sli_atomic *lock) {
+    int turn;
+    for (turn = 0; sli_atomic_exchange(lock, 1) != 0; turn++) {
+        sli_pause(turn);
+    }
+}
+
+SLI_INLINE void sli_unlock(sli_atomic *lock) {
+    sli_atomic_write(lock, 0);
 }
 
 /* Calls body(data, k) for k = 0 .. count-1. */

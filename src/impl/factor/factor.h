@@ -5,7 +5,7 @@
 #include "../ordering/graph.h"
 #include "../analysis/structure.h"
 #include "factor_setup.h"
-#include "multifrontal.h"
+#include "front_tasks.h"
 #include "uplooking.h"
 
 /* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */

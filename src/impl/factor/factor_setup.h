@@ -45,10 +45,11 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
                     : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
 }
 
-/* The pieces of scratch for panels that are rounded, one a worker. */
+/* The pieces of scratch for panels that are rounded: one a worker, and one for a large front that
+ * they share. */
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
-    const uint64_t workers = (uint64_t)F->schedule.workers;
+    const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
     const uint64_t suspects =
         sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
     sl_int s;
@@ -118,8 +119,12 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         b.used = 0;
         for (pass = 0; pass < 2 && status == SL_OK; pass++) {
             F->stack = SLI_TAKE(&b, double, F->schedule.stack);
+            sli_schedule_layout_tops(&F->schedule, S, &b);
             F->stats.factor.bytes += pass == 0 ? b.used : 0;
             status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+        }
+        if (status == SL_OK) {
+            sli_schedule_fill_tops(&F->schedule, S);
         }
     }
     return status;
@@ -266,7 +271,8 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     F->schedule.workers = 1;
     if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
         F->threads = opt->threads;
-        F->schedule.workers = sli_min(sli_workers(&opt->threads), sli_max(F->S->n_supers, 1));
+        F->schedule.workers = sli_min(
+            sli_workers_for(&opt->threads, sli_schedule_flops(F->S)), sli_max(F->S->n_supers, 1));
     }
     F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     if (F->kernels == NULL) {

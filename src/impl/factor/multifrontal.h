@@ -1,17 +1,14 @@
-/* multifrontal.h: supernodal factorization: fronts in postorder pass update matrices upward */
+/* multifrontal.h: the fronts of the supernodal factorization: each passes its update matrix up */
 #ifndef SLI_FACTOR_MULTIFRONTAL_H
 #define SLI_FACTOR_MULTIFRONTAL_H
 
 #include "storage.h"
 
-/* What the workers of one parallel call share. First each worker factors whole subtrees; then all
- * workers factor the fronts above them together, each on its own row tiles. */
-typedef struct sli_job {
-    sl_factor *F;
-    const sli_source *from;
-    sl_int super, group; /* the current front, and its current group of column tiles */
-    sli_front front;
-} sli_job;
+/* The update matrix of supernode s, which this worker factors if it is within a task. */
+SLI_INLINE double *sli_update_of(const sl_factor *F, sl_int s, sl_int worker) {
+    const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
+    return F->stack + (begin < own ? begin + worker * own : begin);
+}
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
@@ -20,7 +17,7 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.panel = sli_front_panel(F, s, worker);
     f.width = step->width;
     f.below = step->below;
-    f.update = F->stack + F->schedule.stack_begin[s];
+    f.update = sli_update_of(F, s, worker);
     f.D = F->D + step->column;
     f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
     f.E = F->E == NULL ? NULL : F->E + step->column;
@@ -63,14 +60,14 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
 
 /* Extend-add: assembles the children's update matrices into row tiles t0 .. t1-1, the last child
  * first. */
-static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int t0,
-                               sl_int t1) {
+static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int worker,
+                               sl_int t0, sl_int t1) {
     const sl_symbolic *S = F->S;
     sl_int c, k;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
         const sl_int *relative = S->relative + S->rows_begin[c];
-        const double *from = F->stack + F->schedule.stack_begin[c];
+        const double *from = sli_update_of(F, c, worker);
         const double *magnitude = from + child->width % SLI_TILE +
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
         const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
@@ -136,123 +133,11 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
     if (status != SL_OK) {
         return status;
     }
-    sli_front_assemble(F, &f, s, 0, tiles);
+    sli_front_assemble(F, &f, s, worker, 0, tiles);
     sli_front_eliminate(F->kernels, &f, scratch);
     sli_front_update(F->kernels, &f, scratch);
     sli_front_hand_over(&f);
     return sli_front_check(F, &f, s, failure);
-}
-
-/* Factors worker k's subtrees. A failure ends the subtree only: the failure to report is the first
- * one in the order of supernodes, and another subtree may hold it. */
-static void sli_run_tasks(void *data, sl_int k) {
-    const sli_job *job = (const sli_job *)data;
-    const sli_schedule *schedule = &job->F->schedule;
-    sl_int m, s;
-    for (m = 0; m < schedule->n_tasks; m++) {
-        sli_failure failure;
-        sl_status status = SL_OK;
-        if (schedule->worker[m] != k) {
-            continue;
-        }
-        for (s = schedule->first[m]; s <= schedule->last[m] && status == SL_OK; s++) {
-            status = sli_front_factor(job->F, job->from, s, k, &failure);
-            if (status != SL_OK) {
-                sli_keep_first_failure(&job->F->failures[k], &failure);
-            }
-        }
-    }
-}
-
-static void sli_shared_clear(void *data, sl_int k) {
-    const sli_job *job = (const sli_job *)data;
-    const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    sli_front_clear(&job->front, sli_tile_range_begin(0, tiles, k, workers, 1),
-                    sli_tile_range_begin(0, tiles, k + 1, workers, 1));
-}
-
-static void sli_shared_assemble(void *data, sl_int k) {
-    const sli_job *job = (const sli_job *)data;
-    const sl_int workers = job->F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    sli_front_assemble(job->F, &job->front, job->super,
-                       sli_tile_range_begin(0, tiles, k, workers, 1),
-                       sli_tile_range_begin(0, tiles, k + 1, workers, 1));
-}
-
-static void sli_shared_rows(void *data, sl_int k) {
-    const sli_job *job = (const sli_job *)data;
-    const sl_factor *F = job->F;
-    const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    const sl_int c1 = sli_min(job->group + SLI_GROUP_TILES, sli_tiles(job->front.width));
-    F->kernels->rows(&job->front, job->group, sli_tile_range_begin(c1, tiles, k, workers, 0),
-                     sli_tile_range_begin(c1, tiles, k + 1, workers, 0),
-                     F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
-}
-
-static void sli_shared_update(void *data, sl_int k) {
-    const sli_job *job = (const sli_job *)data;
-    const sl_factor *F = job->F;
-    const sl_int workers = F->schedule.workers, tiles = sli_front_tiles(&job->front);
-    const sl_int whole = job->front.width / SLI_TILE;
-    F->kernels->update(&job->front, whole, tiles, sli_tile_range_begin(whole, tiles, k, workers, 1),
-                       sli_tile_range_begin(whole, tiles, k + 1, workers, 1),
-                       F->buffer + (ptrdiff_t)k * sli_front_scratch(F->S->widest));
-}
-
-/* Factors a front on all workers. */
-static sl_status sli_front_factor_shared(sli_job *job, sli_failure *failure) {
-    sl_factor *F = job->F;
-    const sl_threads *threads = &F->threads;
-    const sl_int workers = F->schedule.workers;
-    sl_status status;
-    job->front = sli_front_of(F, job->super, 0);
-    sli_parallel(threads, workers, sli_shared_clear, job);
-    status = sli_front_load(F, job->from, &job->front, job->super, failure);
-    if (status != SL_OK) {
-        return status;
-    }
-    sli_parallel(threads, workers, sli_shared_assemble, job);
-    for (job->group = 0; job->group < sli_tiles(job->front.width); job->group += SLI_GROUP_TILES) {
-        F->kernels->pivots(&job->front, job->group, F->buffer);
-        sli_parallel(threads, workers, sli_shared_rows, job);
-    }
-    if (job->front.below > 0) {
-        sli_parallel(threads, workers, sli_shared_update, job);
-    }
-    sli_front_hand_over(&job->front);
-    return sli_front_check(F, &job->front, job->super, failure);
-}
-
-/* Factors the whole matrix, which has the analyzed pattern. [DR83], [Liu92] */
-static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_failure *failure) {
-    const sli_schedule *schedule = &F->schedule;
-    sli_job job;
-    sl_int m, k;
-    memset(&job, 0, sizeof job);
-    job.F = F;
-    job.from = from;
-    for (k = 0; k < schedule->workers; k++) {
-        F->failures[k].status = SL_OK;
-    }
-    sli_parallel(&F->threads, schedule->workers, sli_run_tasks, &job);
-    for (k = 0; k < schedule->workers; k++) {
-        sli_keep_first_failure(failure, &F->failures[k]);
-    }
-    for (m = 0; m < schedule->n_tops; m++) {
-        sli_failure here;
-        here.status = SL_OK;
-        job.super = schedule->top[m];
-        if (failure->status != SL_OK && failure->super < job.super) {
-            break; /* only an earlier front could still fail before this one */
-        }
-        if (sli_front_flops(&F->S->steps[job.super]) >= SLI_SHARED_FLOPS) {
-            (void)sli_front_factor_shared(&job, &here);
-        } else {
-            (void)sli_front_factor(F, from, job.super, 0, &here);
-        }
-        sli_keep_first_failure(failure, &here);
-    }
-    return failure->status;
 }
 
 #endif

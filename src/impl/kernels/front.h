@@ -34,6 +34,11 @@ SLI_INLINE sl_int sli_front_scratch(sl_int width) {
 /* Doubles in the array `reciprocals` of a front: 24 for each column tile of a group. */
 #define SLI_FRONT_RECIPROCALS (3 * SLI_GROUP_TILES * SLI_TILE)
 
+/* Groups of column tiles of a front. */
+SLI_INLINE sl_int sli_front_groups(sl_int width) {
+    return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
+}
+
 typedef struct sli_front {
     double *panel;
     sl_int width, below;
