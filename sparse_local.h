@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 97d14bcc58613d52
+ * FNV-1a of the lines after this comment, without the license: 8a037c7b9bc93eab
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,33 +51,33 @@
  *  11512 factor_types.h  11839 storage.h  11910 pivot_search.h  12256 pivoted.h  12324 scatter.h
  *  12482 uplooking.h  12554 null_product.h  12758 null_dense.h  12835 null_basis.h
  *  13143 null_vectors.h  13287 multifrontal.h  13413 front_tasks.h  13743 nullspace.h
- *  13946 growth.h  14022 factor_setup.h  14319 factor.h  14525 leftlooking.h  14709 factor_query.h
- *  14844 combination.h
+ *  13946 growth.h  14022 factor_setup.h  14321 factor.h  14527 leftlooking.h  14711 factor_query.h
+ *  14846 combination.h
  * (solve: full and local solves)
- *  14905 region_types.h  15009 work.h  15106 query.h  15280 singular.h  15547 backward.h
- *  15577 sweep.h  15763 compile.h  15956 plan.h  16063 local.h  16213 parts.h  16500 refine.h
- *  16679 refine_local.h  16894 rcond.h  17051 defects.h
+ *  14907 region_types.h  15011 work.h  15108 query.h  15282 singular.h  15549 backward.h
+ *  15579 sweep.h  15765 compile.h  15958 plan.h  16065 local.h  16215 parts.h  16502 refine.h
+ *  16681 refine_local.h  16896 rcond.h  17053 defects.h
  * (inverse: entries of the inverse, regions)
- *  17128 traversal.h  17373 traversal_run.h  17556 row_sets.h  17583 unit_vectors.h
- *  17808 bilinear.h  17985 entries.h  18266 block.h  18506 reserve.h  18698 selected.h
- *  18908 selected_query.h  19010 region_choose.h  19237 region.h
+ *  17130 traversal.h  17375 traversal_run.h  17558 row_sets.h  17585 unit_vectors.h
+ *  17810 bilinear.h  17987 entries.h  18268 block.h  18508 reserve.h  18700 selected.h
+ *  18910 selected_query.h  19012 region_choose.h  19239 region.h
  * (change: a factor that follows changes of its matrix)
- *  19485 update.h  19835 rank.h  20164 edges.h  20318 choose.h  20512 pins.h  21077 subset.h
- *  21184 restrict_analysis.h  21479 restrict_anew.h  21533 restrict_symbolic.h  21714 restrict.h
- *  22062 edit_match.h  22244 edit_place.h  22448 edit_order.h  22609 edit.h
+ *  19487 update.h  19837 rank.h  20166 edges.h  20320 choose.h  20514 pins.h  21079 subset.h
+ *  21186 restrict_analysis.h  21481 restrict_anew.h  21535 restrict_symbolic.h  21716 restrict.h
+ *  22064 edit_match.h  22246 edit_place.h  22450 edit_order.h  22611 edit.h
  * (save: factors in files)
- *  22753 format.h  23049 decode.h  23195 check.h  23527 write.h  23830 load.h  24098 load_inverse.h
- *  24430 load_calls.h
+ *  22755 format.h  23051 decode.h  23197 check.h  23529 write.h  23832 load.h  24100 load_inverse.h
+ *  24432 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  24629 batch_solve.h  24838 batch_factor.h  25039 batch_diagonal.h
+ *  24631 batch_solve.h  24840 batch_factor.h  25041 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  25179 hermitian.h  25341 complex_rows.h
+ *  25181 hermitian.h  25343 complex_rows.h
  * (last: undefine every internal macro)
- *  25509 undef.h
+ *  25511 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  25695 multi_rhs.inl.h  26078 sweeps.inl.h  26080 unit_triangle.inl.h  26117 two_rhs.inl.h
- *  26286 small_supernode.inl.h  26445 single_rhs.inl.h  26689 kernel_set.inl.h  26691 product.inl.h
- *  26819 front.inl.h  27033 inverse_front.inl.h  27318 row.inl.h  27348 change.inl.h
+ *  25697 multi_rhs.inl.h  26080 sweeps.inl.h  26082 unit_triangle.inl.h  26119 two_rhs.inl.h
+ *  26288 small_supernode.inl.h  26447 single_rhs.inl.h  26691 kernel_set.inl.h  26693 product.inl.h
+ *  26821 front.inl.h  27035 inverse_front.inl.h  27320 row.inl.h  27350 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14137,6 +14137,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
 }
 
 static sl_status sli_factor_prepare(sl_factor *F) {
+  const size_t bytes = F->stats.factor.bytes;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
@@ -14157,6 +14158,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   if (status != SL_OK) {
     sli_free(&F->allocator, F->scratch);
     F->scratch = NULL;
+    F->stats.factor.bytes = bytes;
   }
   return status;
 }
@@ -24885,7 +24887,7 @@ static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *thread
 
 static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double started,
                    sl_stats *stats) {
-  const sl_factor *F = f->count == 0 ? NULL : f->factors[sli_min(at, f->count - 1)];
+  const sl_factor *F = f->factors[sli_min(at, f->count - 1)];
   sl_int k;
   if (stats == NULL || F == NULL) {
     return;

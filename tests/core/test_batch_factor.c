@@ -228,6 +228,86 @@ static void a_failed_allocation_leaves_the_other_factors(void **state) {
     matrix_pair_free(&y);
 }
 
+/* The first matrix has null pivots, and an allocation for a later one fails. */
+static void a_failed_matrix_and_a_failed_allocation(void **state) {
+    (void)state;
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 100, 0, 2, NULL);
+    double c[TERMS * 3];
+    size_t calls = 1;
+    int both = 0;
+    coefficients_of(c, 3, 1);
+    memset(c, 0, TERMS * sizeof *c);
+    for (size_t k = 0; k < calls; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_factor *F[3];
+        sl_int failed = 9;
+        sl_stats stats;
+        counter.fail_at = (int64_t)k;
+        const sl_status status = sl_batch_factor(F, 3, y.S, c, matrix_pair_values(&y), TERMS, &opt,
+                                                 &failed, &stats);
+        assert_true(status == SL_ERR_PIVOT || status == SL_ERR_MEMORY);
+        assert_int_equal(failed, 0);
+        assert_null(F[0]);
+        both += status == SL_ERR_PIVOT && (F[1] == NULL || F[2] == NULL);
+        calls = counter.calls > k ? k + 2 : 0;
+        free_all(F, 3);
+        COUNTER_CLEAN(&counter);
+    }
+    assert_true(both > 0);
+    matrix_pair_free(&y);
+}
+
+/* A loaded factor gets what a refactorization needs with the first one. If there is no memory for
+ * it, the factor and its bytes stay as they were. */
+static void loaded_factors_allocate_when_they_are_refactored(void **state) {
+    (void)state;
+    matrix_pair_t y = matrix_pair_make(GEN_GRID2, 100, 0, 2, NULL);
+    double c[TERMS];
+    size_t size, bytes = 0;
+    coefficients_of(c, 1, 1);
+    sl_factor *made = matrix_pair_factor(&y, c, NULL);
+    SL_CHECK(sl_save_bytes(&size, y.S, made));
+    unsigned char *memory = (unsigned char *)test_array(size, 1);
+    SL_CHECK(sl_save_memory(memory, size, y.S, made));
+    for (int turn = 0; turn < 2; turn++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_symbolic *S;
+        sl_factor *F[2]; /* loaded, and made over the loaded analysis */
+        sl_stats stats;
+        sl_int failed = 9;
+        int failures = 0;
+        double twice[2 * TERMS];
+        sl_status status = SL_ERR_MEMORY;
+        memcpy(twice, c, sizeof c);
+        memcpy(twice + TERMS, c, sizeof c);
+        SL_CHECK(sl_load_memory(&S, &F[0], memory, size, SL_LOAD_CHECKED, &opt));
+        SL_CHECK(sl_factor_create_combination(&F[1], S, c, matrix_pair_values(&y), TERMS, NULL,
+                                              NULL));
+        for (int k = 0; status != SL_OK; k++) {
+            counter.fail_at = turn == 0 ? -1 : (int64_t)counter.calls + k;
+            status = sl_batch_refactor(F, 2, twice, matrix_pair_values(&y), TERMS, NULL, &failed,
+                                       &stats);
+            assert_int_equal(failed, status == SL_OK ? -1 : 0);
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            failures += status != SL_OK;
+        }
+        assert_true((failures > 0) == turn);
+        assert_same_bits(made, F[0]);
+        assert_true(turn == 0 || stats.factor.bytes == bytes);
+        bytes = stats.factor.bytes;
+        SL_CHECK(sl_batch_refactor(NULL, 0, NULL, NULL, 0, NULL, NULL, &stats));
+        sl_factor_free(F[0]);
+        sl_factor_free(F[1]);
+        sl_symbolic_free(S);
+        COUNTER_CLEAN(&counter);
+    }
+    free(memory);
+    sl_factor_free(made);
+    matrix_pair_free(&y);
+}
+
 /* A sum of no terms is the zero matrix: all of its pivots are null. */
 static void batches_of_no_terms_are_zero_matrices(void **state) {
     (void)state;
@@ -255,6 +335,8 @@ int main(void) {
         cmocka_unit_test(the_first_failure_is_reported_and_the_others_succeed),
         cmocka_unit_test(invalid_arguments_are_refused),
         cmocka_unit_test(a_failed_allocation_leaves_the_other_factors),
+        cmocka_unit_test(a_failed_matrix_and_a_failed_allocation),
+        cmocka_unit_test(loaded_factors_allocate_when_they_are_refactored),
         cmocka_unit_test(batches_of_no_terms_are_zero_matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

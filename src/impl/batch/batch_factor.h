@@ -60,7 +60,7 @@ static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *thread
  * are sums over all factors. */
 static void sli_factor_batch_stats(const sli_factor_batch *f, sl_int at, double started,
                                    sl_stats *stats) {
-    const sl_factor *F = f->count == 0 ? NULL : f->factors[sli_min(at, f->count - 1)];
+    const sl_factor *F = f->factors[sli_min(at, f->count - 1)];
     sl_int k;
     if (stats == NULL || F == NULL) {
         return;

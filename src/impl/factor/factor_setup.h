@@ -133,6 +133,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
 /* Allocates what a factorization needs besides L and D, unless F has it. A loaded factor gets it
  * with its first refactorization. */
 static sl_status sli_factor_prepare(sl_factor *F) {
+    const size_t bytes = F->stats.factor.bytes;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
@@ -153,6 +154,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     if (status != SL_OK) {
         sli_free(&F->allocator, F->scratch);
         F->scratch = NULL;
+        F->stats.factor.bytes = bytes;
     }
     return status;
 }
