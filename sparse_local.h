@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8a037c7b9bc93eab
+ * FNV-1a of the lines after this comment, without the license: a64734bb02dfdaf5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -62,22 +62,22 @@
  *  17810 bilinear.h  17987 entries.h  18268 block.h  18508 reserve.h  18700 selected.h
  *  18910 selected_query.h  19012 region_choose.h  19239 region.h
  * (change: a factor that follows changes of its matrix)
- *  19487 update.h  19837 rank.h  20166 edges.h  20320 choose.h  20514 pins.h  21079 subset.h
- *  21186 restrict_analysis.h  21481 restrict_anew.h  21535 restrict_symbolic.h  21716 restrict.h
- *  22064 edit_match.h  22246 edit_place.h  22450 edit_order.h  22611 edit.h
+ *  19487 update.h  19837 rank.h  20166 edges.h  20320 choose.h  20514 pins.h  21078 subset.h
+ *  21185 restrict_analysis.h  21480 restrict_anew.h  21534 restrict_symbolic.h  21715 restrict.h
+ *  22063 edit_match.h  22245 edit_place.h  22449 edit_order.h  22610 edit.h
  * (save: factors in files)
- *  22755 format.h  23051 decode.h  23197 check.h  23529 write.h  23832 load.h  24100 load_inverse.h
- *  24432 load_calls.h
+ *  22754 format.h  23050 decode.h  23196 check.h  23528 write.h  23831 load.h  24099 load_inverse.h
+ *  24431 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  24631 batch_solve.h  24840 batch_factor.h  25041 batch_diagonal.h
+ *  24630 batch_solve.h  24839 batch_factor.h  25040 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  25181 hermitian.h  25343 complex_rows.h
+ *  25180 hermitian.h  25342 complex_rows.h
  * (last: undefine every internal macro)
- *  25511 undef.h
+ *  25510 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  25697 multi_rhs.inl.h  26080 sweeps.inl.h  26082 unit_triangle.inl.h  26119 two_rhs.inl.h
- *  26288 small_supernode.inl.h  26447 single_rhs.inl.h  26691 kernel_set.inl.h  26693 product.inl.h
- *  26821 front.inl.h  27035 inverse_front.inl.h  27320 row.inl.h  27350 change.inl.h
+ *  25696 multi_rhs.inl.h  26079 sweeps.inl.h  26081 unit_triangle.inl.h  26118 two_rhs.inl.h
+ *  26287 small_supernode.inl.h  26446 single_rhs.inl.h  26690 kernel_set.inl.h  26692 product.inl.h
+ *  26820 front.inl.h  27034 inverse_front.inl.h  27319 row.inl.h  27349 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -20763,8 +20763,7 @@ static sl_status sli_pins_take(sl_pins *P) {
   if (!F->is_valid) {
     return SL_ERR_STATE;
   }
-  if (F->E != NULL || (info->positive > 0 && info->negative > 0) ||
-    (P->divisors == NULL && F->n_nulls > 0)) {
+  if (F->E != NULL || (info->positive > 0 && info->negative > 0)) {
     return SL_ERR_UNSUPPORTED;
   }
   P->sign = info->negative > 0 ? -1.0 : 1.0;

@@ -192,6 +192,101 @@ static void overflows_of_updates_are_refactored(void **state) {
     two_free(&t);
 }
 
+/* Changes a diagonal entry of a lower triangle of 5 columns whose supernodes are {0}, {1} and
+ * {2, 3, 4}, and checks the solution. */
+static void small_pivot(sl_int row, double delta) {
+    static const sl_int p[6] = {0, 2, 5, 8, 10, 11}, i[11] = {0, 2, 1, 2, 4, 2, 3, 4, 3, 4, 4};
+    double x[11] = {1, 1, 1, 1, 1, 4, 1e-3, 1e-3, 4, 0.5, 1e20}, out[5];
+    const double b[5] = {1, 2, 3, 4, 5};
+    const sl_csc A = {5, 5, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.relaxation = SL_RELAXATION_NONE;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, &stats));
+    assert_int_equal(stats.symbolic.supernodes, 3);
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_update_entries(F, &row, &row, &delta, 1, NULL, NULL));
+    x[p[row]] += delta;
+    const double d = sl_factor_view(F).D[row];
+    assert_true(d > 0.0 && d < 2e-5);
+    SL_CHECK(sl_factor_solve(F, out, 5, b, 5, 1, NULL));
+    sl_factor_free(F);
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    double expected[5], most = 0.0;
+    SL_CHECK(sl_factor_solve(F, expected, 5, b, 5, 1, NULL));
+    for (int k = 0; k < 5; k++) {
+        most = fmax(most, fabs(expected[k]));
+    }
+    for (int k = 0; k < 5; k++) { /* 6 digits cancel in the small pivot */
+        assert_true(fabs(out[k] - expected[k]) <= 1e-9 * most);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* A pivot that would be rounding in the heaviest row of its supernode is judged by its own row. */
+static void small_pivots_beside_heavy_rows_are_kept(void **state) {
+    (void)state;
+    small_pivot(2, -2.0 + 1e-5);
+    small_pivot(3, -4.0 + 1e-5);
+}
+
+/* A regularized zero matrix has no entries to measure growth and drift by. */
+static void changes_of_a_zero_matrix(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 1, 2}, i[2] = {0, 1};
+    const double x[2] = {0.0, 0.0}, deltas[2] = {2.0, 4.0}, b[2] = {1.0, 1.0};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double out[2];
+    opt.regularization = 1e-20;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.regularized, 2);
+    SL_CHECK(sl_factor_update_entries(F, i, i, deltas, 2, NULL, &stats));
+    SL_CHECK(sl_factor_solve(F, out, 2, b, 2, 1, NULL));
+    assert_true(fabs(out[0] - 0.5) <= 1e-15 && fabs(out[1] - 0.25) <= 1e-15);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* A regularized factor with pivots of both signs keeps them. */
+static void signs_of_regularized_pivots_stay(void **state) {
+    (void)state;
+    sl_options opt = options_none();
+    factored_t y = factored_make(GEN_KKT, 40, 1, 0, NULL);
+    sl_int signs[40];
+    sl_stats before, stats;
+    assert_int_equal(y.M.view.n_cols, 40);
+    for (sl_int k = 0; k < 40; k++) {
+        assert_int_equal(y.M.i[y.M.p[k]], k);
+        signs[k] = y.M.x[y.M.p[k]] > 0.0 ? 1 : -1;
+    }
+    opt.regularization = 1e-8;
+    opt.signs = signs;
+    sl_factor_free(y.F);
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, &before));
+    assert_true(before.factor.positive > 0 && before.factor.negative > 0);
+    for (sl_int row = 0; row < y.M.view.n_cols; row++) {
+        const double d = sl_factor_view(y.F).D[sl_symbolic_view(y.S).iperm[row]];
+        const double away = -d * 4.0;
+        const sl_status status =
+            sl_factor_update_entries(y.F, &row, &row, &away, 1, NULL, &stats);
+        assert_true(status == SL_OK || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE);
+        if (status == SL_OK) {
+            assert_int_equal(stats.factor.positive, before.factor.positive);
+        }
+        SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+    }
+    factored_free(&y);
+}
+
 /* Columns of zeros, zeros within a column, and weights of 0 change nothing and count nothing. */
 static void zeros_are_no_changes(void **state) {
     (void)state;
@@ -237,6 +332,9 @@ int main(void) {
         cmocka_unit_test(pivoted_factors_are_recomputed),
         cmocka_unit_test(growth_beyond_the_limit_is_refused),
         cmocka_unit_test(overflows_of_updates_are_refactored),
+        cmocka_unit_test(small_pivots_beside_heavy_rows_are_kept),
+        cmocka_unit_test(changes_of_a_zero_matrix),
+        cmocka_unit_test(signs_of_regularized_pivots_stay),
         cmocka_unit_test(zeros_are_no_changes),
         cmocka_unit_test(long_lists_are_refused),
     };

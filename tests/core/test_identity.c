@@ -164,6 +164,21 @@ static void a_region_of_a_released_factor(void **state) {
     gen_matrix_free(&M);
 }
 
+/* The status of saving these objects together. */
+static void assert_saving(sl_status expected, sl_symbolic *S, sl_factor *F, sl_selected *Z,
+                          sl_region *R) {
+    sl_region *regions[1] = {R};
+    sl_saved_set all;
+    size_t bytes;
+    memset(&all, 0, sizeof all);
+    all.symbolic = S;
+    all.factor = F;
+    all.selected = Z;
+    all.regions = regions;
+    all.n_regions = R != NULL;
+    SL_EXPECT(expected, sl_save_set_bytes(&bytes, &all));
+}
+
 /* A plan, a factor and a region whose analysis was released and another order analyzed. */
 static void an_analysis_created_again(void **state) {
     (void)state;
@@ -205,7 +220,20 @@ static void an_analysis_created_again(void **state) {
         SL_EXPECT(expected, sl_factor_solve(F, full, N, rhs, N, 1, NULL));
         SL_EXPECT(expected, sl_factor_refactor(F, &M.view, NULL));
         SL_EXPECT(expected, sl_selected_refactor(Z, G, NULL));
+        SL_EXPECT(expected, sl_factor_refine(F, &M.view, full, N, rhs, N, 1, 1, NULL, NULL));
+        SL_EXPECT(expected, sl_factor_solve_part(F, SL_PART_L, full, N, rhs, N, 1, NULL));
+        sl_symbolic *part = NULL;
+        sl_factor *H = NULL;
+        SL_EXPECT(expected, sl_factor_restrict(&part, &H, F, &M.view, set, 6, NULL, NULL));
+        sl_factor_free(H);
+        sl_symbolic_free(part);
+        sl_plan *inside = NULL;
+        rest.region = R;
+        SL_EXPECT(expected, sl_plan_create(&inside, S, set, 6, set, 6, &rest, NULL));
+        sl_plan_free(inside);
         SL_EXPECT(expected, sl_region_refactor(R, G, NULL, NULL));
+        assert_saving(expected, S, G, Z, NULL);
+        assert_saving(expected, S, G, NULL, R);
         sl_selected_free(Z);
         sl_region_free(R);
         sl_plan_free(P);

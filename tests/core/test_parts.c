@@ -369,10 +369,16 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_D, columns, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, NULL, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, columns, 25, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(NULL, SL_PART_L, columns, 25, &count));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, columns, -1, &count));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, NULL, P | L, X, 25, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_part(NULL, y.F, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan_part(NULL, plan, 1));
     SL_CHECK(sl_work_create(&W, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_part(W, y.F, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_part(W, NULL, 1));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan_part(W, NULL, 1));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan_part(W, plan, -1));
     assert_true(X[0] == 77.0);
     sl_work_free(W);
     columns[1] = -7; /* not written beyond the capacity */
@@ -398,6 +404,29 @@ static void wrong_arguments_are_refused(void **state) {
     factored_free(&y);
     factored_free(&k);
     factored_free(&h);
+}
+
+/* A pair of columns has no square root in D, even if it is definite. */
+static void roots_of_pairs_are_unsupported(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    double x[3] = {0.0, 1.0, 0.0}, X[2] = {7.0, 7.0};
+    const double B[2] = {1.0, 1.0};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
+    assert_int_equal(stats.symbolic.pairs, 1);
+    x[0] = x[2] = 2.0;
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
+    assert_int_equal(stats.factor.negative, 0);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_solve_part(F, ROOT, X, 2, B, 2, 1, NULL));
+    assert_true(X[0] == 7.0 && X[1] == 7.0);
+    SL_CHECK(sl_factor_solve_part(F, ALL, X, 2, B, 2, 1, NULL));
+    assert_true(fabs(X[0] - 1.0 / 3.0) <= 1e-15 && fabs(X[1] - 1.0 / 3.0) <= 1e-15);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
 }
 
 static void reserved_workspaces_do_not_grow(void **state) {
@@ -470,6 +499,7 @@ int main(void) {
         cmocka_unit_test(samples_have_the_covariance_of_the_inverse),
         cmocka_unit_test(null_pivots_give_zeros),
         cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(roots_of_pairs_are_unsupported),
         cmocka_unit_test(reserved_workspaces_do_not_grow),
         cmocka_unit_test(failing_allocations_leave_x_untouched),
     };

@@ -130,6 +130,23 @@ static void null_vectors_must_be_known(void **state) {
     sl_pins_free(P);
     factored_free(&y);
 
+    double z[2 * N];
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.null_vector = z;
+    opt.null_vector_count = 2; /* pins know one alone */
+    for (sl_int k = 0; k < N; k++) {
+        z[k] = 1.0;
+        z[N + k] = k;
+    }
+    y = path(-1.0, 0, 0.0);
+    sl_factor_free(y.F);
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, NULL));
+    sl_pins_free(P);
+    factored_free(&y);
+
     y = path(-1.0, 20, 0.5);
     assert_int_equal(null_count(y.F), 1);
     SL_CHECK(sl_pins_create(&P, y.F, NULL));

@@ -86,8 +86,16 @@ static void invalid_arguments_are_refused(void **state) {
     B.p = NULL;
     assert_int_equal(restriction_status(&y, &B, rows, 3, &stats), SL_ERR_ARGUMENT);
     B = *A;
-    B.n_rows = B.n_cols = 99;
+    B.i = NULL;
+    assert_int_equal(restriction_status(&y, &B, rows, 3, &stats), SL_ERR_ARGUMENT);
+    B = *A;
+    B.n_cols = 99;
     assert_int_equal(restriction_status(&y, &B, rows, 3, &stats), SL_ERR_PATTERN);
+    B.n_rows = 99;
+    assert_int_equal(restriction_status(&y, &B, rows, 3, &stats), SL_ERR_PATTERN);
+    y.M.p[100]--; /* an entry less */
+    assert_int_equal(restriction_status(&y, A, rows, 3, &stats), SL_ERR_PATTERN);
+    y.M.p[100]++;
     /* columns that are read are checked: with few rows all are */
     for (int wrong = 0; wrong < 4; wrong++) {
         const sl_int keep = y.M.i[y.M.p[4]], p = y.M.p[4], end = y.M.p[5];
@@ -100,6 +108,11 @@ static void invalid_arguments_are_refused(void **state) {
         y.M.p[5] = end;
         y.M.i[y.M.p[4]] = keep;
     }
+    const sl_int begin = y.M.p[4];
+    y.M.p[4] = -1; /* and column 3 is not read */
+    assert_int_equal(restriction_status(&y, A, rows + 1, 2, &stats), SL_ERR_PATTERN);
+    assert_int_equal(stats.error.column, 4);
+    y.M.p[4] = begin;
     assert_int_equal(restriction_status(&y, A, rows, 3, NULL), SL_OK);
     y.M.x[0] = NAN;
     assert_int_equal(sl_factor_refactor(y.F, A, NULL), SL_ERR_NOT_FINITE);
@@ -211,6 +224,35 @@ static void regularization_is_inherited(void **state) {
     factored_free(&y);
 }
 
+/* A restriction has the limits of its factor, or none. Regularization has no signs here. */
+static void limits_are_inherited(void **state) {
+    (void)state;
+    for (int has_limits = 0; has_limits < 2; has_limits++) {
+        sl_options opt = options_none();
+        opt.growth_limit = has_limits ? 100.0 : -1.0;
+        opt.error_limit = -1.0;
+        opt.regularization = 1e-8;
+        factored_t y = factored_make(GEN_GRID2, 225, 1, 0, &opt);
+        for (int shape = SUBSET_HALF; shape < SUBSET_SHAPES; shape++) {
+            sl_int rows[225], count = subset_fill(rows, 225, shape, y.S);
+            sl_stats stats;
+            assert_int_equal(restriction_status(&y, &y.M.view, rows, count, &stats), SL_OK);
+            /* a column that is computed, and not in the last front, gets a small pivot */
+            for (sl_int k = 0; k < count && stats.restriction.computed > 0; k++) {
+                const sl_int p = y.M.p[rows[k]];
+                const double keep = y.M.x[p];
+                y.M.x[p] = 1e-300;
+                const sl_status status =
+                    restriction_status(&y, &y.M.view, rows, count, &stats);
+                assert_true(status == SL_OK || (has_limits && status == SL_ERR_INACCURATE));
+                assert_true(status == SL_OK || y.M.x[y.M.p[stats.error.row]] > 0.0);
+                y.M.x[p] = keep;
+            }
+        }
+        factored_free(&y);
+    }
+}
+
 static void pairs_are_unsupported(void **state) {
     (void)state;
     const sl_int p[3] = {0, 1, 1}, i[1] = {1}, row = 0; /* [0 1; 1 0] */
@@ -254,6 +296,7 @@ int main(void) {
         cmocka_unit_test(failures_name_rows_of_the_whole_matrix),
         cmocka_unit_test(null_pivots_may_be_removed),
         cmocka_unit_test(regularization_is_inherited),
+        cmocka_unit_test(limits_are_inherited),
         cmocka_unit_test(pairs_are_unsupported),
         cmocka_unit_test(float_storage_and_several_null_vectors_are_unsupported),
     };

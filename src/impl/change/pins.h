@@ -281,8 +281,7 @@ static sl_status sli_pins_take(sl_pins *P) {
     if (!F->is_valid) {
         return SL_ERR_STATE;
     }
-    if (F->E != NULL || (info->positive > 0 && info->negative > 0) ||
-        (P->divisors == NULL && F->n_nulls > 0)) {
+    if (F->E != NULL || (info->positive > 0 && info->negative > 0)) {
         return SL_ERR_UNSUPPORTED;
     }
     P->sign = info->negative > 0 ? -1.0 : 1.0;
