@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a64734bb02dfdaf5
+ * FNV-1a of the lines after this comment, without the license: 69639bdf95f7a836
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,44 +40,44 @@
  *   5066 csc.h   5180 csc_build.h   5314 csc64.h   5385 csc_triangle.h   5451 csc_products.h
  *   5568 permute.h   5634 sum.h   5716 output_file.h   5925 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6371 graph.h   6520 coarsen.h   6785 labels.h   6979 subgraph.h   7174 heap.h   7234 bisect.h
- *   7464 separator.h   7726 mindeg.h   7909 dissect.h   8235 levelset.h   8354 geometric.h
- *   8529 cells.h   8709 septree.h   8769 metis.h   8918 metis_refined.h   9032 nd.h
- *   9224 compress.h   9345 quotient.h   9759 order.h
+ *   6371 graph.h   6520 coarsen.h   6832 labels.h   7026 subgraph.h   7221 heap.h   7281 bisect.h
+ *   7511 separator.h   7773 mindeg.h   7956 dissect.h   8290 levelset.h   8410 geometric.h
+ *   8585 cells.h   8765 septree.h   8825 metis.h   8974 metis_refined.h   9088 nd.h
+ *   9280 compress.h   9401 quotient.h   9815 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10041 symbolic_types.h  10078 etree.h  10151 counts.h  10208 supernodes.h  10430 structure.h
- *  10551 schedule.h  10831 symbolic.h  11241 reach.h
+ *  10097 symbolic_types.h  10134 etree.h  10207 counts.h  10264 supernodes.h  10486 structure.h
+ *  10607 schedule.h  10887 symbolic.h  11297 reach.h
  * (factor: the numbers of L and D)
- *  11512 factor_types.h  11839 storage.h  11910 pivot_search.h  12256 pivoted.h  12324 scatter.h
- *  12482 uplooking.h  12554 null_product.h  12758 null_dense.h  12835 null_basis.h
- *  13143 null_vectors.h  13287 multifrontal.h  13413 front_tasks.h  13743 nullspace.h
- *  13946 growth.h  14022 factor_setup.h  14321 factor.h  14527 leftlooking.h  14711 factor_query.h
- *  14846 combination.h
+ *  11568 factor_types.h  11895 storage.h  11966 pivot_search.h  12312 pivoted.h  12380 scatter.h
+ *  12538 uplooking.h  12610 null_product.h  12814 null_dense.h  12891 null_basis.h
+ *  13199 null_vectors.h  13343 multifrontal.h  13469 front_tasks.h  13799 nullspace.h
+ *  14002 growth.h  14078 factor_setup.h  14377 factor.h  14583 leftlooking.h  14767 factor_query.h
+ *  14902 combination.h
  * (solve: full and local solves)
- *  14907 region_types.h  15011 work.h  15108 query.h  15282 singular.h  15549 backward.h
- *  15579 sweep.h  15765 compile.h  15958 plan.h  16065 local.h  16215 parts.h  16502 refine.h
- *  16681 refine_local.h  16896 rcond.h  17053 defects.h
+ *  14963 region_types.h  15067 work.h  15164 query.h  15338 singular.h  15605 backward.h
+ *  15635 sweep.h  15821 compile.h  16014 plan.h  16121 local.h  16271 parts.h  16558 refine.h
+ *  16737 refine_local.h  16952 rcond.h  17109 defects.h
  * (inverse: entries of the inverse, regions)
- *  17130 traversal.h  17375 traversal_run.h  17558 row_sets.h  17585 unit_vectors.h
- *  17810 bilinear.h  17987 entries.h  18268 block.h  18508 reserve.h  18700 selected.h
- *  18910 selected_query.h  19012 region_choose.h  19239 region.h
+ *  17186 traversal.h  17431 traversal_run.h  17614 row_sets.h  17641 unit_vectors.h
+ *  17866 bilinear.h  18043 entries.h  18324 block.h  18564 reserve.h  18756 selected.h
+ *  18966 selected_query.h  19068 region_choose.h  19295 region.h
  * (change: a factor that follows changes of its matrix)
- *  19487 update.h  19837 rank.h  20166 edges.h  20320 choose.h  20514 pins.h  21078 subset.h
- *  21185 restrict_analysis.h  21480 restrict_anew.h  21534 restrict_symbolic.h  21715 restrict.h
- *  22063 edit_match.h  22245 edit_place.h  22449 edit_order.h  22610 edit.h
+ *  19543 update.h  19893 rank.h  20222 edges.h  20376 choose.h  20570 pins.h  21134 subset.h
+ *  21241 restrict_analysis.h  21536 restrict_anew.h  21590 restrict_symbolic.h  21771 restrict.h
+ *  22119 edit_match.h  22301 edit_place.h  22505 edit_order.h  22666 edit.h
  * (save: factors in files)
- *  22754 format.h  23050 decode.h  23196 check.h  23528 write.h  23831 load.h  24099 load_inverse.h
- *  24431 load_calls.h
+ *  22810 format.h  23106 decode.h  23252 check.h  23584 write.h  23887 load.h  24155 load_inverse.h
+ *  24487 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  24630 batch_solve.h  24839 batch_factor.h  25040 batch_diagonal.h
+ *  24686 batch_solve.h  24895 batch_factor.h  25096 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  25180 hermitian.h  25342 complex_rows.h
+ *  25236 hermitian.h  25398 complex_rows.h
  * (last: undefine every internal macro)
- *  25510 undef.h
+ *  25566 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  25696 multi_rhs.inl.h  26079 sweeps.inl.h  26081 unit_triangle.inl.h  26118 two_rhs.inl.h
- *  26287 small_supernode.inl.h  26446 single_rhs.inl.h  26690 kernel_set.inl.h  26692 product.inl.h
- *  26820 front.inl.h  27034 inverse_front.inl.h  27319 row.inl.h  27349 change.inl.h
+ *  25752 multi_rhs.inl.h  26135 sweeps.inl.h  26137 unit_triangle.inl.h  26174 two_rhs.inl.h
+ *  26343 small_supernode.inl.h  26502 single_rhs.inl.h  26746 kernel_set.inl.h  26748 product.inl.h
+ *  26876 front.inl.h  27090 inverse_front.inl.h  27375 row.inl.h  27405 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6696,19 +6696,66 @@ static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_cl
   return status;
 }
 
+#define SLI_WIDE_DEGREE 16
+#define SLI_NEIGHBORHOOD_PAIRS 8
+#define SLI_NEIGHBORHOOD_SHRINK 4
+
+SLI_INLINE int sli_level_is_wide(const sli_level *g) {
+  return g->begin[g->n] >= SLI_WIDE_DEGREE * (sl_off)g->n;
+}
+
+static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
+                    sli_clusters *clusters) {
+  sl_int v, count = 0, members = 0;
+  sl_off e;
+  for (v = 0; v < g->n; v++) {
+    g->coarse[v] = -1;
+  }
+  for (v = 0; v < g->n; v++) {
+    int64_t weight = sli_level_weight(g, v);
+    if (g->coarse[v] != -1) {
+      continue;
+    }
+    clusters->start[count] = members;
+    clusters->member[members++] = v;
+    g->coarse[v] = count;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+      const sl_int u = g->to[e];
+      if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
+        weight += sli_level_weight(g, u);
+        clusters->member[members++] = u;
+        g->coarse[u] = count;
+      }
+    }
+    count++;
+  }
+  clusters->start[count] = members;
+  return count;
+}
+
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
                sli_clusters *clusters, sl_off *at, int *shrunk,
                const sl_allocator *a) {
-  sl_int pairs = sli_match(g, heaviest, mate);
-  if (pairs < g->n / 4) {
-    pairs += sli_match_two_hop(g, heaviest, mate);
-  }
+  sl_int pairs, count = g->n;
   memset(c, 0, sizeof *c);
-  *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
-  if (!*shrunk) {
-    return SL_OK;
+  *shrunk = 1;
+  if (g->edge == NULL && sli_level_is_wide(g)) {
+    count = sli_cluster_neighborhoods(
+      g, sli_min(heaviest, INT32_MAX / SLI_NEIGHBORHOOD_PAIRS) * SLI_NEIGHBORHOOD_PAIRS,
+      clusters);
   }
-  return sli_coarsen_clusters(g, sli_number_pairs(g, mate, clusters), clusters, c, at, a);
+  if (count > g->n / SLI_NEIGHBORHOOD_SHRINK) {
+    pairs = sli_match(g, heaviest, mate);
+    if (pairs < g->n / 4) {
+      pairs += sli_match_two_hop(g, heaviest, mate);
+    }
+    *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
+    if (!*shrunk) {
+      return SL_OK;
+    }
+    count = sli_number_pairs(g, mate, clusters);
+  }
+  return sli_coarsen_clusters(g, count, clusters, c, at, a);
 }
 
 typedef struct sli_edge_weights {
@@ -7918,6 +7965,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
+#define SLI_DISSECT_BAND_WIDE 1
 #define SLI_SEPARATOR_BALANCE 70
 
 typedef struct sli_dissection {
@@ -7926,6 +7974,7 @@ typedef struct sli_dissection {
   int n_levels, level;
   sl_int total;
   sl_int leaf_size;
+  int band;
   int band_growth;
   sli_label_tree tree;
   sli_borders borders;
@@ -8059,6 +8108,12 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
   return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
+static void sli_dissect_set_bands(sli_dissection *d, int growth) {
+  const int is_wide = sli_level_is_wide(&d->levels[0]);
+  d->band = is_wide ? SLI_DISSECT_BAND_WIDE : SLI_DISSECT_BAND;
+  d->band_growth = is_wide ? 0 : growth;
+}
+
 static void sli_dissect_separate(sli_dissection *d) {
   const sli_level *g = &d->levels[0];
   sl_int k;
@@ -8067,7 +8122,7 @@ static void sli_dissect_separate(sli_dissection *d) {
   for (k = 0; k < d->tree.count; k++) {
     const sl_int node = d->nodes[k];
     sl_int weight = d->tree.weight[node];
-    int layers = SLI_DISSECT_BAND;
+    int layers = d->band;
     if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
       continue;
     }
@@ -8331,9 +8386,10 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
 
 #define SLI_VOLUME_BORDER 5
 
-SLI_INLINE int sli_dissect_may_be_volume(const sli_dissection *d) {
+static int sli_dissect_may_be_volume(const sli_dissection *d) {
+  const sli_level *g = &d->levels[0];
   return sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d), SLI_VOLUME_BORDER,
-              d->levels[0].n);
+              sli_level_is_wide(g) ? (sl_int)(g->begin[g->n] / 4) : g->n);
 }
 
 static sl_status sli_dissect_graph(sli_dissection *d) {
@@ -9016,12 +9072,12 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
     return status;
   }
   own = sli_dissect_cost(d, &flat);
-  d->band_growth = 1;
+  sli_dissect_set_bands(d, 1);
   status = sli_dissect_metis(d);
   if (status == SL_OK && sli_tree_cost_is_less(sli_tree_cost_times(own, 100),
                          sli_tree_cost_times(sli_dissect_cost(d, &flat),
                                    SLI_METIS_REFINED_SHARE))) {
-    d->band_growth = 2;
+    sli_dissect_set_bands(d, 2);
     status = sli_dissect_graph(d);
   }
   return status;
@@ -9107,7 +9163,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
-  d->band_growth = 2;
+  sli_dissect_set_bands(d, 2);
   if (w->by_metis) {
 #if defined(SLI_METIS)
     return sli_dissect_metis_refined(d);

@@ -100,6 +100,45 @@ static inline gen_matrix_t mesh_pattern(ordering_mesh kind, sl_int side, double 
     return M;
 }
 
+/* The pattern of the k-th power of a lower triangle A: joins rows that are up to k edges apart. */
+static inline gen_matrix_t mesh_rings(const sl_csc *A, int k) {
+    gen_list_t edges = gen_list(A->n_cols), rings = gen_list(A->n_cols);
+    sl_int *ball = test_ints((size_t)A->n_cols), *seen = test_ints((size_t)A->n_cols);
+    for (sl_int j = 0; j < A->n_cols; j++) {
+        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
+            gen_add(&edges, A->i[p], j, 1.0);
+        }
+    }
+    gen_matrix_t both = gen_store(&edges, (gen_style_t){SL_TRIANGLE_BOTH, 0, 0}, 1);
+    for (sl_int v = 0; v < A->n_cols; v++) {
+        sl_int head = 0, tail = 1;
+        ball[0] = v;
+        seen[v] = v + 1;
+        for (int ring = 0; ring < k; ring++) {
+            for (const sl_int end = tail; head < end; head++) {
+                for (sl_int p = both.p[ball[head]]; p < both.p[ball[head] + 1]; p++) {
+                    if (seen[both.i[p]] != v + 1) {
+                        seen[both.i[p]] = v + 1;
+                        ball[tail++] = both.i[p];
+                    }
+                }
+            }
+        }
+        while (tail-- > 0) {
+            if (ball[tail] >= v) {
+                gen_add(&rings, ball[tail], v, 1.0);
+            }
+        }
+    }
+    gen_matrix_t M = gen_store(&rings, gen_style(0), 1);
+    gen_matrix_free(&both);
+    gen_list_free(&edges);
+    gen_list_free(&rings);
+    free(ball);
+    free(seen);
+    return M;
+}
+
 /* What an order costs. The path weight of a row is the sum of the column counts from its column to
  * the root: the entries of L that a local solve at that row reads. */
 typedef struct order_quality {

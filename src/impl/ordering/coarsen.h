@@ -202,21 +202,77 @@ static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_cl
     return status;
 }
 
-/* Makes the next coarser level. mate, at: g->n of scratch. *shrunk := whether the level is small
- * enough to be used; c is empty if not. */
+/* A graph with this many neighbors for each vertex, or more, is wide: that of A^2 or A^3 for a
+ * Laplacian A of a mesh, which joins vertices at two or three edges (18 and 36 neighbors), or of
+ * finite elements of high order. */
+#define SLI_WIDE_DEGREE 16
+/* A cluster of neighbors has at most the weight of this many pairs. */
+#define SLI_NEIGHBORHOOD_PAIRS 8
+/* Clusters of neighbors are used if they leave at most one vertex in this many. */
+#define SLI_NEIGHBORHOOD_SHRINK 4
+
+SLI_INLINE int sli_level_is_wide(const sli_level *g) {
+    return g->begin[g->n] >= SLI_WIDE_DEGREE * (sl_off)g->n;
+}
+
+/* Makes clusters of a vertex that is in none, and those of its neighbors that are in none. Returns
+ * the number of clusters. */
+static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
+                                        sli_clusters *clusters) {
+    sl_int v, count = 0, members = 0;
+    sl_off e;
+    for (v = 0; v < g->n; v++) {
+        g->coarse[v] = -1;
+    }
+    for (v = 0; v < g->n; v++) {
+        int64_t weight = sli_level_weight(g, v);
+        if (g->coarse[v] != -1) {
+            continue;
+        }
+        clusters->start[count] = members;
+        clusters->member[members++] = v;
+        g->coarse[v] = count;
+        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+            const sl_int u = g->to[e];
+            if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
+                weight += sli_level_weight(g, u);
+                clusters->member[members++] = u;
+                g->coarse[u] = count;
+            }
+        }
+        count++;
+    }
+    clusters->start[count] = members;
+    return count;
+}
+
+/* Makes the next coarser level, of pairs, or if the finest level is wide, of neighborhoods: these
+ * replace three or four levels of pairs, each of which reads and contracts most of the edges again.
+ * heaviest: a pair's largest weight; mate, at: g->n of scratch. *shrunk := whether the level is
+ * small enough to be used; c is empty if not. */
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
                              sli_clusters *clusters, sl_off *at, int *shrunk,
                              const sl_allocator *a) {
-    sl_int pairs = sli_match(g, heaviest, mate);
-    if (pairs < g->n / 4) {
-        pairs += sli_match_two_hop(g, heaviest, mate);
-    }
+    sl_int pairs, count = g->n;
     memset(c, 0, sizeof *c);
-    *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
-    if (!*shrunk) {
-        return SL_OK;
+    *shrunk = 1;
+    if (g->edge == NULL && sli_level_is_wide(g)) {
+        count = sli_cluster_neighborhoods(
+            g, sli_min(heaviest, INT32_MAX / SLI_NEIGHBORHOOD_PAIRS) * SLI_NEIGHBORHOOD_PAIRS,
+            clusters);
     }
-    return sli_coarsen_clusters(g, sli_number_pairs(g, mate, clusters), clusters, c, at, a);
+    if (count > g->n / SLI_NEIGHBORHOOD_SHRINK) {
+        pairs = sli_match(g, heaviest, mate);
+        if (pairs < g->n / 4) {
+            pairs += sli_match_two_hop(g, heaviest, mate);
+        }
+        *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
+        if (!*shrunk) {
+            return SL_OK;
+        }
+        count = sli_number_pairs(g, mate, clusters);
+    }
+    return sli_coarsen_clusters(g, count, clusters, c, at, a);
 }
 
 /* Scratch for weighing the edges of a level. to, count: room for the finest edges; start: n + 1;

@@ -23,6 +23,7 @@
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
+#define SLI_DISSECT_BAND_WIDE 1
 /* Largest percentage of the weight that one side of a separator may have. It exceeds
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
 #define SLI_SEPARATOR_BALANCE 70
@@ -35,6 +36,7 @@ typedef struct sli_dissection {
     int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
+    int band;                         /* layers of the bands of the smallest subgraphs */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
     sli_label_tree tree;
     sli_borders borders;
@@ -176,6 +178,14 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
     return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
+/* Sets the width of the bands. The cruder the borders of a method, the wider the bands. In a wide
+ * graph, a layer is as wide as two or three of a mesh, and the border is two layers already. */
+static void sli_dissect_set_bands(sli_dissection *d, int growth) {
+    const int is_wide = sli_level_is_wide(&d->levels[0]);
+    d->band = is_wide ? SLI_DISSECT_BAND_WIDE : SLI_DISSECT_BAND;
+    d->band_growth = is_wide ? 0 : growth;
+}
+
 /* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
  * subgraph, the wider its band: the first separators decide most of the fill, and there are few of
  * them. If a separator is unbalanced, narrower bands are tried, finally only the border. */
@@ -187,7 +197,7 @@ static void sli_dissect_separate(sli_dissection *d) {
     for (k = 0; k < d->tree.count; k++) {
         const sl_int node = d->nodes[k];
         sl_int weight = d->tree.weight[node];
-        int layers = SLI_DISSECT_BAND;
+        int layers = d->band;
         if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
             continue;
         }

@@ -110,12 +110,14 @@ static sl_int sli_dissect_root_border(const sli_dissection *d) {
 }
 
 /* A border of more than half of this many times sqrt(n) vertices is unusual on a surface: the graph
- * may be a volume. */
+ * may be a volume. In a wide graph of a surface, where vertices at k edges are neighbors, borders
+ * are k layers, and 4 k^2 is about the number of neighbors. */
 #define SLI_VOLUME_BORDER 5
 
-SLI_INLINE int sli_dissect_may_be_volume(const sli_dissection *d) {
+static int sli_dissect_may_be_volume(const sli_dissection *d) {
+    const sli_level *g = &d->levels[0];
     return sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d), SLI_VOLUME_BORDER,
-                            d->levels[0].n);
+                            sli_level_is_wide(g) ? (sl_int)(g->begin[g->n] / 4) : g->n);
 }
 
 /* Finds labels by multilevel dissection. In graphs that may be volumes, level sets are tried too
