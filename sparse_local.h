@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 69639bdf95f7a836
+ * FNV-1a of the lines after this comment, without the license: 40dd75dc66f85a73
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -386,7 +386,7 @@ typedef struct sl_region sl_region;     /* a part of the matrix where local solv
 
 /** Runs body(data, k) once for each k = 0 .. count-1, in any order and concurrently if it can, and
  *  returns when all are done. A body may wait for others that have begun, never for one that has
- *  not: fewer threads, or one, only take longer. */
+ *  not: fewer threads, or one, only take longer. tools/examples/threads.c is a pool of pthreads. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
 

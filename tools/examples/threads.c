@@ -1,0 +1,105 @@
+/* threads.c: a thread pool of pthreads for options.threads, with a factorization on it */
+#include <pthread.h>
+#include <string.h>
+
+#include "example.h"
+
+enum { WORKERS = 3, RHS = 32 }; /* WORKERS: besides the calling thread */
+
+/* Workers and the caller take the next index of the loop until none is left. The caller returns
+ * when every index that was taken is done, whether all workers woke up or none. */
+typedef struct pool {
+    pthread_mutex_t lock;
+    pthread_cond_t begin, end;
+    sl_int next, count, running; /* of the current loop */
+    int closing;
+    void (*body)(void *data, sl_int k);
+    void *data;
+} pool;
+
+/* Takes indices; the lock is held, except while an index runs. */
+static void take(pool *p) {
+    while (p->next < p->count) {
+        const sl_int k = p->next++;
+        p->running++;
+        pthread_mutex_unlock(&p->lock);
+        p->body(p->data, k);
+        pthread_mutex_lock(&p->lock);
+        p->running--;
+    }
+    if (p->running == 0) {
+        pthread_cond_signal(&p->end);
+    }
+}
+
+static void *worker(void *context) {
+    pool *p = context;
+    pthread_mutex_lock(&p->lock);
+    while (!p->closing) {
+        take(p);
+        pthread_cond_wait(&p->begin, &p->lock);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
+
+/* An sl_parallel_for. One loop at a time: calls on different factors at once need a pool each. */
+static void run(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
+    pool *p = context;
+    pthread_mutex_lock(&p->lock);
+    p->body = body;
+    p->data = data;
+    p->next = 0;
+    p->count = count;
+    pthread_cond_broadcast(&p->begin);
+    take(p);
+    while (p->running > 0) {
+        pthread_cond_wait(&p->end, &p->lock);
+    }
+    p->count = 0;
+    pthread_mutex_unlock(&p->lock);
+}
+
+int main(void) {
+    pool p = {.lock = PTHREAD_MUTEX_INITIALIZER,
+              .begin = PTHREAD_COND_INITIALIZER,
+              .end = PTHREAD_COND_INITIALIZER};
+    pthread_t threads[WORKERS];
+    sl_matrix *M = grid_laplacian(0.1);
+    const sl_csc A = sl_matrix_view(M);
+    sl_symbolic *S = NULL;
+    sl_factor *F[2] = {NULL, NULL};
+    sl_options options;
+    static double B[RHS * N], X[2][RHS * N];
+    int started = 0, k, same;
+    while (started < WORKERS && pthread_create(&threads[started], NULL, worker, &p) == 0) {
+        started++; /* fewer threads only take longer */
+    }
+    for (k = 0; k < RHS * N; k++) {
+        B[k] = sin(k);
+    }
+    ok(sl_symbolic_create(&S, &A, NULL, NULL));
+    sl_options_init(&options, sizeof options);
+    for (k = 0; k < 2; k++) { /* on the calling thread, then on the pool */
+        sl_request solve = {NULL, X[k], N, B, N, RHS, NULL};
+        options.threads.count = k == 0 ? 1 : WORKERS + 1;
+        options.threads.run = run;
+        options.threads.context = &p;
+        ok(sl_factor_create(&F[k], S, &A, &options, NULL));
+        ok(sl_batch_solve(F[k], &solve, 1, &options, NULL, NULL));
+    }
+    same = memcmp(X[0], X[1], sizeof X[0]) == 0;
+    printf("%d threads: %s\n", started + 1, same ? "the same bits" : "different");
+    pthread_mutex_lock(&p.lock);
+    p.closing = 1;
+    pthread_cond_broadcast(&p.begin);
+    pthread_mutex_unlock(&p.lock);
+    while (started > 0) {
+        pthread_join(threads[--started], NULL);
+    }
+    sl_factor_free(F[0]);
+    sl_factor_free(F[1]);
+    sl_symbolic_free(S);
+    sl_matrix_free(M);
+    return !same;
+}
