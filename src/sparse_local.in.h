@@ -162,6 +162,8 @@ extern "C" {
 #include "impl/change/edit_match.h"
 #include "impl/change/edit_place.h"
 #include "impl/change/edit_order.h"
+#include "impl/change/edit_graph.h"
+#include "impl/change/edit_join.h"
 #include "impl/change/edit.h"
 /* save: factors in files */
 #include "impl/save/format.h"

@@ -3,7 +3,7 @@
 #define SLI_CHANGE_EDIT_H
 
 #include "../../public/edit.h"
-#include "edit_order.h"
+#include "edit_join.h"
 
 /* Beyond this share of active rows an order of its own is as fast. */
 #define SLI_EDIT_MOST_ACTIVE 0.25
@@ -63,25 +63,33 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
     return sli_edit_order(e, a);
 }
 
-/* Analyzes B in the order that was found. */
-static sl_status sli_edit_analyze(sl_symbolic **out, const sli_edit *e, const sl_options *opt,
-                                  const sl_allocator *a, sl_stats *stats) {
-    sl_options given = sli_options_with(a);
-    sl_int *perm = e->cursor, k, at = 0;
-    for (k = 0; k < e->S->n; k++) {
-        if (e->mark[e->S->super_of[k]] == SLI_NODE_KEPT) {
-            perm[at++] = e->new_of[e->S->perm[k]];
-        }
+/* Analyzes B in the order that was found: only its fresh columns anew. */
+static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_options *opt,
+                                  const sl_allocator *a, double started, sl_stats *stats) {
+    const double ordered = sli_seconds();
+    sli_edit_join j;
+    sl_stats found;
+    sl_status status;
+    memset(&j, 0, sizeof j);
+    memset(&found, 0, sizeof found);
+    j.e = e;
+    found.symbolic.triangle = e->triangle;
+    status = sli_edit_analyze_fresh(e, &j.r, opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation,
+                                    a, &found);
+    found.symbolic.seconds_tree = sli_seconds() - ordered;
+    if (status == SL_OK) {
+        status = sli_edit_join_make(out, &j, a, &found);
     }
-    for (k = 0; k < e->n_fresh; k++) {
-        perm[at++] = e->fresh[k];
+    if (status == SL_OK) {
+        sl_symbolic_info *info = &(*out)->stats.symbolic;
+        info->seconds_order = ordered - started;
+        info->seconds_analyze = sli_seconds() - ordered;
+        info->seconds_structure = info->seconds_analyze - info->seconds_tree;
+        sl_symbolic_stats(*out, stats);
     }
-    SLI_ASSERT(at == e->n);
-    given.ordering = SL_ORDERING_GIVEN;
-    given.perm = perm;
-    given.triangle = e->triangle;
-    given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
-    return sl_symbolic_create(out, e->B, &given, stats);
+    sli_restriction_free(&j.r, a);
+    sli_free(a, j.block);
+    return status;
 }
 
 /* Compares the entries of L with those of the last new order. */
@@ -138,7 +146,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
     }
     status = status == SL_OK ? sli_edit_find(&e, &is_local, &a, stats) : status;
     if (status == SL_OK) {
-        status = is_local ? sli_edit_analyze(out, &e, opt, &a, stats)
+        status = is_local ? sli_edit_analyze(out, &e, opt, &a, started, stats)
                           : sl_symbolic_create(out, B, opt, stats);
     }
     if (status == SL_OK) {

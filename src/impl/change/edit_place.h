@@ -99,7 +99,7 @@ SLI_INLINE int sli_edit_is_above(const sli_edit *e, sl_int a, sl_int b) {
 }
 
 /* The lowest common ancestor of two nodes. */
-static sl_int sli_edit_join(sli_edit *e, sl_int a, sl_int b) {
+static sl_int sli_edit_meet(sli_edit *e, sl_int a, sl_int b) {
     while (!sli_edit_is_above(e, a, b) && e->steps > 0) {
         a = e->S->super_parent[a];
         a = a == -1 ? e->S->n_supers : a;
@@ -130,7 +130,7 @@ static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
         } else if (sli_edit_is_above(e, lowest, node)) {
             lowest = is_join ? lowest : node;
         } else if (!sli_edit_is_above(e, node, lowest)) {
-            lowest = sli_edit_join(e, lowest, node);
+            lowest = sli_edit_meet(e, lowest, node);
             is_join = 1;
         }
     }

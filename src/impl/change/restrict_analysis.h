@@ -33,7 +33,8 @@ typedef struct sli_restriction {
 
     sl_off *below_begin; /* n_kept + 1 */
     sl_int *below;       /* below_begin[n_kept]: the rows of R below each supernode, as ranks */
-    sl_int n_entries;    /* of the graph of new columns: one triangle */
+    sl_relaxation relaxation;
+    sl_int n_entries; /* of the graph of new columns: one triangle */
     sl_int *entry_row, *entry_column;
     sl_int *entry_from; /* position in A; -1: of a clique */
 
@@ -241,6 +242,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     }
     sli_restriction_sort(r);
     given.ordering = SL_ORDERING_GIVEN;
+    given.relaxation = r->relaxation;
     sli_analyze_tree(w, &given, stats);
     T->n = r->n_fresh;
     T->n_supers = w->amalgamation.count;
