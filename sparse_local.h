@@ -1,84 +1,86 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 91627cdc0ecd395d
+ * FNV-1a of the lines after this comment, without the license: 5e1f3495b6b42b35
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     86 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    155 config.h     macros that a user may define before the include, the version, and the integer types
- *    234 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    386 options.h    options of all calls, threads, and the allocator
- *    525 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    693 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    865 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    995 factor.h     the numerical factorization P A P' = L D L'
- *   1244 solve.h      full solves, and the workspace of all solves
- *   1354 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1448 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1561 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1674 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1810 batch.h      many independent solves by one call, distributed over threads
- *   1860 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2038 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2157 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2261 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2400 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2518 change.h     a factor that follows small changes of its matrix
- *   2605 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2695 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2822 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2871 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *     88 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    157 config.h     macros that a user may define before the include, the version, and the integer types
+ *    236 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    390 options.h    options of all calls, threads, and the allocator
+ *    529 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    697 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    869 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    999 factor.h     the numerical factorization P A P' = L D L'
+ *   1263 solve.h      full solves, and the workspace of all solves
+ *   1373 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1467 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1580 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1693 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1829 batch.h      many independent solves by one call, distributed over threads
+ *   1879 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2057 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2176 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2280 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2419 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2537 change.h     a factor that follows small changes of its matrix
+ *   2624 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2714 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2841 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2890 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2923 base.h   3202 status.h   3263 options.h   3321 alloc.h   3431 hash.h   3561 file_map.h
- *   3657 sort.h   3721 parallel.h
+ *   2942 base.h   3221 status.h   3282 options.h   3340 alloc.h   3450 hash.h   3580 file_map.h
+ *   3676 sort.h   3740 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3804 panel.h   3826 step.h   3867 pivot_rule.h   3934 front.h   3982 pairs.h
- *   4189 inverse_front.h   4261 table.h   4285 simd.h   4355 simd_scalar.h   4484 simd_avx2.h
- *   4685 simd_avx512.h   4794 simd_neon.h   4989 dispatch.h
+ *   3823 panel.h   3845 step.h   3886 pivot_rule.h   3958 front.h   4017 pairs.h
+ *   4224 inverse_front.h   4296 table.h   4317 simd.h   4406 simd_scalar_single.h
+ *   4451 simd_scalar.h   4566 simd_avx2_single.h   4619 simd_avx2.h   4824 simd_avx512_single.h
+ *   4874 simd_avx512.h   4987 simd_neon_single.h   5028 simd_neon.h   5227 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5069 csc.h   5183 csc_build.h   5317 csc64.h   5388 csc_triangle.h   5454 csc_products.h
- *   5571 permute.h   5637 sum.h   5719 output_file.h   5928 matrix_market.h
+ *   5307 csc.h   5421 csc_build.h   5555 csc64.h   5626 csc_triangle.h   5692 csc_products.h
+ *   5809 permute.h   5875 sum.h   5957 output_file.h   6166 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6374 graph.h   6523 coarsen.h   6835 labels.h   7029 subgraph.h   7224 heap.h   7284 bisect.h
- *   7514 separator.h   7776 mindeg.h   7959 dissect.h   8293 levelset.h   8413 geometric.h
- *   8588 cells.h   8768 septree.h   8828 metis.h   8977 metis_refined.h   9091 nd.h
- *   9283 compress.h   9404 quotient.h   9818 order.h
+ *   6612 graph.h   6761 coarsen.h   7073 labels.h   7267 subgraph.h   7462 heap.h   7522 bisect.h
+ *   7752 separator.h   8014 mindeg.h   8197 dissect.h   8531 levelset.h   8651 geometric.h
+ *   8826 cells.h   9006 septree.h   9066 metis.h   9215 metis_refined.h   9329 nd.h
+ *   9521 compress.h   9642 quotient.h  10056 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10100 symbolic_types.h  10137 etree.h  10210 counts.h  10267 supernodes.h  10489 structure.h
- *  10610 schedule.h  10890 symbolic.h  11300 reach.h
+ *  10338 symbolic_types.h  10375 etree.h  10448 counts.h  10505 supernodes.h  10727 structure.h
+ *  10848 schedule.h  11128 symbolic.h  11538 reach.h
  * (factor: the numbers of L and D)
- *  11571 factor_types.h  11898 storage.h  11969 pivot_search.h  12315 pivoted.h  12383 scatter.h
- *  12541 uplooking.h  12613 null_product.h  12817 null_dense.h  12894 null_basis.h
- *  13202 null_vectors.h  13346 multifrontal.h  13472 front_tasks.h  13802 nullspace.h
- *  14005 growth.h  14081 factor_setup.h  14380 factor.h  14586 leftlooking.h  14770 factor_query.h
- *  14905 combination.h
+ *  11809 factor_types.h  12184 storage.h  12257 pivot_search.h  12603 pivoted.h  12671 scatter.h
+ *  12829 uplooking.h  12901 null_product.h  13105 null_dense.h  13182 null_basis.h
+ *  13490 null_vectors.h  13632 multifrontal.h  13809 front_tasks.h  14151 nullspace.h
+ *  14354 growth.h  14430 factor_setup.h  14730 factor.h  14936 leftlooking.h  15120 factor_query.h
+ *  15255 combination.h
  * (solve: full and local solves)
- *  14966 region_types.h  15070 work.h  15167 query.h  15341 singular.h  15608 backward.h
- *  15638 sweep.h  15824 compile.h  16017 plan.h  16124 local.h  16274 parts.h  16561 refine.h
- *  16740 refine_local.h  16955 rcond.h  17112 defects.h
+ *  15316 region_types.h  15420 work.h  15517 query.h  15691 singular.h  15958 backward.h
+ *  15988 sweep.h  16174 compile.h  16367 plan.h  16474 local.h  16624 parts.h  16911 refine.h
+ *  17090 refine_local.h  17305 rcond.h  17461 defects.h
  * (inverse: entries of the inverse, regions)
- *  17189 traversal.h  17434 traversal_run.h  17617 row_sets.h  17644 unit_vectors.h
- *  17869 bilinear.h  18046 entries.h  18327 block.h  18567 reserve.h  18759 selected.h
- *  18969 selected_query.h  19071 region_choose.h  19298 region.h
+ *  17538 traversal.h  17783 traversal_run.h  17966 row_sets.h  17993 unit_vectors.h
+ *  18218 bilinear.h  18395 entries.h  18676 block.h  18916 reserve.h  19108 selected.h
+ *  19318 selected_query.h  19420 region_choose.h  19647 region.h
  * (change: a factor that follows changes of its matrix)
- *  19546 update.h  19896 rank.h  20225 edges.h  20379 choose.h  20573 pins.h  21137 subset.h
- *  21244 restrict_analysis.h  21541 restrict_anew.h  21595 restrict_symbolic.h  21776 restrict.h
- *  22124 edit_match.h  22306 edit_place.h  22510 edit_order.h  22671 edit_graph.h
- *  22766 edit_join.h  23042 edit.h
+ *  19895 update.h  20245 rank.h  20574 edges.h  20728 choose.h  20922 pins.h  21486 subset.h
+ *  21593 restrict_analysis.h  21890 restrict_anew.h  21944 restrict_symbolic.h  22125 restrict.h
+ *  22473 edit_match.h  22655 edit_place.h  22859 edit_order.h  23020 edit_graph.h
+ *  23115 edit_join.h  23391 edit.h
  * (save: factors in files)
- *  23194 format.h  23490 decode.h  23636 check.h  23968 write.h  24271 load.h  24539 load_inverse.h
- *  24871 load_calls.h
+ *  23543 format.h  23839 decode.h  23987 check.h  24319 write.h  24622 load.h  24890 load_inverse.h
+ *  25222 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25070 batch_solve.h  25279 batch_factor.h  25480 batch_diagonal.h
+ *  25421 batch_solve.h  25630 batch_factor.h  25831 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  25620 hermitian.h  25782 complex_rows.h
+ *  25971 hermitian.h  26133 complex_rows.h
  * (last: undefine every internal macro)
- *  25950 undef.h
+ *  26301 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26136 multi_rhs.inl.h  26519 sweeps.inl.h  26521 unit_triangle.inl.h  26558 two_rhs.inl.h
- *  26727 small_supernode.inl.h  26886 single_rhs.inl.h  27130 kernel_set.inl.h  27132 product.inl.h
- *  27260 front.inl.h  27474 inverse_front.inl.h  27759 row.inl.h  27789 change.inl.h
+ *  26505 front.inl.h  26507 product.inl.h  26898 words_undef.inl.h  26972 multi_rhs.inl.h
+ *  27355 sweeps.inl.h  27357 unit_triangle.inl.h  27394 two_rhs.inl.h  27563 small_supernode.inl.h
+ *  27722 single_rhs.inl.h  27966 kernel_set.inl.h  27968 inverse_front.inl.h  28253 row.inl.h
+ *  28283 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -339,10 +341,12 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
-/** The type in which a factor keeps L. Arithmetic, D, B and X are double in any case. */
+/** The type in which a factor keeps L. D, B, X and the arithmetic of solves are double in any case.
+ *  See sl_factor_create. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
-    SL_STORAGE_FLOAT /* half the bytes of L, its accuracy until refined: sl_factor_create */
+    SL_STORAGE_FLOAT,       /* half the bytes of L, its accuracy until refined */
+    SL_STORAGE_FLOAT_FRONTS /* fronts are computed in float, too: half the time, less accuracy */
 } sl_storage;
 
 /** What to do with a null pivot. */
@@ -497,7 +501,7 @@ typedef struct sl_options {
     const double *null_vector;
 
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
-     * 1 / epsilon = 4.5e15, or 8.4e6 with SL_STORAGE_FLOAT, beyond which L D L' may agree with A in
+     * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
     double growth_limit;
     /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
@@ -507,8 +511,8 @@ typedef struct sl_options {
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
      * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
-    /* SL_STORAGE_FLOAT keeps L in half the bytes; solutions have the accuracy of float until they
-     * are refined (sl_factor_create) */
+    /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
+     * float; solutions have the accuracy of float until they are refined (sl_factor_create) */
     sl_storage storage;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */
@@ -1044,6 +1048,19 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *    one that underflows where that loses more than rounding does. Scaling A to a unit diagonal
  *    avoids both.
  *
+ *  With SL_STORAGE_FLOAT_FRONTS fronts and pivots are computed in float, too: about half the time
+ *  and the memory of double, and all of the above with the following differences.
+ *  - Solutions have a backward error of about 1e-7 to 1e-5 * growth before refinement: the rounding
+ *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
+ *    known to float's accuracy.
+ *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
+ *    epsilon unless it is given, and SL_ERR_PIVOT says that a pivot is null in float. A may be
+ *    regular in double. A pivot of a semidefinite matrix within rounding of 0, which double would
+ *    keep and count as weak, is refused, too.
+ *  - Entries of A above 8.5e37, and pivots computed from magnitudes below 7.9e-31, are refused with
+ *    SL_ERR_INACCURATE.
+ *  - 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
+ *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
@@ -1105,8 +1122,10 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
  *           error.row, and error.column if it is an entry of A; with mass, also a mean that
  *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
- *           of error.row, or an entry of L in the column of that pivot that float cannot hold;
- *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with
+ *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
+ *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
+ *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
+ *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with
  *           several null vectors, or more of them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
@@ -1232,11 +1251,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
-    /* panels, in the layout described at sl_symbolic_arrays; NULL with SL_STORAGE_FLOAT */
+    /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float */
     const double *L;
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
     const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
-    const float *L_float; /* the same panels with SL_STORAGE_FLOAT; else NULL */
+    const float *L_float; /* the same panels in float; else NULL */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
@@ -1565,7 +1584,7 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan_part(sl_work *W, const sl_p
  *  For each column: computes the residual, solves for a correction and adds it, until the
  *  componentwise backward error max_i |b - A x|_i / (|A| |x| + |b|)_i is at most epsilon, a
  *  correction does not halve it, or the steps are used up. A correction that increases it is
- *  discarded. With SL_STORAGE_FLOAT it takes two such corrections in a row, and the first is kept
+ *  discarded. With L in float it takes two such corrections in a row, and the first is kept
  *  even if it doubles the error: x gains digits before the error shows it. With a regularized
  *  factor, of A + E, this turns the solution of (A + E) x = b into that of A x = b. If null pivots
  *  were skipped, B has to be consistent.
@@ -1631,7 +1650,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  above, solutions are worthless. Up to rounding, the true value is never larger than the
  *  estimate, and rarely smaller than a third of it. L D L' is judged, too: the solves of the
  *  estimator are checked against A, and where their largest backward error w exceeds 64 epsilon,
- *  because L has grown, the estimate is multiplied by epsilon / w; with SL_STORAGE_FLOAT epsilon is
+ *  because L has grown, the estimate is multiplied by epsilon / w; with L in float epsilon is
  *  that of float here, and rcond is that of A down to about 1e-13. 0 if null pivots were skipped; 1
  *  if n = 0. If regularization changed pivots, all this is about A + E.
  *
@@ -2898,9 +2917,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
  *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
  *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n + nnz + rows of the supernodes) with small constants, to compare the patterns and to copy
- *           the analysis; besides, the order and analysis of the columns above the edit. With a
- *           mesh of 1e6 vertices, of which 0.1 % are remeshed, 1/12 to 1/18 of a new analysis.
+ *  Cost     O(n + nnz + rows of the supernodes) with small constants, to compare the patterns and
+ *           to copy the analysis; besides, the order and analysis of the columns above the edit.
+ *           With a mesh of 1e6 vertices, of which 0.1 % are remeshed, 1/12 to 1/18 of a new one.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators.
  *  Example  tests/core/test_edit.c
@@ -3875,6 +3894,7 @@ enum {
 
 typedef struct sli_pivot_rule {
   double null_tolerance;
+  double epsilon;
   int replaces;
   double regularization;
   signed char *signs;
@@ -3890,10 +3910,14 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
   return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
 }
 
+SLI_INLINE float sli_to_float(double d) {
+  return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
+}
+
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
                   double magnitude) {
   const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
-  const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = DBL_EPSILON * magnitude;
+  const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
   const int is_wrong = d * sign < 0.0;
   if (!sli_is_finite(d)) {
     return d;
@@ -3954,6 +3978,10 @@ SLI_INLINE sl_int sli_front_groups(sl_int width) {
   return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
 }
 
+typedef struct sli_front_single {
+  float *panel, *update, *D, *magnitude, *reciprocals;
+} sli_front_single;
+
 typedef struct sli_front {
   double *panel;
   sl_int width, below;
@@ -3963,21 +3991,28 @@ typedef struct sli_front {
   const unsigned char *pairs;
   double *E;
   double *reciprocals;
+  sli_front_single single;
   const sli_pivot_rule *rule;
   sl_int column;
 } sli_front;
 
-typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch);
+typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, void *scratch);
 
-typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                double *scratch);
+typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1, void *scratch);
 
 typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
-                  double *scratch);
+                  void *scratch);
 
-typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
+typedef void (*sli_assemble_kernel)(const sli_front *f, const void *from, sl_int skipped,
                   const sl_int *relative, sl_int columns, sl_int first,
                   sl_int last);
+
+typedef struct sli_front_kernels {
+  sli_pivots_kernel pivots;
+  sli_rows_kernel rows;
+  sli_update_kernel update;
+  sli_assemble_kernel assemble;
+} sli_front_kernels;
 
 /* src/impl/kernels/pairs.h: 2x2 pivots: the column tile that holds some, and the rows below it, in plain C */
 
@@ -4270,10 +4305,7 @@ typedef struct sli_kernels {
   sl_isa isa;
   sli_sweeps sweeps[2];
   sli_row_kernel row;
-  sli_pivots_kernel pivots;
-  sli_rows_kernel rows;
-  sli_update_kernel update;
-  sli_assemble_kernel assemble;
+  sli_front_kernels fronts[2];
   sli_products_kernel products;
   sli_gather_kernel gather;
   sli_inverse_phase_kernel inverse_phase;
@@ -4315,8 +4347,8 @@ typedef struct sli_kernels {
   (void)(mask);
 #define SLI_EXPAND_ADD_PLAIN(to, from) \
   { \
-    double *to_ = (to); \
-    const double *from_ = (from); \
+    SLV_VALUE *to_ = (to); \
+    const SLV_VALUE *from_ = (from); \
     sl_int i_; \
     for (i_ = 0; i_ < count_; i_++) { \
       to_[lanes_[i_]] += from_[i_]; \
@@ -4340,7 +4372,26 @@ typedef struct sli_kernels {
       SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
     } \
   }
+#define SLI_OF_0(f, array) (f)->array
+#define SLI_OF_1(f, array) (f)->single.array
+#define SLI_LEAST_0 1e-290
+#define SLI_LEAST_1 1e-30
+#define SLI_MOST_0 1e290
+#define SLI_MOST_1 1e30
+#define SLI_PIVOT_0(d) (d)
+#define SLI_PIVOT_1(d) sli_to_float(d)
+#define SLI_PACK_PAIRS_0(l, E, j, length, B) \
+  if (E != NULL) { \
+    sli_pair_pack(l, E + (j), length, B); \
+  }
+#define SLI_PACK_PAIRS_1(l, E, j, length, B) (void)E;
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
+#define SLV_OF(f, array) SLI_BY_TYPE(SLI_OF_, SLV_SINGLE)(f, array)
+#define SLV_LEAST SLI_BY_TYPE(SLI_LEAST_, SLV_SINGLE)
+#define SLV_MOST SLI_BY_TYPE(SLI_MOST_, SLV_SINGLE)
+#define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
+#define SLV_PACK_PAIRS(l, E, j, length, B) \
+  SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
@@ -4352,7 +4403,7 @@ typedef struct sli_kernels {
 #define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
 #define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
 
-/* src/impl/kernels/simd_scalar.h: the kernels in plain C: a vector is an array */
+/* src/impl/kernels/simd_scalar_single.h: the kernels of fronts in float in plain C: a vector is an array */
 
 #define SLI_LOOP(count, statement) \
   { \
@@ -4361,6 +4412,43 @@ typedef struct sli_kernels {
       statement; \
     } \
   }
+
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#define SLV_NAME(f) sli_single_##f##_scalar
+#define SLV_FUNCTION
+#define SLV_DECLARE(a) float a[SLI_TILE];
+#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0F)
+#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
+#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
+#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
+#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
+#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
+#define SLV_BELOW(a, k) SLI_LOOP(SLI_TILE, a[i_] = i_ > (k) ? a[i_] : 0.0F)
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+/* The header includes itself from here on: its templates, at the end, are compiled once for
+ * each instruction set. SL_HEADER is the name of this file. */
+#if defined(__has_include)
+#if !__has_include(SL_HEADER)
+#error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
+#endif
+#endif
+#define SLI_SECTION_FRONT
+#include SL_HEADER /* not found: define SL_HEADER, see above */
+#ifdef SLI_SECTION_FRONT
+#error "sparse_local.h: SL_HEADER names another file, not this one"
+#endif
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+
+/* src/impl/kernels/simd_scalar.h: the kernels in plain C: a vector is an array */
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
@@ -4445,18 +4533,8 @@ typedef struct sli_kernels {
 
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
-/* The header includes itself from here on: its templates, at the end, are compiled once for
- * each instruction set. SL_HEADER is the name of this file. */
-#if defined(__has_include)
-#if !__has_include(SL_HEADER)
-#error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
-#endif
-#endif
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER /* not found: define SL_HEADER, see above */
-#ifdef SLI_SECTION_MULTI_RHS
-#error "sparse_local.h: SL_HEADER names another file, not this one"
-#endif
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 
@@ -4477,9 +4555,66 @@ typedef struct sli_kernels {
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
+#define SLI_SECTION_FRONT
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
 #undef SLI_LOOP
+
+/* src/impl/kernels/simd_avx2_single.h: the kernels of fronts in float in AVX2: a vector of 8 is one register */
+
+#if defined(SLI_X86)
+
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#define SLV_NAME(f) sli_single_##f##_avx2
+#define SLV_FUNCTION SLI_TARGET("avx2,fma")
+
+SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
+  int at[SLI_TILE], k, from = 0;
+  for (k = 0; k < SLI_TILE; k++) {
+    const int is_set = (int)(mask >> k & 1u);
+    at[k] = is_set ? from : -1;
+    from += is_set;
+  }
+  return _mm256_loadu_si256((const __m256i *)(const void *)at);
+}
+
+#define SLV_DECLARE(a) __m256 a;
+#define SLV_ZERO(a) a = _mm256_setzero_ps();
+#define SLV_LOAD(a, p) a = _mm256_load_ps(p);
+#define SLV_STORE(p, a) _mm256_store_ps((p), a);
+#define SLV_LOAD_PINNED(a, p) \
+  a = _mm256_load_ps(p); \
+  SLI_PIN(a);
+#define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
+#define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
+#define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
+#define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
+#define SLV_BELOW(a, k) \
+  a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
+               _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
+#define SLV_TILES 2
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_EXPAND(mask, lanes, count) \
+  const __m256i order_ = sli_single_expand_index(mask); \
+  const __m256 keep_ = _mm256_castsi256_ps(_mm256_cmpgt_epi32(order_, _mm256_set1_epi32(-1))); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm256_store_ps( \
+    (to), _mm256_add_ps( \
+          _mm256_load_ps(to), \
+          _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
+#define SLI_SECTION_FRONT
+#include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+
+#endif
 
 /* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA: a vector of 8 doubles is two registers */
 
@@ -4677,8 +4812,62 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
+#define SLI_SECTION_FRONT
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+
+#endif
+
+/* src/impl/kernels/simd_avx512_single.h: the kernels of fronts in float in AVX-512F: a register has 16 lanes */
+
+#if defined(SLI_X86) && !defined(SL_NO_AVX512)
+
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#define SLV_NAME(f) sli_single_##f##_avx512
+#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
+
+#define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
+
+#define SLV_DECLARE(a) __m512 a;
+#define SLV_ZERO(a) a = _mm512_setzero_ps();
+#define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
+#define SLV_STORE(p, a) _mm256_store_ps((p), _mm512_castps512_ps256(a));
+#define SLV_VECTOR_TILES 2
+#define SLV_LOAD_TILES(a, p, q) \
+  a = _mm512_castpd_ps( \
+    _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
+#define SLV_STORE_TILES(p, q, a) \
+  SLV_STORE(p, a) \
+  _mm256_store_ps((q), \
+          _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), 1)));
+#define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
+#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
+#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
+#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
+#define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
+#define SLV_TILES 4
+#define SLV_COLUMNS 8
+#define SLV_EACH_COLUMN SLI_EACH8
+#define SLV_EXPAND(mask, lanes, count) \
+  const __mmask16 expand_ = (__mmask16)(mask); \
+  const __m512i order_ = _mm512_maskz_expand_epi32( \
+    expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm256_store_ps((to), _mm256_add_ps(_mm256_load_ps(to), \
+                    _mm512_castps512_ps256(_mm512_maskz_permutexvar_ps( \
+                      expand_, order_, \
+                      _mm512_castps256_ps512(_mm256_loadu_ps(from))))));
+#define SLI_SECTION_FRONT
+#include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#undef SLV_HALF
 
 #endif
 
@@ -4786,7 +4975,52 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
+#define SLI_SECTION_FRONT
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
+#include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+
+#endif
+
+/* src/impl/kernels/simd_neon_single.h: the kernels of fronts in float in NEON: a vector of 8 is two registers */
+
+#if defined(SLI_ARM)
+
+#undef SLV_SINGLE
+#define SLV_SINGLE 1
+#define SLV_NAME(f) sli_single_##f##_neon
+#define SLV_FUNCTION
+#define SLV_DECLARE(a) float32x4_t a##_0, a##_1;
+#define SLV_ZERO(a) a##_0 = a##_1 = vdupq_n_f32(0.0F);
+#define SLV_LOAD(a, p) a##_0 = vld1q_f32(p), a##_1 = vld1q_f32((p) + 4);
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_STORE(p, a) vst1q_f32((p), a##_0), vst1q_f32((p) + 4, a##_1);
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
+#define SLV_LANE(b, a, k) \
+  b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
+#define SLV_FNMA(a, b, c) \
+  a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
+#define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c) a##_0 = vdivq_f32(b##_0, c##_0), a##_1 = vdivq_f32(b##_1, c##_1);
+#define SLV_BELOW(a, k) \
+  { \
+    static const int32_t lanes_[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7}; \
+    const int32x4_t k_ = vdupq_n_s32(k); \
+    a##_0 = vreinterpretq_f32_u32( \
+      vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
+    a##_1 = vreinterpretq_f32_u32( \
+      vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
+  }
+#define SLV_TILES 2
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLI_SECTION_FRONT
+#include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 
 #endif
@@ -4981,7 +5215,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
+#define SLI_SECTION_FRONT
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
+#include SL_HEADER
+#define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 
 #endif
@@ -10677,7 +10915,7 @@ SLI_INLINE int sli_front_is_large(const sli_step *s) {
 }
 
 SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
-  return SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
+  return SLI_TILE * ((sl_off)sli_tiles(s->width + s->below) + sli_tiles(s->width)) +
        SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width);
 }
 
@@ -11730,26 +11968,54 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
   return low;
 }
 
+SLI_INLINE double sli_epsilon(sl_storage storage) {
+  return storage == SL_STORAGE_FLOAT_FRONTS ? (double)FLT_EPSILON : DBL_EPSILON;
+}
+
+SLI_INLINE int sli_is_single(const sl_factor *F) {
+  return F->storage == SL_STORAGE_FLOAT_FRONTS;
+}
+
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
   return F->storage == SL_STORAGE_FLOAT ? F->panels + F->panel_room * worker
                       : (double *)F->values + F->S->steps[s].panel;
 }
 
+#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
+#define SLI_SINGLE_LEAST 7.888609052210118e-31
+
+SLI_INLINE float sli_single(double a) {
+  const float x = (float)a;
+  return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
+}
+
+#define SLI_ENTRIES_AHEAD 32
+
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                           sl_off first, sl_off last, const double *x,
-                           const sl_int *scatter_from,
+                           float *single, sl_off first, sl_off last,
+                           const double *x, const sl_int *scatter_from,
                            sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
+  const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
+  const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
   double largest = F->extents[s].entry;
   sl_off m;
   for (m = first; m < last; m++) {
+    if (scatter_from != NULL && m < ahead) { /* untested: constant */
+      SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
+    }
     const double a =
       scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
     const double size = fabs(a);
-    if (!sli_is_finite(a)) {
-      return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+    if (!(size <= most)) {
+      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
+              -1, m, a);
     }
-    panel[to[m] - begin] += a;
+    if (panel == NULL) {
+      single[to[m] - begin] += sli_single(a);
+    } else {
+      panel[to[m] - begin] += a;
+    }
     largest = size > largest ? size : largest;
   }
   F->extents[s].entry = largest;
@@ -11771,7 +12037,7 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
 }
 
 static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s, double *panel,
-                sli_failure *failure) {
+                float *single, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sl_off end = S->scatter_begin[s + 1];
   sl_off m = S->scatter_begin[s], last;
@@ -11781,12 +12047,17 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   F->extents[s].pivot = -1;
   F->extents[s].zero = 0;
   if (from->A != NULL) {
-    return sli_panel_load_entries(F, s, panel, m, end, from->A->x, S->scatter_from, failure);
+    return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, m, end, from->A->x,
+                            S->scatter_from, failure)
+               : sli_panel_load_entries(F, s, panel, NULL, m, end, from->A->x,
+                            S->scatter_from, failure);
   }
   for (; m < end && status == SL_OK; m = last) {
     last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
     sli_source_sum(from, m, (sl_int)(last - m), sums);
-    status = sli_panel_load_entries(F, s, panel, m, last, sums, NULL, failure);
+    status = panel == NULL
+           ? sli_panel_load_entries(F, s, NULL, single, m, last, sums, NULL, failure)
+           : sli_panel_load_entries(F, s, panel, NULL, m, last, sums, NULL, failure);
   }
   return status;
 }
@@ -11820,6 +12091,21 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
   return SL_OK;
+}
+
+SLI_INLINE sl_status sli_check_single(const sl_factor *F, sl_int s, sl_int k, float pivot,
+                    float magnitude, sli_failure *failure) {
+  const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+  const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
+  F->D[k] = d;
+  if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
+    return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
+  }
+  if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
+    sli_record_magnitude(F, s, k, m);
+    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
+  }
+  return sli_check_pivot(F, s, k, d, m, failure);
 }
 
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
@@ -11899,21 +12185,23 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
                   const sl_int *rows, double *x, double *scratch) {
-  F->kernels->sweeps[F->storage].forward[kind](count, steps, rows, F->values, x, scratch);
+  F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].forward[kind](count, steps, rows, F->values,
+                                    x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
                    const sli_step *steps, const sl_int *rows_end, const double *D,
                    double *x, double *scratch) {
-  F->kernels->sweeps[F->storage].backward[kind](count, steps, rows_end, F->values, D, x, scratch);
+  F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].backward[kind](count, steps, rows_end,
+                                     F->values, D, x, scratch);
 }
 
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-  return F->storage == SL_STORAGE_FLOAT ? (double)((const float *)F->values)[at]
-                      : ((const double *)F->values)[at];
+  return F->storage != SL_STORAGE_DOUBLE ? (double)((const float *)F->values)[at]
+                       : ((const double *)F->values)[at];
 }
 
 SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
-  if (F->storage == SL_STORAGE_FLOAT) {
+  if (F->storage != SL_STORAGE_DOUBLE) {
     ((float *)F->values)[at] = 0.0F;
   } else {
     ((double *)F->values)[at] = 0.0;
@@ -12589,7 +12877,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     if (q == 0) {
       const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
       memset(panel, 0, (size_t)size * sizeof(double));
-      status = sli_panel_load(F, from, s, panel, failure);
+      status = sli_panel_load(F, from, s, panel, NULL, failure);
       if (status != SL_OK) {
         break;
       }
@@ -13240,17 +13528,16 @@ SLI_INLINE int sli_signs_agree(double a, double b) {
   return a != 0.0 && b != 0.0 && !(a < 0.0 && b > 0.0) && !(a > 0.0 && b < 0.0);
 }
 
-static double sli_null_rounding(sl_int n) {
-  return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
+static double sli_null_rounding(sl_int n, double epsilon) {
+  return 16.0 * (64.0 + n / 8) * epsilon;
 }
 
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const int is_one = F->null_vectors == 1, by_columns = from->A != NULL && !F->has_duplicates;
-  const double rounding = sli_null_rounding(S->n), *z = is_one ? F->z : NULL;
-  double *diagonal =
-    is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
+  const double rounding = sli_null_rounding(S->n, F->rule.epsilon), *z = is_one ? F->z : NULL;
+  double *diagonal = is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
   const sli_null_walk w = sli_null_product(S, from, by_columns, F->rows, z, diagonal);
   sl_int i, refused = S->n;
   F->stats.factor.regular = 0;
@@ -13298,7 +13585,7 @@ static int sli_nulls_remain(const sl_factor *F) {
 
 static int sli_null_is_suspected(const sl_factor *F) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n);
+  const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
   double most = 0.0;
   sl_int k;
   for (k = 0; k < S->n && !F->rule.replaces && F->rule.null_tolerance >= 0.0; k++) {
@@ -13324,9 +13611,8 @@ static int sli_null_suspect_fits(const sl_factor *F) {
 static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
-  const double rounding = sli_null_rounding(S->n);
-  sli_null_row *rows =
-    (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
+  const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+  sli_null_row *rows = (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
   double *most = (double *)(void *)(rows + S->n);
   sl_int *last = (sl_int *)(void *)(most + S->n), k;
   const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
@@ -13345,26 +13631,42 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
 
 /* src/impl/factor/multifrontal.h: the fronts of the supernodal factorization: each passes its update matrix up */
 
-SLI_INLINE double *sli_update_of(const sl_factor *F, sl_int s, sl_int worker) {
+SLI_INLINE void *sli_update_matrix(const sl_factor *F, sl_int s, sl_int worker) {
   const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
-  return F->stack + (begin < own ? begin + worker * own : begin);
+  const sl_off at = begin < own ? begin + worker * own : begin;
+  return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at) : (void *)(F->stack + at);
+}
+
+SLI_INLINE const sli_front_kernels *sli_front_kernels_of(const sl_factor *F) {
+  return &F->kernels->fronts[sli_is_single(F)];
 }
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   const sli_step *step = &F->S->steps[s];
   const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
+  double *magnitude = F->magnitude + (ptrdiff_t)worker * rows;
+  double *reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
   sli_front f;
-  f.panel = sli_front_panel(F, s, worker);
+  memset(&f, 0, sizeof f);
   f.width = step->width;
   f.below = step->below;
-  f.update = sli_update_of(F, s, worker);
+  f.rule = &F->rule;
+  f.column = step->column;
+  if (sli_is_single(F)) {
+    f.single.panel = (float *)F->values + step->panel;
+    f.single.update = (float *)sli_update_matrix(F, s, worker);
+    f.single.magnitude = (float *)(void *)magnitude;
+    f.single.D = f.single.magnitude + rows;
+    f.single.reciprocals = (float *)(void *)reciprocals;
+    return f;
+  }
+  f.panel = sli_front_panel(F, s, worker);
+  f.update = (double *)sli_update_matrix(F, s, worker);
   f.D = F->D + step->column;
   f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
   f.E = F->E == NULL ? NULL : F->E + step->column;
-  f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
-  f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
-  f.rule = &F->rule;
-  f.column = step->column;
+  f.magnitude = magnitude;
+  f.reciprocals = reciprocals;
   return f;
 }
 
@@ -13375,21 +13677,37 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
 static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
   const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
   const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
+  const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+  const int has_update = f->below > 0 && t1 > whole;
+  if (f->panel == NULL) {
+    memset(f->single.panel + from, 0, (size_t)size * sizeof(float));
+    if (has_update) {
+      memset(f->single.update + at, 0, (size_t)(end - at) * sizeof(float));
+    }
+    return;
+  }
   memset(f->panel + from, 0, (size_t)size * sizeof(double));
-  if (f->below > 0 && t1 > whole) {
-    const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+  if (has_update) {
     memset(f->update + at, 0, (size_t)(end - at) * sizeof(double));
   }
 }
 
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                 sli_failure *failure) {
-  const sl_status status = sli_panel_load(F, from, s, f->panel, failure);
+  const sl_status status = sli_panel_load(F, from, s, f->panel, f->single.panel, failure);
+  const sl_int rows = SLI_TILE * sli_front_tiles(f);
   sl_int k;
+  if (f->panel == NULL) {
+    memset(f->single.magnitude, 0, (size_t)rows * sizeof(float));
+    for (k = 0; k < f->width; k++) {
+      f->single.magnitude[k] = (float)fabs(f->single.panel[sli_panel_at(f->width, k, k)]);
+    }
+    return status;
+  }
   for (k = 0; k < f->width; k++) {
     f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
   }
-  for (; k < SLI_TILE * sli_front_tiles(f); k++) {
+  for (; k < rows; k++) {
     f->magnitude[k] = 0.0;
   }
   return status;
@@ -13402,23 +13720,37 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
   for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
     const sli_step *child = &S->steps[c];
     const sl_int *relative = S->relative + S->rows_begin[c];
-    const double *from = sli_update_of(F, c, worker);
-    const double *magnitude = from + child->width % SLI_TILE +
+    const void *from = sli_update_matrix(F, c, worker);
+    const sl_off magnitudes = child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
     const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
     const sl_int last = sli_lower_bound(relative, child->below, SLI_TILE * t1);
-    F->kernels->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
-    for (k = first; k < last; k++) {
-      f->magnitude[relative[k]] += magnitude[k];
+    sli_front_kernels_of(F)->assemble(f, from, child->width % SLI_TILE, relative, child->below,
+                      first, last);
+    if (f->panel == NULL) {
+      const float *magnitude = (const float *)from + magnitudes;
+      for (k = first; k < last; k++) {
+        f->single.magnitude[relative[k]] += magnitude[k];
+      }
+    } else {
+      const double *magnitude = (const double *)from + magnitudes;
+      for (k = first; k < last; k++) {
+        f->magnitude[relative[k]] += magnitude[k];
+      }
     }
   }
 }
 
 static void sli_front_hand_over(const sli_front *f) {
   const sl_int tiles = sli_update_tiles(f->width, f->below);
-  memcpy(f->update + sli_triangle_offset(tiles),
-       f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE),
-       SLI_TILE * (size_t)tiles * sizeof(double));
+  const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+  const size_t rows = SLI_TILE * (size_t)tiles;
+  if (f->panel == NULL) {
+    memcpy(f->single.update + sli_triangle_offset(tiles), f->single.magnitude + first,
+         rows * sizeof(float));
+  } else {
+    memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + first, rows * sizeof(double));
+  }
 }
 
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
@@ -13426,7 +13758,10 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
   const sl_int first = F->S->steps[s].column;
   sl_status status = SL_OK;
   sl_int k;
-  for (k = 0; k < f->width && status == SL_OK; k++) {
+  for (k = 0; k < f->width && f->panel == NULL && status == SL_OK; k++) {
+    status = sli_check_single(F, s, first + k, f->single.D[k], f->single.magnitude[k], failure);
+  }
+  for (k = 0; k < f->width && f->panel != NULL && status == SL_OK; k++) {
     status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
            ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
            : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
@@ -13435,7 +13770,8 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
                                : status;
 }
 
-static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
+static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_front *f,
+                double *scratch) {
   const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
   sl_int c0;
   for (c0 = 0; c0 < ends; c0 += SLI_GROUP_TILES) {
@@ -13444,7 +13780,8 @@ static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, 
   }
 }
 
-static void sli_front_update(const sli_kernels *kernels, const sli_front *f, double *scratch) {
+static void sli_front_update(const sli_front_kernels *kernels, const sli_front *f,
+               double *scratch) {
   const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
   if (f->below > 0) {
     kernels->update(f, whole, tiles, whole, tiles, scratch);
@@ -13463,8 +13800,8 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
     return status;
   }
   sli_front_assemble(F, &f, s, worker, 0, tiles);
-  sli_front_eliminate(F->kernels, &f, scratch);
-  sli_front_update(F->kernels, &f, scratch);
+  sli_front_eliminate(sli_front_kernels_of(F), &f, scratch);
+  sli_front_update(sli_front_kernels_of(F), &f, scratch);
   sli_front_hand_over(&f);
   return sli_front_check(F, &f, s, failure);
 }
@@ -13597,7 +13934,7 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((job->F->storage == SL_STORAGE_DOUBLE || job->rounded == -1 || job->rounded == at) &&
+    if ((job->F->storage != SL_STORAGE_FLOAT || job->rounded == -1 || job->rounded == at) &&
       sli_top_draw(job, at, &task)) {
       job->rounded = at;
       p->tops[at].is_begun = 1;
@@ -13652,9 +13989,16 @@ static void sli_job_return(sli_job *job, const sli_task *task, sl_status status)
 
 static sli_front sli_large_front(const sl_factor *F, sl_int s) {
   const sli_step *step = &F->S->steps[s];
+  const ptrdiff_t rows = SLI_TILE * (ptrdiff_t)sli_tiles(step->width + step->below);
   sli_front f = sli_front_of(F, s, 0);
+  if (sli_is_single(F)) {
+    f.single.magnitude = f.single.update + sli_update_size(step);
+    f.single.D = f.single.magnitude + rows;
+    f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width);
+    return f;
+  }
   f.magnitude = f.update + sli_update_size(step);
-  f.reciprocals = f.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
+  f.reciprocals = f.magnitude + rows;
   f.panel = sli_front_panel(F, s, F->schedule.workers);
   return f;
 }
@@ -13666,19 +14010,24 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
   const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
   double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+  const sli_front_kernels *kernels = sli_front_kernels_of(F);
   sli_front f = sli_large_front(F, s);
   if (task->step == SLI_STEP_CLEAR) {
     sli_front_clear(&f, t0, t1);
   } else if (task->step == SLI_STEP_ASSEMBLE) {
     sli_front_assemble(F, &f, s, worker, t0, t1);
   } else if (task->step > sli_piece_last_step(step, piece)) {
-    F->kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+    kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
   } else {
-    f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-    if (group == piece) {
-      F->kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
+    if (f.panel == NULL) {
+      f.single.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
     } else {
-      F->kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
+      f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+    }
+    if (group == piece) {
+      kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
+    } else {
+      kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
     }
   }
 }
@@ -14109,7 +14458,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->center = SLI_TAKE(b, double, n);
     F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
   }
-  F->values = F->storage == SL_STORAGE_FLOAT
+  F->values = F->storage != SL_STORAGE_DOUBLE
           ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
           : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
 }
@@ -14120,14 +14469,13 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
   const uint64_t suspects =
     sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
   sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
+  for (s = 0; s < S->n_supers && !sli_is_single(F); s++) {
     const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
     F->panel_room = size > F->panel_room ? size : F->panel_room;
   }
-  F->panels = SLI_TAKE(b, double,
-             workers *(uint64_t)F->panel_room > suspects
-               ? workers *(uint64_t)F->panel_room
-               : suspects);
+  F->panels = SLI_TAKE(
+    b, double,
+    workers *(uint64_t)F->panel_room > suspects ? workers * (uint64_t)F->panel_room : suspects);
 }
 
 static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
@@ -14153,7 +14501,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
     F->failures = SLI_TAKE(b, sli_failure, workers);
     sli_schedule_layout(&F->schedule, b, S->n_supers);
-    if (F->storage == SL_STORAGE_FLOAT) {
+    if (F->storage != SL_STORAGE_DOUBLE) {
       sli_factor_layout_panels(F, b);
     }
   } else {
@@ -14183,7 +14531,8 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     b.base = NULL;
     b.used = 0;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-      F->stack = SLI_TAKE(&b, double, F->schedule.stack);
+      F->stack = sli_is_single(F) ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
+                    : SLI_TAKE(&b, double, F->schedule.stack);
       sli_schedule_layout_tops(&F->schedule, S, &b);
       F->stats.factor.bytes += pass == 0 ? b.used : 0;
       status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
@@ -14210,8 +14559,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   }
   if (status == SL_OK) {
     F->scratch = b.base;
-    F->has_duplicates =
-      F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
+    F->has_duplicates = F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
     status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
   }
   if (status != SL_OK) {
@@ -14222,14 +14570,14 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   return status;
 }
 
-static double sli_null_tolerance(sl_int n) {
-  return (64.0 + n / 8) * DBL_EPSILON;
+static double sli_null_tolerance(sl_int n, double epsilon) {
+  return (64.0 + n / 8) * epsilon;
 }
 
 static int sli_factor_choices_are_valid(const sl_options *opt) {
   return opt == NULL ||
        ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-      (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT &&
+      (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT_FRONTS &&
       (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
       opt->null_tolerance == opt->null_tolerance &&
       opt->consistency_tolerance == opt->consistency_tolerance &&
@@ -14253,16 +14601,17 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   F->null_pivots = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
-  F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
+  F->rule.epsilon = sli_epsilon(F->storage);
+  F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-  F->null_vectors = opt == NULL || opt->null_vector_count == 0 ? 1
-                                 : (sl_int)opt->null_vector_count;
+  F->null_vectors =
+    opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
   F->consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-  F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-                F->storage == SL_STORAGE_FLOAT ? SLI_GROWTH_LIMIT_FLOAT
-                                 : SLI_GROWTH_LIMIT);
+  F->growth_limit =
+    sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+          F->storage != SL_STORAGE_DOUBLE ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -14299,7 +14648,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
 }
 
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-  if (S->n_pairs > 0 || (opt != NULL && opt->storage == SL_STORAGE_FLOAT)) {
+  if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
     return SL_METHOD_SUPERNODAL;
   }
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
@@ -14350,6 +14699,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
   status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
+           (S->n_pairs > 0 && sli_is_single(&draft)) ||
            (draft.is_centered && draft.null_vectors > 1)
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
@@ -14608,12 +14958,12 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
     memset(from.update + sli_triangle_offset(t - c0), 0,
          (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
   }
-  F->kernels->update(&from, c0, c1, c0, tiles, F->buffer);
+  F->kernels->fronts[0].update(&from, c0, c1, c0, tiles, F->buffer);
   for (r = first; r < from.below; r++) {
     p->relative[r - first] = p->local[rows[r]];
   }
-  F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
-             from.below - first);
+  F->kernels->fronts[0].assemble(f, from.update, (w + first) % SLI_TILE, p->relative,
+                   last - first, 0, from.below - first);
 }
 
 static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
@@ -14666,7 +15016,7 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
       d = S->first_descendant[d] - 1;
     }
   }
-  sli_front_eliminate(F->kernels, &f, F->buffer);
+  sli_front_eliminate(&F->kernels->fronts[0], &f, F->buffer);
   return sli_front_check(F, &f, s, failure);
 }
 
@@ -14728,7 +15078,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     }
     entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
   }
-  if (F->method != SL_METHOD_SUPERNODAL || F->storage == SL_STORAGE_FLOAT ||
+  if (F->method != SL_METHOD_SUPERNODAL || F->storage != SL_STORAGE_DOUBLE ||
     entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
@@ -14879,7 +15229,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
     return SL_ERR_STATE;
   }
   count = sli_factor_entries(F, NULL);
-  if (count > INT32_MAX) {      /* untested: 2^31 entries */
+  if (count > INT32_MAX) {     /* untested: 2^31 entries */
     return SL_ERR_TOO_LARGE; /* untested: the same */
   }
   status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
@@ -14895,7 +15245,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
   if (F != NULL) {
     v.symbolic = F->S;
     v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
-    v.L_float = F->storage == SL_STORAGE_FLOAT ? (const float *)F->values : NULL;
+    v.L_float = F->storage != SL_STORAGE_DOUBLE ? (const float *)F->values : NULL;
     v.D = F->D;
     v.E = F->E;
   }
@@ -16625,7 +16975,7 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
   const size_t n = (size_t)f->F->S->n;
   double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
-  const int may_wait = f->F->storage == SL_STORAGE_FLOAT && !f->is_slow[c];
+  const int may_wait = f->F->storage != SL_STORAGE_DOUBLE && !f->is_slow[c];
   size_t i;
   int is_kept;
   for (i = 0; i < n; i++) {
@@ -17099,10 +17449,9 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     sli_norm_estimate_layout(&p, &b);
     p.norm = sli_csc_norm(A, F->S->stats.symbolic.triangle, p.v);
     inverse = sli_inverse_norm(&p);
-    *rcond = p.norm > 0.0 && inverse > 0.0
-           ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
-           : 0.0;
-    unit = F->storage == SL_STORAGE_FLOAT ? (double)FLT_EPSILON : DBL_EPSILON;
+    *rcond = p.norm > 0.0 && inverse > 0.0 ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
+                         : 0.0;
+    unit = F->storage != SL_STORAGE_DOUBLE ? (double)FLT_EPSILON : DBL_EPSILON;
     *rcond *= p.error > SLI_ROUNDING_ERROR * unit ? unit / p.error : 1.0;
   }
   sli_free(&own.allocator, own.block);
@@ -17450,7 +17799,7 @@ typedef struct sli_traversal_run {
 } sli_traversal_run;
 
 SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
-  return t->scratch + (storage == SL_STORAGE_FLOAT ? t->panel : 0);
+  return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : 0);
 }
 
 static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal *traversal,
@@ -17465,7 +17814,7 @@ static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int
   const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
   sli_inverse_front f;
   f.panel =
-    run->F->storage == SL_STORAGE_FLOAT ? NULL : (const double *)run->F->values + step->panel;
+    run->F->storage != SL_STORAGE_DOUBLE ? NULL : (const double *)run->F->values + step->panel;
   f.D = run->F->D + step->column;
   f.front = run->fronts + run->traversal->schedule.stack_begin[k];
   f.width = step->width;
@@ -17492,7 +17841,7 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
   const sl_symbolic *S = F->S;
   const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
   const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
-  const size_t entry = F->storage == SL_STORAGE_FLOAT ? sizeof(float) : sizeof(double);
+  const size_t entry = F->storage != SL_STORAGE_DOUBLE ? sizeof(float) : sizeof(double);
   sl_off k;
   for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
     SLI_PREFETCH(S->relative + row + k, 0);
@@ -17506,7 +17855,7 @@ static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_in
                   sl_int worker) {
   const sl_off room = sli_traverse_scratch(run->traversal, run->F->storage);
   double *scratch = run->scratch + (ptrdiff_t)(room * worker);
-  if (run->F->storage == SL_STORAGE_FLOAT) {
+  if (run->F->storage != SL_STORAGE_DOUBLE) {
     sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
     f->panel = scratch + run->traversal->scratch;
   }
@@ -21833,7 +22182,7 @@ static void sli_restrict_copy(sl_factor *G, const sl_factor *F, sli_restriction 
 static void sli_restrict_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
                   sl_int s, int has_one_sign) {
   sl_int k;
-  sli_front_update(G->kernels, f, G->buffer);
+  sli_front_update(&G->kernels->fronts[0], f, G->buffer);
   for (k = 0; k < f->below && !has_one_sign; k++) {
     p->relative[k] = f->width + k;
   }
@@ -23361,7 +23710,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   SLI_ADD(8, mass, weighted, weighted);
   SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
   SLI_ADD(8, ratios, trees, anchors);
-  if (g->storage == SL_STORAGE_FLOAT) {
+  if (g->storage != SL_STORAGE_DOUBLE) {
     SLI_ADD(8, values, 0, 0);
     SLI_ADD(4, values, panels, panels);
   } else {
@@ -23595,7 +23944,8 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
     !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
     !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
-    !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
+    !sli_count_is_valid(g->storage,
+              g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
     g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
     return 0;
   }
@@ -23612,6 +23962,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->consistency = g->consistency;
   F->growth_limit = g->growth_limit;
   F->error_limit = g->error_limit;
+  F->rule.epsilon = sli_epsilon(F->storage);
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
@@ -24145,7 +24496,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   f->header.order_mark = SLI_ORDER_MARK;
   f->header.read_version = SLI_READ_VERSION_DOUBLE;
   f->header.write_version = SLI_WRITE_VERSION_PLAIN;
-  if (F != NULL && F->storage == SL_STORAGE_FLOAT) {
+  if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
     f->header.read_version = SLI_READ_VERSION;
     f->header.write_version = SLI_WRITE_VERSION;
   }
@@ -24416,7 +24767,7 @@ static sl_status sli_read_front(sli_reading *r) {
       return status != SL_OK ? status : SL_ERR_IO;
     }
   }
-  if ((r->F.storage == SL_STORAGE_FLOAT) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
+  if ((r->F.storage != SL_STORAGE_DOUBLE) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
     return SL_ERR_IO;
   }
   memset(&expected, 0, sizeof expected);
@@ -24512,7 +24863,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   status = sli_factor_use(F, r->opt);
   sli_factor_layout(F, &b, (int)g->has_mass);
   m.first = r->saved.first_number;
-  m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage == SL_STORAGE_FLOAT);
+  m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage != SL_STORAGE_DOUBLE);
   m.head = sizeof *F;
   m.bytes = b.used;
   if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {
@@ -26009,6 +26360,16 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_BY_TYPE
 #undef SLI_VALUE_0
 #undef SLI_VALUE_1
+#undef SLI_OF_0
+#undef SLI_OF_1
+#undef SLI_LEAST_0
+#undef SLI_LEAST_1
+#undef SLI_MOST_0
+#undef SLI_MOST_1
+#undef SLI_PIVOT_0
+#undef SLI_PIVOT_1
+#undef SLI_PACK_PAIRS_0
+#undef SLI_PACK_PAIRS_1
 #undef SLI_SWEEP_0
 #undef SLI_SWEEP_1
 #undef SLI_WIDE_0
@@ -26017,6 +26378,11 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_WIDEN_1
 #undef SLV_SINGLE
 #undef SLV_VALUE
+#undef SLV_OF
+#undef SLV_LEAST
+#undef SLV_MOST
+#undef SLV_PIVOT
+#undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
@@ -26034,6 +26400,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_ORDER_ND_FLOPS
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
+#undef SLI_ENTRIES_AHEAD
+#undef SLI_SINGLE_MOST
+#undef SLI_SINGLE_LEAST
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
 #undef SLI_SUSPECT_ROW
@@ -26125,6 +26494,473 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #endif
 
 /* templates: the header includes them from itself, once for each instruction set */
+
+#ifdef SLI_SECTION_FRONT
+#undef SLI_SECTION_FRONT
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
+
+/* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
+
+#if !defined(SLV_LOAD_TILES)
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
+#else
+#define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_TILES(a, p, q)
+#endif
+
+#define SLI_DECLARE(k, v) SLV_DECLARE(c##v##k)
+#define SLI_LOAD(k, v) \
+  if ((k) < columns) { \
+    SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
+  } else { \
+    SLV_ZERO(c##v##k) \
+  }
+#define SLI_STORE(k, v) \
+  if ((k) < columns) { \
+    SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
+  }
+#define SLI_UPDATE(k, unused)  \
+  SLV_BROADCAST(b, B + (k)) \
+  SLV_FNMA(c0##k, a0, b)
+#define SLI_UPDATE2(k, unused) \
+  SLI_UPDATE(k, unused) \
+  SLV_FNMA(c1##k, a1, b)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                       const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                       SLV_VALUE *Cq0, sl_int columns) {
+  sl_int j;
+  SLV_DECLARE(a0)
+  SLV_DECLARE(b)
+  SLV_EACH_COLUMN(SLI_DECLARE, 0)
+  SLV_EACH_COLUMN(SLI_LOAD, 0)
+  for (j = 0; j < length; j++, Ap0 += SLI_TILE, Aq0 += SLI_TILE, B += SLI_TILE) {
+    SLI_LOAD_ROWS(a0, Ap0, Aq0)
+    SLV_EACH_COLUMN(SLI_UPDATE, 0)
+  }
+  SLV_EACH_COLUMN(SLI_STORE, 0)
+  (void)Aq0;
+  (void)Cq0;
+}
+
+#if SLV_TILES > SLV_VECTOR_TILES
+SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                       const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
+                       const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                       SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
+                       sl_int columns) {
+  sl_int j;
+  SLV_DECLARE(a0)
+  SLV_DECLARE(a1)
+  SLV_DECLARE(b)
+  SLV_EACH_COLUMN(SLI_DECLARE, 0)
+  SLV_EACH_COLUMN(SLI_DECLARE, 1)
+  SLV_EACH_COLUMN(SLI_LOAD, 0)
+  SLV_EACH_COLUMN(SLI_LOAD, 1)
+  for (j = 0; j < SLI_TILE * length; j += SLI_TILE, B += SLI_TILE) {
+    SLI_LOAD_ROWS(a0, Ap0 + j, Aq0 + j)
+    SLI_LOAD_ROWS(a1, Ap1 + j, Aq1 + j)
+    SLV_EACH_COLUMN(SLI_UPDATE2, 0)
+  }
+  SLV_EACH_COLUMN(SLI_STORE, 0)
+  SLV_EACH_COLUMN(SLI_STORE, 1)
+  (void)Cq0;
+  (void)Cq1;
+  (void)Aq0;
+  (void)Aq1;
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_UPDATE
+#undef SLI_UPDATE2
+#undef SLI_LOAD_ROWS
+
+#if SLV_VECTOR_TILES == 1
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const SLV_VALUE *A, const SLV_VALUE *B, sl_int length,
+                        SLV_VALUE *C, sl_int columns) {
+  SLV_NAME(rows1)(A, A, B, length, C, C, columns);
+}
+#if SLV_TILES == 2
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
+                        const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
+                        SLV_VALUE *C1, sl_int columns) {
+  SLV_NAME(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
+}
+#endif
+#endif
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
+                      SLV_VALUE *B) {
+  sl_int j;
+  SLV_DECLARE(a)
+  SLV_DECLARE(b)
+  for (j = 0; j < length; j++) {
+    SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
+    SLV_BROADCAST(b, d + j)
+    SLV_MULTIPLY(a, a, b)
+    SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
+                       const double *E, sl_int t0, sl_int t1, sl_int c0,
+                       sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+                       sl_int target_width, sl_int target_first, SLV_VALUE *B) {
+  const sl_int step = SLV_TILES, tile_size = SLI_TILE * SLI_TILE;
+  sl_int j, t, c, k, r, m;
+  for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
+    const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 - j);
+    for (c = c0; c < c1; c++) {
+      const SLV_VALUE *l = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j;
+      SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+      SLV_NAME(pack)(l, D + j, length, to);
+      SLV_PACK_PAIRS(l, E, j, length, to)
+    }
+    for (t = t0; t < t1; t += step) {
+      const sl_int end = sli_min(t + step, t1);
+      const SLV_VALUE *A[SLV_TILES];
+      SLV_VALUE *C[SLV_TILES];
+      for (m = 0; m < step; m++) {
+        r = sli_min(t + m, end - 1);
+        A[m] = panel + sli_tile_offset(w, r) + SLI_TILE * (ptrdiff_t)j;
+        C[m] = target + sli_tile_offset(target_width, r - target_first);
+      }
+      for (c = c0; c < c1 && c < end; c++) {
+        const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+        const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+        const sl_int columns = target_width - SLI_TILE * (c - target_first);
+        for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
+          const ptrdiff_t to = at + SLI_TILE * k;
+#if SLV_TILES > SLV_VECTOR_TILES
+          if (c <= t && end == t + step) {
+            const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
+            SLV_NAME(rows2)
+            (A[0], A[q], A[p], A[p + q], b + k, length, C[0] + to, C[q] + to, C[p] + to,
+             C[p + q] + to, columns - k);
+            continue;
+          }
+#endif
+          for (r = sli_max(t, c) - t; r < end - t; r += SLV_VECTOR_TILES) {
+            m = sli_min(r + SLV_VECTOR_TILES, end - t) - 1;
+            SLV_NAME(rows1)
+            (A[r], A[m], b + k, length, C[r] + to, C[m] + to, columns - k);
+          }
+        }
+      }
+    }
+  }
+}
+/* end of product.inl.h */
+
+#define SLI_SCALE(l, x, k) \
+  if (by_reciprocal) { \
+    SLV_BROADCAST(b, reciprocal + (k)) \
+    SLV_MULTIPLY(l, x, b) \
+  } else { \
+    SLV_BROADCAST(b, D + (k)) \
+    SLV_DIVIDE(l, x, b) \
+  }
+
+#define SLI_GAIN(l, x, k) \
+  SLV_BROADCAST(b, minus_sign + (k)) \
+  SLV_MULTIPLY(b, l, b) \
+  SLV_FNMA(m, b, x)
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) \
+  if ((k) < columns) { \
+    SLV_LOAD_TILES(a##k, (p) + SLI_TILE * (k), q + SLI_TILE * (k)) \
+  } else { \
+    SLV_ZERO(a##k) \
+  }
+
+#define SLI_AFTER(i, k) \
+  if ((i) > (k)) { \
+    SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
+    SLV_FNMA(a##i, l, b) \
+  }
+#define SLI_PIVOT(k, p) \
+  if ((k) < columns) { \
+    SLV_VALUE d; \
+    SLV_STORE(x + SLI_TILE * (k), a##k) \
+    SLV_STORE(sums, m) \
+    SLV_LANE(b, a##k, k) \
+    d = x[SLI_TILE * (k) + (k)]; \
+    if (rule != NULL) { \
+      d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
+      SLV_BROADCAST(b, &d) \
+    } \
+    SLV_DIVIDE(l, a##k, b) \
+    D[k] = d; \
+    magnitude[k] = sums[k]; \
+    minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
+    reciprocal[k] = (SLV_VALUE)1 / d; \
+    safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
+    SLI_GAIN(l, a##k, k) \
+    SLV_BELOW(l, k) \
+    SLV_STORE((p) + SLI_TILE * (k), l) \
+    SLI_EACH8_AGAIN(SLI_AFTER, k) \
+  }
+
+#define SLI_BEFORE(j, k) \
+  if ((j) < (k)) { \
+    SLV_BROADCAST(b, pivots + SLI_TILE * (j) + (k)) \
+    SLV_FNMA(a##k, a##j, b) \
+  }
+#define SLI_SOLVE(k, unused) \
+  if ((k) < columns) { \
+    SLI_EACH8_AGAIN(SLI_BEFORE, k) \
+    SLI_SCALE(l, a##k, k) \
+    SLI_GAIN(l, a##k, k) \
+    SLV_STORE_TILES(p + SLI_TILE * (k), q + SLI_TILE * (k), l) \
+  }
+
+SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
+                         SLV_VALUE *reciprocals) {
+  const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+  const sl_int column = f->column + first;
+  const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
+  SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+  const SLV_VALUE *q = p;
+  SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
+  SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
+  SLV_VALUE *sums = x + SLI_TILE * SLI_TILE;
+  int safe = 1;
+  sl_int t;
+  SLV_DECLARE(b)
+  SLV_DECLARE(l)
+  SLV_DECLARE(m)
+  SLI_EACH8(SLI_DECLARE, 0)
+  SLV_LOAD(m, magnitude)
+  SLI_EACH8(SLI_LOAD, p)
+  SLI_EACH8(SLI_PIVOT, p)
+  SLV_STORE(sums, m)
+  for (t = columns; t < SLI_TILE; t++) {
+    magnitude[t] = sums[t];
+  }
+  if (!safe) {
+    reciprocal[0] = 0;
+  }
+  (void)q;
+}
+
+SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                       const SLV_VALUE *reciprocals) {
+  const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
+  SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE * (ptrdiff_t)first;
+  const SLV_VALUE *pivots = panel + sli_tile_offset(w, c);
+  const int has_pairs = sli_tile_has_pairs(f, c);
+  const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
+  const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+  const int by_reciprocal = reciprocal[0] != 0;
+  sl_int t;
+  for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
+    const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
+    SLV_VALUE *p = panel + sli_tile_offset(w, t), *q = panel + sli_tile_offset(w, second);
+    SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
+    SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
+    SLV_DECLARE(b)
+    SLV_DECLARE(l)
+    SLV_DECLARE(m)
+    SLI_EACH8(SLI_DECLARE, 0)
+    SLV_LOAD_TILES(m, sums, second_sums)
+    SLI_EACH8(SLI_LOAD, p)
+    SLI_EACH8(SLI_SOLVE, 0)
+    SLV_STORE_TILES(sums, second_sums, m)
+    (void)q;
+    (void)second_sums;
+  }
+  if (has_pairs) {
+    sli_pair_rows(f, c, t0, t1);
+  }
+}
+
+#undef SLI_SCALE
+#undef SLI_GAIN
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_AFTER
+#undef SLI_PIVOT
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                        sl_int t1, SLV_VALUE *B) {
+  if (c > c0) {
+    SLV_NAME(product)
+    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c, c + 1, SLI_TILE * c0,
+     SLI_TILE * c, SLV_OF(f, panel), f->width, 0, B);
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, void *scratch) {
+  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
+  sl_int c;
+  if (c0 > 0) {
+    SLV_NAME(product)
+    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, c0, c1, c0, c1, 0, SLI_TILE * c0,
+     SLV_OF(f, panel), f->width, 0, B);
+  }
+  for (c = c0; c < c1; c++) {
+    SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
+    SLV_NAME(catch_up)(f, c0, c, c, c1, B);
+    if (sli_tile_has_pairs(f, c)) {
+      sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
+    } else {
+      SLV_NAME(tile_pivots)(f, c, reciprocals);
+    }
+    SLV_NAME(tile_rows)(f, c, c + 1, c1, reciprocals);
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                    void *scratch) {
+  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
+  sl_int c;
+  if (c0 > 0) {
+    SLV_NAME(product)
+    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, 0, SLI_TILE * c0,
+     SLV_OF(f, panel), f->width, 0, B);
+  }
+  for (c = c0; c < c1; c++) {
+    SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
+    SLV_NAME(tile_rows)
+    (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                      sl_int t1, void *scratch) {
+  SLV_VALUE *B = (SLV_VALUE *)scratch;
+  const sl_int w = f->width, last = sli_min(c1, t1);
+  sl_int c;
+  for (c = c0; c < last; c += SLI_GROUP_TILES) {
+    SLV_NAME(product)
+    (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
+     sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from, sl_int skipped,
+                      const sl_int *relative, sl_int columns, sl_int first,
+                      sl_int last) {
+  const sl_int w = f->width, whole = w / SLI_TILE;
+  sl_int row, end, i;
+  for (row = first; row < last; row = end) {
+    const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
+    const SLV_VALUE *source = (const SLV_VALUE *)from +
+                  sli_triangle_offset((skipped + row) / SLI_TILE) +
+                  SLI_TILE * (ptrdiff_t)skipped + lane;
+    SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
+    const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
+                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
+                   SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
+    sl_int lanes[SLI_TILE];
+    unsigned mask = 0;
+    for (end = row;
+       end < last && end - row < SLI_TILE - lane && relative[end] / SLI_TILE == tile; end++) {
+      lanes[end - row] = relative[end] % SLI_TILE;
+      mask |= 1u << lanes[end - row];
+    }
+    {
+      SLV_EXPAND(mask, lanes, end - row)
+      for (i = 0; i < end && i < columns; i++) {
+        const int is_below = relative[i] >= w;
+        SLV_VALUE *target =
+          to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
+        SLV_EXPAND_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
+      }
+    }
+  }
+}
+#endif
+
+#ifdef SLI_SECTION_WORDS_UNDEF
+#undef SLI_SECTION_WORDS_UNDEF
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
+
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+
+#undef SLV_NAME
+#undef SLV_NAME_4
+#undef SLV_ISA
+#undef SLV_FUNCTION
+#undef SLV_DECLARE
+#undef SLV_ZERO
+#undef SLV_LOAD
+#undef SLV_STORE
+#undef SLV_ADD
+#undef SLV_READ_0
+#undef SLV_READ_1
+#undef SLV_WIDEN_ROWS
+#undef SLV_AXPY
+#undef SLV_DOT
+#undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_DUP_LOW
+#undef SLV_DUP_HIGH
+#undef SLV_DUP_AT
+#undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_VECTOR_TILES
+#undef SLV_LOAD_TILES
+#undef SLV_STORE_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_EXPAND
+#undef SLV_EXPAND_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_TRANSPOSE
+#undef SLV_TRANSPOSE_4
+#undef SLV_BLOCKS_EVEN
+#undef SLV_BLOCKS_ODD
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+#endif
 
 #ifdef SLI_SECTION_MULTI_RHS
 #undef SLI_SECTION_MULTI_RHS
@@ -27129,348 +27965,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 #endif
 /* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except its sweeps, and their table */
 
-/* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
-
-#define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
-#define SLI_LOAD(k, t) \
-  if ((k) < columns) { \
-    SLV_LOAD(c##t##k, C##t + SLI_TILE * (k)) \
-  } else { \
-    SLV_ZERO(c##t##k) \
-  }
-#define SLI_STORE(k, t) \
-  if ((k) < columns) { \
-    SLV_STORE(C##t + SLI_TILE * (k), c##t##k) \
-  }
-#define SLI_UPDATE(k, unused)  \
-  SLV_BROADCAST(b, B + (k)) \
-  SLV_FNMA(c0##k, a0, b)
-#define SLI_UPDATE2(k, unused) \
-  SLI_UPDATE(k, unused) \
-  SLV_FNMA(c1##k, a1, b)
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
-                        double *C0, sl_int columns) {
-  sl_int j;
-  SLV_DECLARE(a0)
-  SLV_DECLARE(b)
-  SLV_EACH_COLUMN(SLI_DECLARE, 0)
-  SLV_EACH_COLUMN(SLI_LOAD, 0)
-  for (j = 0; j < length; j++, A += SLI_TILE, B += SLI_TILE) {
-    SLV_LOAD_PINNED(a0, A)
-    SLV_EACH_COLUMN(SLI_UPDATE, 0)
-  }
-  SLV_EACH_COLUMN(SLI_STORE, 0)
-}
-
-#if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
-                        sl_int length, double *C0, double *C1,
-                        sl_int columns) {
-  sl_int j;
-  SLV_DECLARE(a0)
-  SLV_DECLARE(a1)
-  SLV_DECLARE(b)
-  SLV_EACH_COLUMN(SLI_DECLARE, 0)
-  SLV_EACH_COLUMN(SLI_DECLARE, 1)
-  SLV_EACH_COLUMN(SLI_LOAD, 0)
-  SLV_EACH_COLUMN(SLI_LOAD, 1)
-  for (j = 0; j < length; j++, A += SLI_TILE, A1 += SLI_TILE, B += SLI_TILE) {
-    SLV_LOAD_PINNED(a0, A)
-    SLV_LOAD_PINNED(a1, A1)
-    SLV_EACH_COLUMN(SLI_UPDATE2, 0)
-  }
-  SLV_EACH_COLUMN(SLI_STORE, 0)
-  SLV_EACH_COLUMN(SLI_STORE, 1)
-}
-#endif
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_UPDATE
-#undef SLI_UPDATE2
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
-                      double *B) {
-  sl_int j;
-  SLV_DECLARE(a)
-  SLV_DECLARE(b)
-  for (j = 0; j < length; j++) {
-    SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
-    SLV_BROADCAST(b, d + j)
-    SLV_MULTIPLY(a, a, b)
-    SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
-                       const double *E, sl_int t0, sl_int t1, sl_int c0,
-                       sl_int c1, sl_int j0, sl_int j1, double *target,
-                       sl_int target_width, sl_int target_first, double *B) {
-  const sl_int tile_size = SLI_TILE * SLI_TILE;
-  sl_int j, t, c, k;
-  for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
-    const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 - j);
-    for (c = c0; c < c1; c++) {
-      SLV_NAME(pack)
-      (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-       B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
-      if (E != NULL) {
-        sli_pair_pack(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, E + j,
-                length, B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
-      }
-    }
-    for (t = t0; t < t1; t++) {
-      const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
-      double *C = target + sli_tile_offset(target_width, t - target_first);
-#if SLV_TILES == 2
-      const int is_pair = t + 1 < t1;
-      const double *A1 =
-        is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-      double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
-#endif
-      for (c = c0; c < c1 && c <= t; c++) {
-        const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-        const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
-        const sl_int columns = target_width - SLI_TILE * (c - target_first);
-#if SLV_TILES == 2
-        if (is_pair) {
-          SLV_NAME(block2)(A, A1, b, length, C + at, C1 + at, columns);
-          continue;
-        }
-#endif
-        for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
-          SLV_NAME(block1)(A, b + k, length, C + at + SLI_TILE * k, columns - k);
-        }
-      }
-#if SLV_TILES == 2
-      t += is_pair;
-      if (is_pair && c == t && c < c1) {
-        const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-        SLV_NAME(block1)
-        (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-         target_width - SLI_TILE * (c - target_first));
-      }
-#endif
-    }
-  }
-}
-/* end of product.inl.h */
-/* src/impl/kernels/front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
-
-#define SLI_SCALE(l, x, k) \
-  if (by_reciprocal) { \
-    SLV_BROADCAST(b, reciprocal + (k)) \
-    SLV_MULTIPLY(l, x, b) \
-  } else { \
-    SLV_BROADCAST(b, D + (k)) \
-    SLV_DIVIDE(l, x, b) \
-  }
-
-#define SLI_GAIN(l, x, k) \
-  SLV_BROADCAST(b, minus_sign + (k)) \
-  SLV_MULTIPLY(b, l, b) \
-  SLV_FNMA(m, b, x)
-
-#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
-#define SLI_LOAD(k, p) \
-  if ((k) < columns) { \
-    SLV_LOAD(a##k, (p) + SLI_TILE * (k)) \
-  } else { \
-    SLV_ZERO(a##k) \
-  }
-
-#define SLI_AFTER(i, k) \
-  if ((i) > (k)) { \
-    SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
-    SLV_FNMA(a##i, l, b) \
-  }
-#define SLI_PIVOT(k, p) \
-  if ((k) < columns) { \
-    double d; \
-    SLV_STORE(x + SLI_TILE * (k), a##k) \
-    SLV_STORE(sums, m) \
-    SLV_LANE(b, a##k, k) \
-    d = x[SLI_TILE * (k) + (k)]; \
-    if (rule != NULL) { \
-      d = sli_pivot_by_rule(rule, column + (k), d, sums[k]); \
-      SLV_BROADCAST(b, &d) \
-    } \
-    SLV_DIVIDE(l, a##k, b) \
-    D[k] = d; \
-    magnitude[k] = sums[k]; \
-    minus_sign[k] = d < 0.0 ? 1.0 : -1.0; \
-    reciprocal[k] = 1.0 / d; \
-    safe &= fabs(d) > 1e-290 && fabs(d) < 1e290; \
-    SLI_GAIN(l, a##k, k) \
-    SLV_BELOW(l, k) \
-    SLV_STORE((p) + SLI_TILE * (k), l) \
-    SLI_EACH8_AGAIN(SLI_AFTER, k) \
-  }
-
-#define SLI_BEFORE(j, k) \
-  if ((j) < (k)) { \
-    SLV_BROADCAST(b, p + SLI_TILE * (j) + (k)) \
-    SLV_FNMA(a##k, a##j, b) \
-  }
-#define SLI_SOLVE(k, q) \
-  if ((k) < columns) { \
-    SLI_EACH8_AGAIN(SLI_BEFORE, k) \
-    SLI_SCALE(l, a##k, k) \
-    SLI_GAIN(l, a##k, k) \
-    SLV_STORE((q) + SLI_TILE * (k), l) \
-  }
-
-SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
-  const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
-  const sl_int column = f->column + first;
-  const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-  double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
-  double *D = f->D + first, *magnitude = f->magnitude + first;
-  double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-  SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
-  double *sums = x + SLI_TILE * SLI_TILE;
-  int safe = 1;
-  sl_int t;
-  SLV_DECLARE(b)
-  SLV_DECLARE(l)
-  SLV_DECLARE(m)
-  SLI_EACH8(SLI_DECLARE, 0)
-  SLV_LOAD(m, magnitude)
-  SLI_EACH8(SLI_LOAD, p)
-  SLI_EACH8(SLI_PIVOT, p)
-  SLV_STORE(sums, m)
-  for (t = columns; t < SLI_TILE; t++) {
-    magnitude[t] = sums[t];
-  }
-  if (!safe) {
-    reciprocal[0] = 0.0;
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-                       const double *reciprocals) {
-  const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-  const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
-  const int has_pairs = sli_tile_has_pairs(f, c);
-  const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
-  const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-  const int by_reciprocal = reciprocal[0] != 0.0;
-  sl_int t;
-  for (t = t0; t < t1; t++) {
-    double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-    double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
-    SLV_DECLARE(b)
-    SLV_DECLARE(l)
-    SLV_DECLARE(m)
-    SLI_EACH8(SLI_DECLARE, 0)
-    SLV_LOAD(m, magnitude)
-    SLI_EACH8(SLI_LOAD, q)
-    SLI_EACH8(SLI_SOLVE, q)
-    SLV_STORE(magnitude, m)
-  }
-  if (has_pairs) {
-    sli_pair_rows(f, c, t0, t1);
-  }
-}
-
-#undef SLI_SCALE
-#undef SLI_GAIN
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_AFTER
-#undef SLI_PIVOT
-#undef SLI_BEFORE
-#undef SLI_SOLVE
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
-                        sl_int t1, double *B) {
-  if (c > c0) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, f->E, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
-     f->width, 0, B);
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
-  const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
-  sl_int c;
-  if (c0 > 0) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, f->E, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
-     B);
-  }
-  for (c = c0; c < c1; c++) {
-    double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
-    SLV_NAME(catch_up)(f, c0, c, c, c1, B);
-    if (sli_tile_has_pairs(f, c)) {
-      sli_pair_tile(f, c, reciprocals);
-    } else {
-      SLV_NAME(tile_pivots)(f, c, reciprocals);
-    }
-    SLV_NAME(tile_rows)(f, c, c + 1, c1, reciprocals);
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                    double *B) {
-  const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
-  sl_int c;
-  if (c0 > 0) {
-    SLV_NAME(product)
-    (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
-     B);
-  }
-  for (c = c0; c < c1; c++) {
-    SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
-    SLV_NAME(tile_rows)
-    (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
-                      sl_int t1, double *B) {
-  const sl_int w = f->width, last = sli_min(c1, t1);
-  sl_int c;
-  for (c = c0; c < last; c += SLI_GROUP_TILES) {
-    SLV_NAME(product)
-    (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
-     f->update, SLI_TILE * (t1 - c0), c0, B);
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
-                      const sl_int *relative, sl_int columns, sl_int first,
-                      sl_int last) {
-  const sl_int w = f->width, whole = w / SLI_TILE;
-  sl_int row, end, i;
-  for (row = first; row < last; row = end) {
-    const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-    const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
-                 SLI_TILE * (ptrdiff_t)skipped + lane;
-    double *const to[2] = {f->panel, f->update};
-    const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
-                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
-                   SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
-    sl_int lanes[SLI_TILE];
-    unsigned mask = 0;
-    for (end = row;
-       end < last && end - row < SLI_TILE - lane && relative[end] / SLI_TILE == tile; end++) {
-      lanes[end - row] = relative[end] % SLI_TILE;
-      mask |= 1u << lanes[end - row];
-    }
-    {
-      SLV_EXPAND(mask, lanes, end - row)
-      for (i = 0; i < end && i < columns; i++) {
-        const int is_below = relative[i] >= w;
-        double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
-        SLV_EXPAND_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
-      }
-    }
-  }
-}
-/* end of front.inl.h */
 /* src/impl/kernels/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
@@ -27864,74 +28358,15 @@ static const sli_kernels SLV_NAME(kernels) = {
     {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
      SLV_NAME(single_backward8)}}},
   SLV_NAME(row),
-  SLV_NAME(pivots),
-  SLV_NAME(rows),
-  SLV_NAME(update),
-  SLV_NAME(assemble),
+  {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
+   {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
+    SLV_NAME(single_assemble)}},
   SLV_NAME(products8),
   SLV_NAME(gather),
   SLV_NAME(inverse_phase),
   SLV_NAME(takahashi),
   {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
   SLV_NAME(change_tiles)};
-
-#undef SLV_NAME
-#undef SLV_NAME_4
-#undef SLV_ISA
-#undef SLV_FUNCTION
-#undef SLV_DECLARE
-#undef SLV_ZERO
-#undef SLV_LOAD
-#undef SLV_STORE
-#undef SLV_ADD
-#undef SLV_READ_0
-#undef SLV_READ_1
-#undef SLV_WIDEN_ROWS
-#undef SLV_AXPY
-#undef SLV_DOT
-#undef SLV_FNMA1
-#undef SLV_STORE_ANY
-#undef SLV_FNMA
-#undef SLV_DUP_LOW
-#undef SLV_DUP_HIGH
-#undef SLV_DUP_AT
-#undef SLV_PAIR
-#undef SLV_TILES
-#undef SLV_COLUMNS
-#undef SLV_EACH_COLUMN
-#undef SLV_LOAD_PINNED
-#undef SLV_BROADCAST
-#undef SLV_MULTIPLY
-#undef SLV_DIVIDE
-#undef SLV_BELOW
-#undef SLV_BELOW_2
-#undef SLV_EXPAND
-#undef SLV_EXPAND_ADD
-#undef SLV_LOAD_PART
-#undef SLV_FIRST
-#undef SLV_LANE
-#undef SLV_GATHER
-#undef SLV_TRANSPOSE
-#undef SLV_TRANSPOSE_4
-#undef SLV_BLOCKS_EVEN
-#undef SLV_BLOCKS_ODD
-#undef SLV_GATHER_2
-#undef SLV_SUM_DECLARE
-#undef SLV_SUM_ZERO
-#undef SLV_SUM_DOT
-#undef SLV_SUM_2
-#undef SLV_SUM_4
-#undef SLV_SUMS
-#undef SLV_SUM_LOAD
-#undef SLV_SUM_STORE
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
 #endif
 
 /*

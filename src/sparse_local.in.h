@@ -56,9 +56,13 @@ extern "C" {
 #include "impl/kernels/inverse_front.h"
 #include "impl/kernels/table.h"
 #include "impl/kernels/simd.h"
+#include "impl/kernels/simd_scalar_single.h"
 #include "impl/kernels/simd_scalar.h"
+#include "impl/kernels/simd_avx2_single.h"
 #include "impl/kernels/simd_avx2.h"
+#include "impl/kernels/simd_avx512_single.h"
 #include "impl/kernels/simd_avx512.h"
+#include "impl/kernels/simd_neon_single.h"
 #include "impl/kernels/simd_neon.h"
 #include "impl/kernels/dispatch.h"
 /* matrix: sparse matrices of the caller and of the library */

@@ -108,7 +108,7 @@ static void fill_front(const shape *s, double *item, uint64_t *rng) {
 static sli_front front_of(const shape *s, double *item) {
     static double reciprocals[INVERSE];
     static const sli_pivot_rule no_rule; /* all zero: no pivot is replaced */
-    sli_front f;
+    sli_front f = {0};
     f.panel = item;
     f.width = s->w;
     f.below = s->u;
@@ -125,8 +125,8 @@ static sli_front front_of(const shape *s, double *item) {
 
 static void run_front(const sli_kernels *kernels, const shape *s, double *item, double *scratch) {
     const sli_front f = front_of(s, item);
-    sli_front_eliminate(kernels, &f, scratch);
-    sli_front_update(kernels, &f, scratch);
+    sli_front_eliminate(&kernels->fronts[0], &f, scratch);
+    sli_front_update(&kernels->fronts[0], &f, scratch);
 }
 
 /* Entry (i, j) of A - L D L', from the columns in the panel. */
@@ -273,7 +273,7 @@ static double *entry_of(const child *c, double *item, sl_int i, sl_int j) {
 static void run_assemble(const sli_kernels *kernels, const child *c, double *item) {
     const sli_front f = front_of(&c->to, item);
     const double *from = item + c->to.panel + c->to.update;
-    kernels->assemble(&f, from, c->from.w % TILE, c->relative, c->from.u, 0, c->from.u);
+    kernels->fronts[0].assemble(&f, from, c->from.w % TILE, c->relative, c->from.u, 0, c->from.u);
 }
 
 static void check_assemble(bench_run *run, const sli_kernels *kernels, const child *c, arena *a) {

@@ -10,7 +10,7 @@
  *  For each column: computes the residual, solves for a correction and adds it, until the
  *  componentwise backward error max_i |b - A x|_i / (|A| |x| + |b|)_i is at most epsilon, a
  *  correction does not halve it, or the steps are used up. A correction that increases it is
- *  discarded. With SL_STORAGE_FLOAT it takes two such corrections in a row, and the first is kept
+ *  discarded. With L in float it takes two such corrections in a row, and the first is kept
  *  even if it doubles the error: x gains digits before the error shows it. With a regularized
  *  factor, of A + E, this turns the solution of (A + E) x = b into that of A x = b. If null pivots
  *  were skipped, B has to be consistent.
@@ -76,7 +76,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl
  *  above, solutions are worthless. Up to rounding, the true value is never larger than the
  *  estimate, and rarely smaller than a third of it. L D L' is judged, too: the solves of the
  *  estimator are checked against A, and where their largest backward error w exceeds 64 epsilon,
- *  because L has grown, the estimate is multiplied by epsilon / w; with SL_STORAGE_FLOAT epsilon is
+ *  because L has grown, the estimate is multiplied by epsilon / w; with L in float epsilon is
  *  that of float here, and rcond is that of A down to about 1e-13. 0 if null pivots were skipped; 1
  *  if n = 0. If regularization changed pivots, all this is about A + E.
  *

@@ -33,9 +33,9 @@
  *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
  *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
  *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n + nnz + rows of the supernodes) with small constants, to compare the patterns and to copy
- *           the analysis; besides, the order and analysis of the columns above the edit. With a
- *           mesh of 1e6 vertices, of which 0.1 % are remeshed, 1/12 to 1/18 of a new analysis.
+ *  Cost     O(n + nnz + rows of the supernodes) with small constants, to compare the patterns and
+ *           to copy the analysis; besides, the order and analysis of the columns above the edit.
+ *           With a mesh of 1e6 vertices, of which 0.1 % are remeshed, 1/12 to 1/18 of a new one.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators.
  *  Example  tests/core/test_edit.c

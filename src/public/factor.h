@@ -55,6 +55,19 @@
  *    one that underflows where that loses more than rounding does. Scaling A to a unit diagonal
  *    avoids both.
  *
+ *  With SL_STORAGE_FLOAT_FRONTS fronts and pivots are computed in float, too: about half the time
+ *  and the memory of double, and all of the above with the following differences.
+ *  - Solutions have a backward error of about 1e-7 to 1e-5 * growth before refinement: the rounding
+ *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
+ *    known to float's accuracy.
+ *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
+ *    epsilon unless it is given, and SL_ERR_PIVOT says that a pivot is null in float. A may be
+ *    regular in double. A pivot of a semidefinite matrix within rounding of 0, which double would
+ *    keep and count as weak, is refused, too.
+ *  - Entries of A above 8.5e37, and pivots computed from magnitudes below 7.9e-31, are refused with
+ *    SL_ERR_INACCURATE.
+ *  - 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
+ *
  *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
  *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
  *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
@@ -116,8 +129,10 @@
  *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
  *           error.row, and error.column if it is an entry of A; with mass, also a mean that
  *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
- *           of error.row, or an entry of L in the column of that pivot that float cannot hold;
- *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis, mass with
+ *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
+ *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
+ *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
+ *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with
  *           several null vectors, or more of them in the tree of error.row than columns;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
  *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
@@ -243,11 +258,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_lower(sl_matrix **out, const sl_factor
 /** Arrays of a factor; valid as long as the factor. */
 typedef struct sl_factor_arrays {
     const sl_symbolic *symbolic;
-    /* panels, in the layout described at sl_symbolic_arrays; NULL with SL_STORAGE_FLOAT */
+    /* panels, in the layout described at sl_symbolic_arrays; NULL if L is in float */
     const double *L;
     const double *D; /* n pivots, in pivot order; DBL_MAX for a null pivot that was skipped */
     const double *E; /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: there is none */
-    const float *L_float; /* the same panels with SL_STORAGE_FLOAT; else NULL */
+    const float *L_float; /* the same panels in float; else NULL */
 } sl_factor_arrays;
 
 SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);

@@ -116,7 +116,7 @@ typedef struct sl_options {
     const double *null_vector;
 
     /* a factorization whose stats.factor.growth is larger is refused with SL_ERR_INACCURATE; 0:
-     * 1 / epsilon = 4.5e15, or 8.4e6 with SL_STORAGE_FLOAT, beyond which L D L' may agree with A in
+     * 1 / epsilon = 4.5e15, or 8.4e6 if L is in float, beyond which L D L' may agree with A in
      * no digit; negative: no limit */
     double growth_limit;
     /* sl_factor_refine and sl_plan_solve_refined return SL_ERR_INACCURATE if they end above this
@@ -126,8 +126,8 @@ typedef struct sl_options {
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
      * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
-    /* SL_STORAGE_FLOAT keeps L in half the bytes; solutions have the accuracy of float until they
-     * are refined (sl_factor_create) */
+    /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
+     * float; solutions have the accuracy of float until they are refined (sl_factor_create) */
     sl_storage storage;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */

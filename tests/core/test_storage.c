@@ -4,12 +4,19 @@
 #include "tests/lib/local_solve.h"
 #include "tests/lib/parallel_for.h"
 
-static sl_options options_float(sl_isa isa) {
+/* Both ways to have L in float: rounded, and computed. */
+static const sl_storage floats[2] = {SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS};
+
+static sl_options options_of(sl_storage storage, sl_isa isa) {
     sl_options opt = options_none();
     opt.isa = isa;
     opt.method = SL_METHOD_SUPERNODAL;
-    opt.storage = SL_STORAGE_FLOAT;
+    opt.storage = storage;
     return opt;
+}
+
+static sl_options options_float(sl_isa isa) {
+    return options_of(SL_STORAGE_FLOAT, isa);
 }
 
 /* L in float is L in double, rounded, and D is the same, with any number of threads. */
@@ -56,7 +63,7 @@ typedef struct exact_t {
 
 /* A = L D L' with the entries 1/2 and -1/4 in L and powers of 2 in D: no operation rounds. The last
  * `dense` columns are full, so that supernodes are wide. */
-static exact_t exact_make(sl_int n, sl_int dense, sl_isa isa) {
+static exact_t exact_make(sl_int n, sl_int dense, sl_storage storage, sl_isa isa) {
     exact_t e = {n, {NULL, NULL, NULL, {0, 0, NULL, NULL, NULL}}, NULL, {NULL, NULL}};
     const size_t m = (size_t)n;
     double *L = test_reals(m * m), *D = test_reals(m);
@@ -86,10 +93,9 @@ static exact_t exact_make(sl_int n, sl_int dense, sl_isa isa) {
     sl_options opt = options_none();
     opt.ordering = SL_ORDERING_NATURAL;
     SL_CHECK(sl_symbolic_create(&e.S, &e.M.view, &opt, NULL));
-    for (int storage = 0; storage < 2; storage++) {
-        opt = options_float(isa);
-        opt.storage = (sl_storage)storage;
-        SL_CHECK(sl_factor_create(&e.F[storage], e.S, &e.M.view, &opt, NULL));
+    for (int k = 0; k < 2; k++) {
+        opt = options_of(k == 0 ? SL_STORAGE_DOUBLE : storage, isa);
+        SL_CHECK(sl_factor_create(&e.F[k], e.S, &e.M.view, &opt, NULL));
     }
     const sl_factor_arrays f = sl_factor_view(e.F[0]), g = sl_factor_view(e.F[1]);
     for (sl_off at = 0; at < panel_doubles(e.F[0]); at++) {
@@ -174,9 +180,9 @@ static void an_exact_factor_gives_the_same_bits(void **state) {
     (void)state;
     const isa_list_t isas = isas_present();
     static const sl_int sizes[5] = {1, 7, 40, 90, 150};
-    for (int k = 0; k < 5 * isas.count; k++) {
+    for (int k = 0; k < 10 * isas.count; k++) {
         for (sl_int dense = 0; dense <= 40; dense += 9) {
-            exact_t e = exact_make(sizes[k % 5], dense, isas.isa[k / 5]);
+            exact_t e = exact_make(sizes[k % 5], dense, floats[k / 5 % 2], isas.isa[k / 10]);
             exact_solves(&e);
             exact_inverses(&e);
             exact_free(&e);
@@ -190,8 +196,8 @@ static void local_solves_equal_full_ones(void **state) {
     (void)state;
     const isa_list_t isas = isas_present();
     for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
-        for (int k = 0; k < isas.count; k++) {
-            const sl_options opt = options_float(isas.isa[k]);
+        for (int k = 0; k < 2 * isas.count; k++) {
+            const sl_options opt = options_of(floats[k % 2], isas.isa[k / 2]);
             factored_t y = factored_make((gen_kind_t)kind, 120, 1, 0, &opt);
             const sl_int n = y.M.view.n_cols;
             for (sl_int nrhs = 1; nrhs <= 9; nrhs++) {
@@ -210,9 +216,9 @@ static void local_solves_equal_full_ones(void **state) {
 static void refinement_brings_the_accuracy_of_double(void **state) {
     (void)state;
     const isa_list_t isas = isas_present();
-    for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
-        const sl_options opt = options_float(isas.isa[kind % isas.count]);
-        factored_t y = factored_make((gen_kind_t)kind, 300, 1, 0, &opt);
+    for (int k = 2 * GEN_ONE; k < 2 * GEN_REGULAR; k++) {
+        const sl_options opt = options_of(floats[k % 2], isas.isa[k / 2 % isas.count]);
+        factored_t y = factored_make((gen_kind_t)(k / 2), 300, 1, 0, &opt);
         const size_t n = (size_t)y.M.view.n_cols;
         double *B = test_reals(3 * n), *X = test_reals(3 * n);
         sl_stats stats;
@@ -301,8 +307,9 @@ static void singular_systems_are_solved(void **state) {
         for (size_t i = 0; i < n; i++) {
             mass[i] = 1.0;
         }
-        for (int weighted = 0; weighted < 2; weighted++) {
-            sl_options opt = options_float(SL_ISA_AUTO);
+        for (int way = 0; way < 4; way++) {
+            const int weighted = way / 2;
+            sl_options opt = options_of(floats[way % 2], SL_ISA_AUTO);
             sl_factor *F = NULL;
             sl_stats stats;
             memset(&stats, 0, sizeof stats);
@@ -393,9 +400,8 @@ static void a_hidden_null_pivot_is_refused(void **state) {
 }
 
 /* Calls that change L in place refuse it; those that have another way take that. */
-static void changes_are_factorizations(void **state) {
-    (void)state;
-    const sl_options opt = options_float(SL_ISA_AUTO);
+static void changes_of(sl_storage storage) {
+    const sl_options opt = options_of(storage, SL_ISA_AUTO);
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, &opt);
     sl_factor *G = NULL;
     sl_stats stats;
@@ -411,6 +417,12 @@ static void changes_are_factorizations(void **state) {
                         (size_t)panel_doubles(G) * sizeof(float));
     sl_factor_free(G);
     factored_free(&y);
+}
+
+static void changes_are_factorizations(void **state) {
+    (void)state;
+    changes_of(floats[0]);
+    changes_of(floats[1]);
 }
 
 /* Half the bytes for L, with whatever else a factor keeps. */

@@ -111,18 +111,19 @@ static factored_t two_large_fronts(sl_int w, sl_int h, sl_isa isa, sl_storage st
     return y;
 }
 
-/* Both fronts are factored at the same time, or one after the other where L is in float. */
+/* Both fronts are factored at the same time, or one after the other where L alone is in float. */
 static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
-    for (int k = 0; k < 2 * isas.count; k++) {
-        const sl_storage storage = k % 2 ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
-        factored_t y = two_large_fronts(101, 150, isas.isa[k / 2], storage);
+    const sl_storage storages[] = {SL_STORAGE_DOUBLE, SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS};
+    for (int k = 0; k < 3 * isas.count; k++) {
+        const sl_storage storage = storages[k % 3];
+        factored_t y = two_large_fronts(101, 150, isas.isa[k / 3], storage);
         for (sl_int count = 2; count <= 5; count++) {
             int calls = 0;
             sl_factor *F = NULL;
             sl_options opt = options_with_threads(runs[count % RUNS], count, &calls);
-            opt.isa = isas.isa[k / 2];
+            opt.isa = isas.isa[k / 3];
             opt.storage = storage;
             SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
             assert_same_bits(F, y.F);

@@ -93,9 +93,10 @@ SLI_INLINE int sli_front_is_large(const sli_step *s) {
     return sli_front_flops(s) >= SLI_SHARED_FLOPS;
 }
 
-/* Doubles that follow the update matrix of a large front: its magnitudes and reciprocals. */
+/* Numbers that follow the update matrix of a large front: its magnitudes, D where it is in float,
+ * and reciprocals. */
 SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
-    return SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
+    return SLI_TILE * ((sl_off)sli_tiles(s->width + s->below) + sli_tiles(s->width)) +
            SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width);
 }
 

@@ -69,7 +69,7 @@ static void sli_restrict_copy(sl_factor *G, const sl_factor *F, sli_restriction 
 static void sli_restrict_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
                                     sl_int s, int has_one_sign) {
     sl_int k;
-    sli_front_update(G->kernels, f, G->buffer);
+    sli_front_update(&G->kernels->fronts[0], f, G->buffer);
     for (k = 0; k < f->below && !has_one_sign; k++) {
         p->relative[k] = f->width + k;
     }

@@ -118,7 +118,7 @@ SL_API sl_status sl_factor_lower(sl_matrix **out, const sl_factor *F, const sl_o
         return SL_ERR_STATE;
     }
     count = sli_factor_entries(F, NULL);
-    if (count > INT32_MAX) {      /* untested: 2^31 entries */
+    if (count > INT32_MAX) {     /* untested: 2^31 entries */
         return SL_ERR_TOO_LARGE; /* untested: the same */
     }
     status = sli_matrix_new(out, F->S->n, F->S->n, (sl_int)count, 1, &a);
@@ -134,7 +134,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
     if (F != NULL) {
         v.symbolic = F->S;
         v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
-        v.L_float = F->storage == SL_STORAGE_FLOAT ? (const float *)F->values : NULL;
+        v.L_float = F->storage != SL_STORAGE_DOUBLE ? (const float *)F->values : NULL;
         v.D = F->D;
         v.E = F->E;
     }

@@ -40,7 +40,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->center = SLI_TAKE(b, double, n);
         F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
     }
-    F->values = F->storage == SL_STORAGE_FLOAT
+    F->values = F->storage != SL_STORAGE_DOUBLE
                     ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
                     : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
 }
@@ -53,14 +53,13 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     const uint64_t suspects =
         sli_null_suspect_fits(F) ? 0 : (uint64_t)S->n * SLI_SUSPECT_ROW / sizeof(double) + 1;
     sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
+    for (s = 0; s < S->n_supers && !sli_is_single(F); s++) {
         const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
         F->panel_room = size > F->panel_room ? size : F->panel_room;
     }
-    F->panels = SLI_TAKE(b, double,
-                         workers *(uint64_t)F->panel_room > suspects
-                             ? workers *(uint64_t)F->panel_room
-                             : suspects);
+    F->panels = SLI_TAKE(
+        b, double,
+        workers *(uint64_t)F->panel_room > suspects ? workers * (uint64_t)F->panel_room : suspects);
 }
 
 /* The scratch of a factorization. */
@@ -87,7 +86,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
         F->failures = SLI_TAKE(b, sli_failure, workers);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
-        if (F->storage == SL_STORAGE_FLOAT) {
+        if (F->storage != SL_STORAGE_DOUBLE) {
             sli_factor_layout_panels(F, b);
         }
     } else {
@@ -118,7 +117,8 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         b.base = NULL;
         b.used = 0;
         for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-            F->stack = SLI_TAKE(&b, double, F->schedule.stack);
+            F->stack = sli_is_single(F) ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
+                                        : SLI_TAKE(&b, double, F->schedule.stack);
             sli_schedule_layout_tops(&F->schedule, S, &b);
             F->stats.factor.bytes += pass == 0 ? b.used : 0;
             status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
@@ -147,8 +147,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     }
     if (status == SL_OK) {
         F->scratch = b.base;
-        F->has_duplicates =
-            F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
+        F->has_duplicates = F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
         status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
     }
     if (status != SL_OK) {
@@ -162,8 +161,8 @@ static sl_status sli_factor_prepare(sl_factor *F) {
 /* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of 1e2 to
  * 1e6 rows it stayed below 60 + n/16 units of rounding, while every pivot of a regular matrix
  * stayed above 1e9 units. */
-static double sli_null_tolerance(sl_int n) {
-    return (64.0 + n / 8) * DBL_EPSILON;
+static double sli_null_tolerance(sl_int n, double epsilon) {
+    return (64.0 + n / 8) * epsilon;
 }
 
 /* Checks the enumerations and the tolerances. Null pivots are either skipped or regularized, so the
@@ -171,7 +170,7 @@ static double sli_null_tolerance(sl_int n) {
 static int sli_factor_choices_are_valid(const sl_options *opt) {
     return opt == NULL ||
            ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT &&
+            (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT_FRONTS &&
             (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
             opt->null_tolerance == opt->null_tolerance &&
             opt->consistency_tolerance == opt->consistency_tolerance &&
@@ -199,16 +198,17 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
     F->null_pivots = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
-    F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n) : null;
+    F->rule.epsilon = sli_epsilon(F->storage);
+    F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
     F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-    F->null_vectors = opt == NULL || opt->null_vector_count == 0 ? 1
-                                                                 : (sl_int)opt->null_vector_count;
+    F->null_vectors =
+        opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
     F->consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-    F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-                                F->storage == SL_STORAGE_FLOAT ? SLI_GROWTH_LIMIT_FLOAT
-                                                               : SLI_GROWTH_LIMIT);
+    F->growth_limit =
+        sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+                  F->storage != SL_STORAGE_DOUBLE ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
     F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -249,7 +249,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
  * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
  * supernodal method is 1.1 to 6 times faster. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-    if (S->n_pairs > 0 || (opt != NULL && opt->storage == SL_STORAGE_FLOAT)) {
+    if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
         return SL_METHOD_SUPERNODAL; /* only fronts have 2x2 pivots, and L before it is rounded */
     }
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
@@ -302,6 +302,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
     status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
+                     (S->n_pairs > 0 && sli_is_single(&draft)) ||
                      (draft.is_centered && draft.null_vectors > 1)
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);

@@ -62,12 +62,12 @@ struct sl_factor {
     sli_hash identity;
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
-    sl_off updates; /* rank-one changes since the last complete factorization */
-    double drift;   /* the rounding errors that they have added, relative to the largest entry */
-    sli_hash analysis;   /* the identity of S */
+    sl_off updates;    /* rank-one changes since the last complete factorization */
+    double drift;      /* the rounding errors that they have added, relative to the largest entry */
+    sli_hash analysis; /* the identity of S */
     sl_storage storage;  /* the type of L */
     void *values;        /* L: the panels of all supernodes, doubles or floats */
-    double *panels;      /* in float: scratch for a panel in double, one a worker; else NULL */
+    double *panels;      /* panels that are rounded: scratch for one, one a worker; else NULL */
     sl_off panel_room;   /* doubles of such a piece */
     double *D;           /* n pivots */
     double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
@@ -86,7 +86,7 @@ struct sl_factor {
     sl_int n_anchors;
     /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
     sl_int *anchors;
-    double *mass;       /* n: the weights m in pivot order; NULL: none */
+    double *mass;        /* n: the weights m in pivot order; NULL: none */
     sl_int null_vectors; /* columns of z and g */
     double *z;           /* n x null_vectors: the assumed null vectors of all components */
     /* n x null_vectors: one: z in trees with one component whose null vector is known, else 0;
@@ -198,30 +198,65 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
+/* The rounding unit of fronts. */
+SLI_INLINE double sli_epsilon(sl_storage storage) {
+    return storage == SL_STORAGE_FLOAT_FRONTS ? (double)FLT_EPSILON : DBL_EPSILON;
+}
+
+/* Are fronts computed in float? */
+SLI_INLINE int sli_is_single(const sl_factor *F) {
+    return F->storage == SL_STORAGE_FLOAT_FRONTS;
+}
+
 /* The panel of supernode s in double, while a worker factors it. */
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
     return F->storage == SL_STORAGE_FLOAT ? F->panels + F->panel_room * worker
                                           : (double *)F->values + F->S->steps[s].panel;
 }
 
-/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, and records the
- * largest magnitude. With scatter_from, x is A's value array and scatter_from[m] the position of
- * entry m; without, x[0] is the value of entry `first`. */
+/* The largest entry of A and sum of magnitudes, and the smallest sum, of fronts in float. Products
+ * of pivots and entries of L then neither overflow nor lose more by underflow than by rounding. */
+#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
+#define SLI_SINGLE_LEAST 7.888609052210118e-31 /* 2^-100 */
+
+/* An entry of A in float. None becomes 0, which would hide that its row is too small. */
+SLI_INLINE float sli_single(double a) {
+    const float x = (float)a;
+    return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
+}
+
+/* A's entries are read in the order of the map, which processors do not foresee. */
+#define SLI_ENTRIES_AHEAD 32
+
+/* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, in double or, if
+ * that is NULL, in float, and records the largest magnitude. With scatter_from, x is the value
+ * array of A and scatter_from[m] the position of entry m; without, x[0] is the value of entry
+ * `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                                                   sl_off first, sl_off last, const double *x,
-                                                   const sl_int *scatter_from,
+                                                   float *single, sl_off first, sl_off last,
+                                                   const double *x, const sl_int *scatter_from,
                                                    sli_failure *failure) {
     const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
+    const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
+    const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
     double largest = F->extents[s].entry;
     sl_off m;
     for (m = first; m < last; m++) {
+        if (scatter_from != NULL && m < ahead) { /* untested: constant */
+            SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
+        }
         const double a =
             scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
         const double size = fabs(a);
-        if (!sli_is_finite(a)) {
-            return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+        if (!(size <= most)) {
+            return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
+                            -1, m, a);
         }
-        panel[to[m] - begin] += a;
+        if (panel == NULL) {
+            single[to[m] - begin] += sli_single(a);
+        } else {
+            panel[to[m] - begin] += a;
+        }
         largest = size > largest ? size : largest;
     }
     F->extents[s].entry = largest;
@@ -243,9 +278,9 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
     }
 }
 
-/* Adds the matrix's entries to the panel of supernode s. */
+/* Adds the matrix's entries to the panel of supernode s, in double or, if NULL, in float. */
 static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s, double *panel,
-                                sli_failure *failure) {
+                                float *single, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sl_off end = S->scatter_begin[s + 1];
     sl_off m = S->scatter_begin[s], last;
@@ -255,12 +290,17 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     F->extents[s].pivot = -1;
     F->extents[s].zero = 0;
     if (from->A != NULL) {
-        return sli_panel_load_entries(F, s, panel, m, end, from->A->x, S->scatter_from, failure);
+        return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, m, end, from->A->x,
+                                                      S->scatter_from, failure)
+                             : sli_panel_load_entries(F, s, panel, NULL, m, end, from->A->x,
+                                                      S->scatter_from, failure);
     }
     for (; m < end && status == SL_OK; m = last) {
         last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
         sli_source_sum(from, m, (sl_int)(last - m), sums);
-        status = sli_panel_load_entries(F, s, panel, m, last, sums, NULL, failure);
+        status = panel == NULL
+                     ? sli_panel_load_entries(F, s, NULL, single, m, last, sums, NULL, failure)
+                     : sli_panel_load_entries(F, s, panel, NULL, m, last, sums, NULL, failure);
     }
     return status;
 }
@@ -299,6 +339,23 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
         return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
     }
     return SL_OK;
+}
+
+/* The same for a pivot of a front in float, and stores it. Refuses what float cannot tell from
+ * rounding: a kept pivot of a semidefinite matrix, too, is regular in double but not here. */
+SLI_INLINE sl_status sli_check_single(const sl_factor *F, sl_int s, sl_int k, float pivot,
+                                      float magnitude, sli_failure *failure) {
+    const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+    const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
+    F->D[k] = d;
+    if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
+        return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
+    }
+    if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
+        sli_record_magnitude(F, s, k, m);
+        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
+    }
+    return sli_check_pivot(F, s, k, d, m, failure);
 }
 
 /* At the first column k of a 2x2 pivot of supernode s: records the magnitudes that both columns

@@ -39,7 +39,7 @@ typedef struct sli_job {
     sl_int left;      /* bundles and fronts above them that are not done */
     sl_int n_ready;   /* fronts in tops.ready */
     sl_int failed;    /* the first supernode that is known to have failed, or n_supers */
-    /* the large front whose turn it is where L is in float, with one panel in double; -1: none */
+    /* the large front whose turn it is where L alone is in float: one panel in double; -1: none */
     sl_int rounded;
 } sli_job;
 
@@ -154,7 +154,7 @@ static sli_task sli_job_draw(sli_job *job) {
             task.at = at;
             return task;
         }
-        if ((job->F->storage == SL_STORAGE_DOUBLE || job->rounded == -1 || job->rounded == at) &&
+        if ((job->F->storage != SL_STORAGE_FLOAT || job->rounded == -1 || job->rounded == at) &&
             sli_top_draw(job, at, &task)) {
             job->rounded = at;
             p->tops[at].is_begun = 1;
@@ -211,12 +211,19 @@ static void sli_job_return(sli_job *job, const sli_task *task, sl_status status)
 
 /* ---- running tasks ---- */
 
-/* A large front. Its magnitudes and reciprocals follow its update matrix. */
+/* A large front. Its magnitudes, in float also D, and its reciprocals follow its update matrix. */
 static sli_front sli_large_front(const sl_factor *F, sl_int s) {
     const sli_step *step = &F->S->steps[s];
+    const ptrdiff_t rows = SLI_TILE * (ptrdiff_t)sli_tiles(step->width + step->below);
     sli_front f = sli_front_of(F, s, 0);
+    if (sli_is_single(F)) {
+        f.single.magnitude = f.single.update + sli_update_size(step);
+        f.single.D = f.single.magnitude + rows;
+        f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width);
+        return f;
+    }
     f.magnitude = f.update + sli_update_size(step);
-    f.reciprocals = f.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
+    f.reciprocals = f.magnitude + rows;
     f.panel = sli_front_panel(F, s, F->schedule.workers);
     return f;
 }
@@ -229,19 +236,24 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
     const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
     const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+    const sli_front_kernels *kernels = sli_front_kernels_of(F);
     sli_front f = sli_large_front(F, s);
     if (task->step == SLI_STEP_CLEAR) {
         sli_front_clear(&f, t0, t1);
     } else if (task->step == SLI_STEP_ASSEMBLE) {
         sli_front_assemble(F, &f, s, worker, t0, t1);
     } else if (task->step > sli_piece_last_step(step, piece)) {
-        F->kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+        kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
     } else {
-        f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-        if (group == piece) {
-            F->kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
+        if (f.panel == NULL) {
+            f.single.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
         } else {
-            F->kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
+            f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+        }
+        if (group == piece) {
+            kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
+        } else {
+            kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
         }
     }
 }

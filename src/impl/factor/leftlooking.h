@@ -33,12 +33,12 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
         memset(from.update + sli_triangle_offset(t - c0), 0,
                (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
     }
-    F->kernels->update(&from, c0, c1, c0, tiles, F->buffer);
+    F->kernels->fronts[0].update(&from, c0, c1, c0, tiles, F->buffer);
     for (r = first; r < from.below; r++) {
         p->relative[r - first] = p->local[rows[r]];
     }
-    F->kernels->assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
-                         from.below - first);
+    F->kernels->fronts[0].assemble(f, from.update, (w + first) % SLI_TILE, p->relative,
+                                   last - first, 0, from.below - first);
 }
 
 /* Adds |l d l| of rows first .. last-1 of descendant d to the magnitudes of f. The relative indices
@@ -97,7 +97,7 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
             d = S->first_descendant[d] - 1;
         }
     }
-    sli_front_eliminate(F->kernels, &f, F->buffer);
+    sli_front_eliminate(&F->kernels->fronts[0], &f, F->buffer);
     return sli_front_check(F, &f, s, failure);
 }
 
@@ -163,7 +163,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         }
         entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
     }
-    if (F->method != SL_METHOD_SUPERNODAL || F->storage == SL_STORAGE_FLOAT ||
+    if (F->method != SL_METHOD_SUPERNODAL || F->storage != SL_STORAGE_DOUBLE ||
         entries >= (uint64_t)sli_nnz(A)) {
         return sl_factor_refactor(F, A, stats);
     }

@@ -4,27 +4,44 @@
 
 #include "storage.h"
 
-/* The update matrix of supernode s, which this worker factors if it is within a task. */
-SLI_INLINE double *sli_update_of(const sl_factor *F, sl_int s, sl_int worker) {
+/* The update matrix of supernode s, doubles or floats, which this worker factors if it is within a
+ * task. */
+SLI_INLINE void *sli_update_matrix(const sl_factor *F, sl_int s, sl_int worker) {
     const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
-    return F->stack + (begin < own ? begin + worker * own : begin);
+    const sl_off at = begin < own ? begin + worker * own : begin;
+    return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at) : (void *)(F->stack + at);
+}
+
+SLI_INLINE const sli_front_kernels *sli_front_kernels_of(const sl_factor *F) {
+    return &F->kernels->fronts[sli_is_single(F)];
 }
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
     const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
+    double *magnitude = F->magnitude + (ptrdiff_t)worker * rows;
+    double *reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
     sli_front f;
-    f.panel = sli_front_panel(F, s, worker);
+    memset(&f, 0, sizeof f);
     f.width = step->width;
     f.below = step->below;
-    f.update = sli_update_of(F, s, worker);
+    f.rule = &F->rule;
+    f.column = step->column;
+    if (sli_is_single(F)) { /* the scratch is that of doubles: there is room for D as well */
+        f.single.panel = (float *)F->values + step->panel;
+        f.single.update = (float *)sli_update_matrix(F, s, worker);
+        f.single.magnitude = (float *)(void *)magnitude;
+        f.single.D = f.single.magnitude + rows;
+        f.single.reciprocals = (float *)(void *)reciprocals;
+        return f;
+    }
+    f.panel = sli_front_panel(F, s, worker);
+    f.update = (double *)sli_update_matrix(F, s, worker);
     f.D = F->D + step->column;
     f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
     f.E = F->E == NULL ? NULL : F->E + step->column;
-    f.magnitude = F->magnitude + (ptrdiff_t)worker * rows;
-    f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
-    f.rule = &F->rule;
-    f.column = step->column;
+    f.magnitude = magnitude;
+    f.reciprocals = reciprocals;
     return f;
 }
 
@@ -36,9 +53,17 @@ SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
 static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
     const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
     const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
+    const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+    const int has_update = f->below > 0 && t1 > whole;
+    if (f->panel == NULL) {
+        memset(f->single.panel + from, 0, (size_t)size * sizeof(float));
+        if (has_update) {
+            memset(f->single.update + at, 0, (size_t)(end - at) * sizeof(float));
+        }
+        return;
+    }
     memset(f->panel + from, 0, (size_t)size * sizeof(double));
-    if (f->below > 0 && t1 > whole) {
-        const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+    if (has_update) {
         memset(f->update + at, 0, (size_t)(end - at) * sizeof(double));
     }
 }
@@ -47,12 +72,20 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
  * them. */
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                                 sli_failure *failure) {
-    const sl_status status = sli_panel_load(F, from, s, f->panel, failure);
+    const sl_status status = sli_panel_load(F, from, s, f->panel, f->single.panel, failure);
+    const sl_int rows = SLI_TILE * sli_front_tiles(f);
     sl_int k;
+    if (f->panel == NULL) {
+        memset(f->single.magnitude, 0, (size_t)rows * sizeof(float));
+        for (k = 0; k < f->width; k++) {
+            f->single.magnitude[k] = (float)fabs(f->single.panel[sli_panel_at(f->width, k, k)]);
+        }
+        return status;
+    }
     for (k = 0; k < f->width; k++) {
         f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
     }
-    for (; k < SLI_TILE * sli_front_tiles(f); k++) {
+    for (; k < rows; k++) {
         f->magnitude[k] = 0.0;
     }
     return status;
@@ -67,14 +100,23 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
         const sl_int *relative = S->relative + S->rows_begin[c];
-        const double *from = sli_update_of(F, c, worker);
-        const double *magnitude = from + child->width % SLI_TILE +
+        const void *from = sli_update_matrix(F, c, worker);
+        const sl_off magnitudes = child->width % SLI_TILE +
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
         const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
         const sl_int last = sli_lower_bound(relative, child->below, SLI_TILE * t1);
-        F->kernels->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
-        for (k = first; k < last; k++) {
-            f->magnitude[relative[k]] += magnitude[k];
+        sli_front_kernels_of(F)->assemble(f, from, child->width % SLI_TILE, relative, child->below,
+                                          first, last);
+        if (f->panel == NULL) {
+            const float *magnitude = (const float *)from + magnitudes;
+            for (k = first; k < last; k++) {
+                f->single.magnitude[relative[k]] += magnitude[k];
+            }
+        } else {
+            const double *magnitude = (const double *)from + magnitudes;
+            for (k = first; k < last; k++) {
+                f->magnitude[relative[k]] += magnitude[k];
+            }
         }
     }
 }
@@ -82,19 +124,27 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
 /* Stores the magnitudes of the rows below next to the update matrix, for the parent. */
 static void sli_front_hand_over(const sli_front *f) {
     const sl_int tiles = sli_update_tiles(f->width, f->below);
-    memcpy(f->update + sli_triangle_offset(tiles),
-           f->magnitude + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE),
-           SLI_TILE * (size_t)tiles * sizeof(double));
+    const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+    const size_t rows = SLI_TILE * (size_t)tiles;
+    if (f->panel == NULL) {
+        memcpy(f->single.update + sli_triangle_offset(tiles), f->single.magnitude + first,
+               rows * sizeof(float));
+    } else {
+        memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + first, rows * sizeof(double));
+    }
 }
 
 /* Ends a front: refuses pivots that are not finite, and null pivots that were not replaced; rounds
- * the panel of a factor in float. */
+ * the panel of a factor whose fronts are in double and L in float. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
     sl_status status = SL_OK;
     sl_int k;
-    for (k = 0; k < f->width && status == SL_OK; k++) {
+    for (k = 0; k < f->width && f->panel == NULL && status == SL_OK; k++) {
+        status = sli_check_single(F, s, first + k, f->single.D[k], f->single.magnitude[k], failure);
+    }
+    for (k = 0; k < f->width && f->panel != NULL && status == SL_OK; k++) {
         status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
                      ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
                      : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
@@ -104,7 +154,8 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
 }
 
 /* Factors the panel of an assembled front: its columns of L and D. */
-static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, double *scratch) {
+static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_front *f,
+                                double *scratch) {
     const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
     sl_int c0;
     for (c0 = 0; c0 < ends; c0 += SLI_GROUP_TILES) {
@@ -114,7 +165,8 @@ static void sli_front_eliminate(const sli_kernels *kernels, const sli_front *f, 
 }
 
 /* Computes the update matrix of a front from the assembled front and its panel. */
-static void sli_front_update(const sli_kernels *kernels, const sli_front *f, double *scratch) {
+static void sli_front_update(const sli_front_kernels *kernels, const sli_front *f,
+                             double *scratch) {
     const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
     if (f->below > 0) {
         kernels->update(f, whole, tiles, whole, tiles, scratch);
@@ -134,8 +186,8 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
         return status;
     }
     sli_front_assemble(F, &f, s, worker, 0, tiles);
-    sli_front_eliminate(F->kernels, &f, scratch);
-    sli_front_update(F->kernels, &f, scratch);
+    sli_front_eliminate(sli_front_kernels_of(F), &f, scratch);
+    sli_front_update(sli_front_kernels_of(F), &f, scratch);
     sli_front_hand_over(&f);
     return sli_front_check(F, &f, s, failure);
 }

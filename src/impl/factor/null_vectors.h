@@ -65,8 +65,8 @@ SLI_INLINE int sli_signs_agree(double a, double b) {
 /* The rounding error that the heaviest rows of a matrix may cause in a pivot, relative to their
  * diagonal entries. Over 80,000 meshes with weak bridges and slivers, pivots of the wrong sign
  * stayed below (128 + n/4) epsilon. The factor 16 leaves a margin. */
-static double sli_null_rounding(sl_int n) {
-    return 16.0 * (64.0 + n / 8) * DBL_EPSILON;
+static double sli_null_rounding(sl_int n, double epsilon) {
+    return 16.0 * (64.0 + n / 8) * epsilon;
 }
 
 /* Finds the components of A and those whose null vector is known, and with them the kind of every
@@ -76,9 +76,8 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const int is_one = F->null_vectors == 1, by_columns = from->A != NULL && !F->has_duplicates;
-    const double rounding = sli_null_rounding(S->n), *z = is_one ? F->z : NULL;
-    double *diagonal =
-        is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
+    const double rounding = sli_null_rounding(S->n, F->rule.epsilon), *z = is_one ? F->z : NULL;
+    double *diagonal = is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
     const sli_null_walk w = sli_null_product(S, from, by_columns, F->rows, z, diagonal);
     sl_int i, refused = S->n; /* a pivot */
     F->stats.factor.regular = 0;
@@ -130,7 +129,7 @@ static int sli_nulls_remain(const sl_factor *F) {
  * tolerance missed, because its rounding error comes from heavier rows? Reads D only. */
 static int sli_null_is_suspected(const sl_factor *F) {
     const sl_symbolic *S = F->S;
-    const double rounding = sli_null_rounding(S->n);
+    const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
     double most = 0.0;
     sl_int k;
     for (k = 0; k < S->n && !F->rule.replaces && F->rule.null_tolerance >= 0.0; k++) {
@@ -160,9 +159,8 @@ static int sli_null_suspect_fits(const sl_factor *F) {
 static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    const double rounding = sli_null_rounding(S->n);
-    sli_null_row *rows =
-        (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
+    const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
+    sli_null_row *rows = (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
     double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
     sl_int *last = (sl_int *)(void *)(most + S->n), k;
     const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);

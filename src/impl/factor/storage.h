@@ -17,22 +17,24 @@
 /* The sweeps of F's factorization: x := L^-1 x over steps, and x := L'^-1 D^-1 x. */
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
                                   const sl_int *rows, double *x, double *scratch) {
-    F->kernels->sweeps[F->storage].forward[kind](count, steps, rows, F->values, x, scratch);
+    F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].forward[kind](count, steps, rows, F->values,
+                                                                      x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
                                    const sli_step *steps, const sl_int *rows_end, const double *D,
                                    double *x, double *scratch) {
-    F->kernels->sweeps[F->storage].backward[kind](count, steps, rows_end, F->values, D, x, scratch);
+    F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].backward[kind](count, steps, rows_end,
+                                                                       F->values, D, x, scratch);
 }
 
 /* The entry of L at a position of the panels. */
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-    return F->storage == SL_STORAGE_FLOAT ? (double)((const float *)F->values)[at]
-                                          : ((const double *)F->values)[at];
+    return F->storage != SL_STORAGE_DOUBLE ? (double)((const float *)F->values)[at]
+                                           : ((const double *)F->values)[at];
 }
 
 SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
-    if (F->storage == SL_STORAGE_FLOAT) {
+    if (F->storage != SL_STORAGE_DOUBLE) {
         ((float *)F->values)[at] = 0.0F;
     } else {
         ((double *)F->values)[at] = 0.0;

@@ -59,7 +59,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_load(F, from, s, panel, failure);
+            status = sli_panel_load(F, from, s, panel, NULL, failure);
             if (status != SL_OK) {
                 break;
             }

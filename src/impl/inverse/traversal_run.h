@@ -27,7 +27,7 @@ typedef struct sli_traversal_run {
 
 /* Doubles of scratch per worker: that of the kernels, and for L in float a panel in double. */
 SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
-    return t->scratch + (storage == SL_STORAGE_FLOAT ? t->panel : 0);
+    return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : 0);
 }
 
 /* storage: that of the factor. */
@@ -44,7 +44,7 @@ static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int
     const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
     sli_inverse_front f;
     f.panel =
-        run->F->storage == SL_STORAGE_FLOAT ? NULL : (const double *)run->F->values + step->panel;
+        run->F->storage != SL_STORAGE_DOUBLE ? NULL : (const double *)run->F->values + step->panel;
     f.D = run->F->D + step->column;
     f.front = run->fronts + run->traversal->schedule.stack_begin[k];
     f.width = step->width;
@@ -75,7 +75,7 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     const sl_symbolic *S = F->S;
     const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
     const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
-    const size_t entry = F->storage == SL_STORAGE_FLOAT ? sizeof(float) : sizeof(double);
+    const size_t entry = F->storage != SL_STORAGE_DOUBLE ? sizeof(float) : sizeof(double);
     sl_off k;
     for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
         SLI_PREFETCH(S->relative + row + k, 0);
@@ -90,7 +90,7 @@ static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_in
                                   sl_int worker) {
     const sl_off room = sli_traverse_scratch(run->traversal, run->F->storage);
     double *scratch = run->scratch + (ptrdiff_t)(room * worker);
-    if (run->F->storage == SL_STORAGE_FLOAT) {
+    if (run->F->storage != SL_STORAGE_DOUBLE) {
         sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
         f->panel = scratch + run->traversal->scratch;
     }

@@ -10,7 +10,7 @@
  * the front, so that the rows below have the same lane in both. Its first w % 8 rows and columns
  * and the part above the diagonal are not used. */
 
-/* Position of row tile t of a triangle, in doubles. */
+/* Position of row tile t of a triangle, in entries. */
 SLI_INLINE sl_off sli_triangle_offset(sl_int t) {
     return 32 * (sl_off)t * (t + 1);
 }
@@ -26,18 +26,23 @@ SLI_INLINE sl_int sli_update_tiles(sl_int w, sl_int u) {
 #define SLI_GROUP_TILES 8
 #define SLI_CHUNK_COLUMNS 256
 
-/* Doubles of scratch for fronts of some width. */
+/* Entries of scratch for fronts of some width. */
 SLI_INLINE sl_int sli_front_scratch(sl_int width) {
     return SLI_GROUP_TILES * SLI_TILE * sli_min(width, SLI_CHUNK_COLUMNS);
 }
 
-/* Doubles in the array `reciprocals` of a front: 24 for each column tile of a group. */
+/* Entries of the array `reciprocals` of a front: 24 for each column tile of a group. */
 #define SLI_FRONT_RECIPROCALS (3 * SLI_GROUP_TILES * SLI_TILE)
 
 /* Groups of column tiles of a front. */
 SLI_INLINE sl_int sli_front_groups(sl_int width) {
     return (sli_tiles(width) + SLI_GROUP_TILES - 1) / SLI_GROUP_TILES;
 }
+
+/* The same arrays of a front that is computed in float; it has no 2x2 pivots. */
+typedef struct sli_front_single {
+    float *panel, *update, *D, *magnitude, *reciprocals;
+} sli_front_single;
 
 typedef struct sli_front {
     double *panel;
@@ -50,6 +55,7 @@ typedef struct sli_front {
     /* 24 for each column tile of a group: 8 values 1/d, 8 values -sign(d) and, in a tile with 2x2
      * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
     double *reciprocals;
+    sli_front_single single; /* of a front in float, which has no arrays in double */
     const sli_pivot_rule *rule;
     sl_int column; /* first column of the supernode */
 } sli_front;
@@ -64,25 +70,31 @@ typedef struct sli_front {
  * row tiles may be distributed over threads. The caller looks for null pivots. */
 
 /* The row tiles of a group's pivots. */
-typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, double *scratch);
+typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, void *scratch);
 
 /* Row tiles t0 .. t1-1 of a group, all below its pivots. */
-typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                                double *scratch);
+typedef void (*sli_rows_kernel)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1, void *scratch);
 
 /* Row tiles t0 .. t1-1 and column tiles c0 .. c1-1 of the update matrix, or of a triangle that is a
  * part of it. update points to the triangle that begins at tile c0. No tile is before the last tile
- * of pivots. */
+ * of pivots. scratch: sli_front_scratch entries of the front's type. */
 typedef void (*sli_update_kernel)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0, sl_int t1,
-                                  double *scratch);
+                                  void *scratch);
 
 /* Extend-add: adds rows first .. last-1 of a descendant's update matrix to a front, in row i the
  * columns 0 .. min(i, columns-1). The first `skipped` rows and columns of the matrix are not used;
  * row 0 is the first after them. relative: the relative indices, ascending: the local row in the
  * front of each row. Two calls for the same front must not run at the same time on rows of the same
- * tile of the front. */
-typedef void (*sli_assemble_kernel)(const sli_front *f, const double *from, sl_int skipped,
+ * tile of the front. from: of the front's type. */
+typedef void (*sli_assemble_kernel)(const sli_front *f, const void *from, sl_int skipped,
                                     const sl_int *relative, sl_int columns, sl_int first,
                                     sl_int last);
+
+typedef struct sli_front_kernels {
+    sli_pivots_kernel pivots;
+    sli_rows_kernel rows;
+    sli_update_kernel update;
+    sli_assemble_kernel assemble;
+} sli_front_kernels;
 
 #endif

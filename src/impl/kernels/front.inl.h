@@ -1,7 +1,9 @@
 /* front.inl.h: factors the panel of a front, computes its update matrix, assembles a front */
 
+#include "product.inl.h"
+
 /* l(rows, k) = x(rows, k) / d(k); multiplies by 1/d where every |d| of the tile is in
- * 1e-290 .. 1e290, so that 1/d neither overflows nor underflows */
+ * SLV_LEAST .. SLV_MOST, so that 1/d neither overflows nor underflows */
 #define SLI_SCALE(l, x, k) \
     if (by_reciprocal) { \
         SLV_BROADCAST(b, reciprocal + (k)) \
@@ -20,7 +22,7 @@
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #define SLI_LOAD(k, p) \
     if ((k) < columns) { \
-        SLV_LOAD(a##k, (p) + SLI_TILE * (k)) \
+        SLV_LOAD_TILES(a##k, (p) + SLI_TILE * (k), q + SLI_TILE * (k)) \
     } else { \
         SLV_ZERO(a##k) \
     }
@@ -35,21 +37,21 @@
     }
 #define SLI_PIVOT(k, p) \
     if ((k) < columns) { \
-        double d; \
+        SLV_VALUE d; \
         SLV_STORE(x + SLI_TILE * (k), a##k) \
         SLV_STORE(sums, m) \
         SLV_LANE(b, a##k, k) \
         d = x[SLI_TILE * (k) + (k)]; \
         if (rule != NULL) { \
-            d = sli_pivot_by_rule(rule, column + (k), d, sums[k]); \
+            d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
             SLV_BROADCAST(b, &d) \
         } \
         SLV_DIVIDE(l, a##k, b) \
         D[k] = d; \
         magnitude[k] = sums[k]; \
-        minus_sign[k] = d < 0.0 ? 1.0 : -1.0; \
-        reciprocal[k] = 1.0 / d; \
-        safe &= fabs(d) > 1e-290 && fabs(d) < 1e290; \
+        minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
+        reciprocal[k] = (SLV_VALUE)1 / d; \
+        safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
         SLI_GAIN(l, a##k, k) \
         SLV_BELOW(l, k) \
         SLV_STORE((p) + SLI_TILE * (k), l) \
@@ -59,27 +61,29 @@
 /* Column k of a tile below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l = x / d. */
 #define SLI_BEFORE(j, k) \
     if ((j) < (k)) { \
-        SLV_BROADCAST(b, p + SLI_TILE * (j) + (k)) \
+        SLV_BROADCAST(b, pivots + SLI_TILE * (j) + (k)) \
         SLV_FNMA(a##k, a##j, b) \
     }
-#define SLI_SOLVE(k, q) \
+#define SLI_SOLVE(k, unused) \
     if ((k) < columns) { \
         SLI_EACH8_AGAIN(SLI_BEFORE, k) \
         SLI_SCALE(l, a##k, k) \
         SLI_GAIN(l, a##k, k) \
-        SLV_STORE((q) + SLI_TILE * (k), l) \
+        SLV_STORE_TILES(p + SLI_TILE * (k), q + SLI_TILE * (k), l) \
     }
 
 /* The pivots of column tile c, 8 or fewer. The columns before it are already applied. */
-SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c, double *reciprocals) {
+SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
+                                               SLV_VALUE *reciprocals) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
     const sl_int column = f->column + first;
     const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-    double *p = f->panel + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
-    double *D = f->D + first, *magnitude = f->magnitude + first;
-    double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE + SLI_TILE]);
-    double *sums = x + SLI_TILE * SLI_TILE;
+    SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    const SLV_VALUE *q = p;
+    SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
+    SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+    SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
+    SLV_VALUE *sums = x + SLI_TILE * SLI_TILE;
     int safe = 1;
     sl_int t;
     SLV_DECLARE(b)
@@ -94,31 +98,37 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c, dou
         magnitude[t] = sums[t];
     }
     if (!safe) {
-        reciprocal[0] = 0.0;
+        reciprocal[0] = 0;
     }
+    (void)q;
 }
 
 /* L in column tile c of row tiles t0 .. t1-1, all below its pivots. */
 SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-                                             const double *reciprocals) {
+                                             const SLV_VALUE *reciprocals) {
     const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    const double *p = f->panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)first;
+    SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE * (ptrdiff_t)first;
+    const SLV_VALUE *pivots = panel + sli_tile_offset(w, c);
     const int has_pairs = sli_tile_has_pairs(f, c);
-    const double *D = has_pairs ? reciprocals + 2 * SLI_TILE : f->D + first;
-    const double *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
-    const int by_reciprocal = reciprocal[0] != 0.0;
+    const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
+    const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
+    const int by_reciprocal = reciprocal[0] != 0;
     sl_int t;
-    for (t = t0; t < t1; t++) {
-        double *q = f->panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)first;
-        double *magnitude = f->magnitude + SLI_TILE * (ptrdiff_t)t;
+    for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
+        const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
+        SLV_VALUE *p = panel + sli_tile_offset(w, t), *q = panel + sli_tile_offset(w, second);
+        SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
+        SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
         SLV_DECLARE(b)
         SLV_DECLARE(l)
         SLV_DECLARE(m)
         SLI_EACH8(SLI_DECLARE, 0)
-        SLV_LOAD(m, magnitude)
-        SLI_EACH8(SLI_LOAD, q)
-        SLI_EACH8(SLI_SOLVE, q)
-        SLV_STORE(magnitude, m)
+        SLV_LOAD_TILES(m, sums, second_sums)
+        SLI_EACH8(SLI_LOAD, p)
+        SLI_EACH8(SLI_SOLVE, 0)
+        SLV_STORE_TILES(sums, second_sums, m)
+        (void)q;
+        (void)second_sums;
     }
     if (has_pairs) {
         sli_pair_rows(f, c, t0, t1);
@@ -136,27 +146,28 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
 
 /* Applies the columns of the group before tile c to column tile c of row tiles t0 .. t1-1. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
-                                                sl_int t1, double *B) {
+                                                sl_int t1, SLV_VALUE *B) {
     if (c > c0) {
         SLV_NAME(product)
-        (f->panel, f->width, f->D, f->E, t0, t1, c, c + 1, SLI_TILE * c0, SLI_TILE * c, f->panel,
-         f->width, 0, B);
+        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c, c + 1, SLI_TILE * c0,
+         SLI_TILE * c, SLV_OF(f, panel), f->width, 0, B);
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double *B) {
+SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, void *scratch) {
+    SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
     if (c0 > 0) {
         SLV_NAME(product)
-        (f->panel, f->width, f->D, f->E, c0, c1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
-         B);
+        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, c0, c1, c0, c1, 0, SLI_TILE * c0,
+         SLV_OF(f, panel), f->width, 0, B);
     }
     for (c = c0; c < c1; c++) {
-        double *reciprocals = f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
+        SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
         SLV_NAME(catch_up)(f, c0, c, c, c1, B);
         if (sli_tile_has_pairs(f, c)) {
-            sli_pair_tile(f, c, reciprocals);
+            sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
         } else {
             SLV_NAME(tile_pivots)(f, c, reciprocals);
         }
@@ -165,45 +176,48 @@ SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, double 
 }
 
 SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                                        double *B) {
+                                        void *scratch) {
+    SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
     if (c0 > 0) {
         SLV_NAME(product)
-        (f->panel, f->width, f->D, f->E, t0, t1, c0, c1, 0, SLI_TILE * c0, f->panel, f->width, 0,
-         B);
+        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, 0, SLI_TILE * c0,
+         SLV_OF(f, panel), f->width, 0, B);
     }
     for (c = c0; c < c1; c++) {
         SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
         SLV_NAME(tile_rows)
-        (f, c, t0, t1, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
+        (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     }
 }
 
 SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
-                                          sl_int t1, double *B) {
+                                          sl_int t1, void *scratch) {
+    SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
     for (c = c0; c < last; c += SLI_GROUP_TILES) {
         SLV_NAME(product)
-        (f->panel, w, f->D, f->E, sli_max(t0, c), t1, c, sli_min(c + SLI_GROUP_TILES, last), 0, w,
-         f->update, SLI_TILE * (t1 - c0), c0, B);
+        (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
+         sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
     }
 }
 
 /* Extend-add. Consecutive rows that are in one tile of the child and in one tile of the parent form
  * a run. A run is moved as a whole through all columns, its lanes expanded by a mask. Entries above
  * the diagonal are moved too and never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *from, sl_int skipped,
+SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from, sl_int skipped,
                                             const sl_int *relative, sl_int columns, sl_int first,
                                             sl_int last) {
     const sl_int w = f->width, whole = w / SLI_TILE;
     sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-        const double *source = from + sli_triangle_offset((skipped + row) / SLI_TILE) +
-                               SLI_TILE * (ptrdiff_t)skipped + lane;
-        double *const to[2] = {f->panel, f->update};
+        const SLV_VALUE *source = (const SLV_VALUE *)from +
+                                  sli_triangle_offset((skipped + row) / SLI_TILE) +
+                                  SLI_TILE * (ptrdiff_t)skipped + lane;
+        SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
         const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
                                  (ptrdiff_t)sli_triangle_offset(tile - whole) -
                                      SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
@@ -218,7 +232,8 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const double *fr
             SLV_EXPAND(mask, lanes, end - row)
             for (i = 0; i < end && i < columns; i++) {
                 const int is_below = relative[i] >= w; /* selects the target without a branch */
-                double *target = to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
+                SLV_VALUE *target =
+                    to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
                 SLV_EXPAND_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
             }
         }

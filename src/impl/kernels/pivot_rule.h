@@ -15,6 +15,7 @@ enum {
 /* The arrays are indexed by the column of L. */
 typedef struct sli_pivot_rule {
     double null_tolerance;
+    double epsilon;        /* of the type in which fronts are computed */
     int replaces;          /* 0: pivots are used as computed, and the caller looks for null ones */
     double regularization; /* 0: a null pivot becomes SLI_NULL_PIVOT */
     signed char *signs;    /* n: 1, -1, or 0 if both signs are right; NULL: all 1 */
@@ -36,6 +37,11 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
     return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
 }
 
+/* d in float. SLI_NULL_PIVOT becomes FLT_MAX. */
+SLI_INLINE float sli_to_float(double d) {
+    return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
+}
+
 /* The pivot of column k where null pivots are skipped. A kept pivot is not null in exact
  * arithmetic. Rounding may have made it 0, or of the wrong sign if it is small, because it may come
  * from rows that are heavier than this one. A pivot below one rounding error of its own row gets
@@ -44,7 +50,7 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
                                     double magnitude) {
     const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
-    const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = DBL_EPSILON * magnitude;
+    const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
     const int is_wrong = d * sign < 0.0;
     if (!sli_is_finite(d)) {
         return d;

@@ -1,17 +1,28 @@
 /* product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
-/* A block of C in registers has SLV_COLUMNS columns of SLV_TILES row tiles. Columns after the last
- * of C are computed and discarded, as B always has the 8 rows of a tile. */
-#define SLI_DECLARE(k, t) SLV_DECLARE(c##t##k)
-#define SLI_LOAD(k, t) \
+/* A block of C in registers has SLV_COLUMNS columns of SLV_TILES row tiles. A vector is one column
+ * of a row tile or, where registers are longer than a tile, of the row tiles p and q. If q is p,
+ * both halves are the same, and so is what they store. Columns after the last of C are computed and
+ * discarded, as B always has the 8 rows of a tile. */
+#if !defined(SLV_LOAD_TILES)
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
+#else
+#define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_TILES(a, p, q)
+#endif
+
+#define SLI_DECLARE(k, v) SLV_DECLARE(c##v##k)
+#define SLI_LOAD(k, v) \
     if ((k) < columns) { \
-        SLV_LOAD(c##t##k, C##t + SLI_TILE * (k)) \
+        SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
     } else { \
-        SLV_ZERO(c##t##k) \
+        SLV_ZERO(c##v##k) \
     }
-#define SLI_STORE(k, t) \
+#define SLI_STORE(k, v) \
     if ((k) < columns) { \
-        SLV_STORE(C##t + SLI_TILE * (k), c##t##k) \
+        SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
     }
 #define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
     SLV_BROADCAST(b, B + (k)) \
@@ -20,27 +31,32 @@
     SLI_UPDATE(k, unused) \
     SLV_FNMA(c1##k, a1, b)
 
-/* One row tile. A: [length][8]; B: [length][8], from the first column of the block on;
- * C: [columns][8]. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const double *A, const double *B, sl_int length,
-                                              double *C0, sl_int columns) {
+/* One vector. A: [length][8], for each row tile; B: [length][8], from the first column of the block
+ * on; C: [columns][8], for each row tile. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                                             const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                                             SLV_VALUE *Cq0, sl_int columns) {
     sl_int j;
     SLV_DECLARE(a0)
     SLV_DECLARE(b)
     SLV_EACH_COLUMN(SLI_DECLARE, 0)
     SLV_EACH_COLUMN(SLI_LOAD, 0)
-    for (j = 0; j < length; j++, A += SLI_TILE, B += SLI_TILE) {
-        SLV_LOAD_PINNED(a0, A)
+    for (j = 0; j < length; j++, Ap0 += SLI_TILE, Aq0 += SLI_TILE, B += SLI_TILE) {
+        SLI_LOAD_ROWS(a0, Ap0, Aq0)
         SLV_EACH_COLUMN(SLI_UPDATE, 0)
     }
     SLV_EACH_COLUMN(SLI_STORE, 0)
+    (void)Aq0;
+    (void)Cq0;
 }
 
-#if SLV_TILES == 2
-/* Two row tiles. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1, const double *B,
-                                              sl_int length, double *C0, double *C1,
-                                              sl_int columns) {
+#if SLV_TILES > SLV_VECTOR_TILES
+/* Two vectors. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                                             const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
+                                             const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                                             SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
+                                             sl_int columns) {
     sl_int j;
     SLV_DECLARE(a0)
     SLV_DECLARE(a1)
@@ -49,13 +65,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1,
     SLV_EACH_COLUMN(SLI_DECLARE, 1)
     SLV_EACH_COLUMN(SLI_LOAD, 0)
     SLV_EACH_COLUMN(SLI_LOAD, 1)
-    for (j = 0; j < length; j++, A += SLI_TILE, A1 += SLI_TILE, B += SLI_TILE) {
-        SLV_LOAD_PINNED(a0, A)
-        SLV_LOAD_PINNED(a1, A1)
+    for (j = 0; j < SLI_TILE * length; j += SLI_TILE, B += SLI_TILE) {
+        SLI_LOAD_ROWS(a0, Ap0 + j, Aq0 + j)
+        SLI_LOAD_ROWS(a1, Ap1 + j, Aq1 + j)
         SLV_EACH_COLUMN(SLI_UPDATE2, 0)
     }
     SLV_EACH_COLUMN(SLI_STORE, 0)
     SLV_EACH_COLUMN(SLI_STORE, 1)
+    (void)Cq0;
+    (void)Cq1;
+    (void)Aq0;
+    (void)Aq1;
 }
 #endif
 
@@ -64,10 +84,26 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const double *A, const double *A1,
 #undef SLI_STORE
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
+#undef SLI_LOAD_ROWS
+
+#if SLV_VECTOR_TILES == 1
+/* The same for users of single row tiles. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const SLV_VALUE *A, const SLV_VALUE *B, sl_int length,
+                                              SLV_VALUE *C, sl_int columns) {
+    SLV_NAME(rows1)(A, A, B, length, C, C, columns);
+}
+#if SLV_TILES == 2
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
+                                              const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
+                                              SLV_VALUE *C1, sl_int columns) {
+    SLV_NAME(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
+}
+#endif
+#endif
 
 /* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl_int length,
-                                            double *B) {
+SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
+                                            SLV_VALUE *B) {
     sl_int j;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
@@ -83,58 +119,54 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const double *l, const double *d, sl
  * triangle, t0 <= t < t1, c0 <= c < c1, t0 >= c0. Tile (t, c) of the target is at
  * sli_tile_offset(target_width, t - target_first) + 64 (c - target_first). Columns j are taken in
  * chunks, so that the part of a row tile stays in the first cache and that of the group of column
- * tiles in the second. E: D(j+1, j), or NULL if D is diagonal. B: scratch, sli_front_scratch
- * doubles. */
-SLV_FUNCTION static void SLV_NAME(product)(const double *panel, sl_int w, const double *D,
+ * tiles in the second. Row tiles are taken as many at a time as a block has; where these cross the
+ * diagonal, and at the end, one vector at a time. E: D(j+1, j), or NULL if D is diagonal. B:
+ * scratch, sli_front_scratch entries. */
+SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
                                            const double *E, sl_int t0, sl_int t1, sl_int c0,
-                                           sl_int c1, sl_int j0, sl_int j1, double *target,
-                                           sl_int target_width, sl_int target_first, double *B) {
-    const sl_int tile_size = SLI_TILE * SLI_TILE;
-    sl_int j, t, c, k;
+                                           sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+                                           sl_int target_width, sl_int target_first, SLV_VALUE *B) {
+    const sl_int step = SLV_TILES, tile_size = SLI_TILE * SLI_TILE;
+    sl_int j, t, c, k, r, m;
     for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
         const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 - j);
         for (c = c0; c < c1; c++) {
-            SLV_NAME(pack)
-            (panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, D + j, length,
-             B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
-            if (E != NULL) {
-                sli_pair_pack(panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j, E + j,
-                              length, B + (ptrdiff_t)(c - c0) * SLI_TILE * length);
-            }
+            const SLV_VALUE *l = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j;
+            SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+            SLV_NAME(pack)(l, D + j, length, to);
+            SLV_PACK_PAIRS(l, E, j, length, to)
         }
-        for (t = t0; t < t1; t++) {
-            const double *A = panel + sli_tile_offset(w, t) + SLI_TILE * (ptrdiff_t)j;
-            double *C = target + sli_tile_offset(target_width, t - target_first);
-#if SLV_TILES == 2
-            const int is_pair = t + 1 < t1;
-            const double *A1 =
-                is_pair ? panel + sli_tile_offset(w, t + 1) + SLI_TILE * (ptrdiff_t)j : A;
-            double *C1 = is_pair ? target + sli_tile_offset(target_width, t + 1 - target_first) : C;
-#endif
-            for (c = c0; c < c1 && c <= t; c++) {
+        for (t = t0; t < t1; t += step) {
+            const sl_int end = sli_min(t + step, t1);
+            const SLV_VALUE *A[SLV_TILES];
+            SLV_VALUE *C[SLV_TILES];
+            for (m = 0; m < step; m++) {
+                r = sli_min(t + m, end - 1);
+                A[m] = panel + sli_tile_offset(w, r) + SLI_TILE * (ptrdiff_t)j;
+                C[m] = target + sli_tile_offset(target_width, r - target_first);
+            }
+            for (c = c0; c < c1 && c < end; c++) {
                 const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                const double *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
+                const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
                 const sl_int columns = target_width - SLI_TILE * (c - target_first);
-#if SLV_TILES == 2
-                if (is_pair) {
-                    SLV_NAME(block2)(A, A1, b, length, C + at, C1 + at, columns);
-                    continue;
-                }
-#endif
                 for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
-                    SLV_NAME(block1)(A, b + k, length, C + at + SLI_TILE * k, columns - k);
+                    const ptrdiff_t to = at + SLI_TILE * k;
+#if SLV_TILES > SLV_VECTOR_TILES
+                    if (c <= t && end == t + step) {
+                        const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
+                        SLV_NAME(rows2)
+                        (A[0], A[q], A[p], A[p + q], b + k, length, C[0] + to, C[q] + to, C[p] + to,
+                         C[p + q] + to, columns - k);
+                        continue;
+                    }
+#endif
+                    for (r = sli_max(t, c) - t; r < end - t; r += SLV_VECTOR_TILES) {
+                        m = sli_min(r + SLV_VECTOR_TILES, end - t) - 1;
+                        SLV_NAME(rows1)
+                        (A[r], A[m], b + k, length, C[r] + to, C[m] + to, columns - k);
+                    }
                 }
             }
-#if SLV_TILES == 2
-            t += is_pair;
-            if (is_pair && c == t && c < c1) {
-                /* the second row tile of the pair has one tile more, on the diagonal */
-                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
-                SLV_NAME(block1)
-                (A1, B + (ptrdiff_t)(c - c0) * SLI_TILE * length, length, C1 + at,
-                 target_width - SLI_TILE * (c - target_first));
-            }
-#endif
         }
     }
 }

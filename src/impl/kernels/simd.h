@@ -5,9 +5,10 @@
 #include "panel.h"
 
 /* A template *.inl.h is compiled once for each instruction set. It uses two groups of macros, which
- * the files simd_*.h define and kernel_set.inl.h undefines.
+ * the files simd_*.h define and words_undef.inl.h undefines.
  *
- * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile.
+ * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile. In the files
+ * simd_*_single.h they are vectors of floats.
  *
  *  SLV_NAME(f)            name of function f in this instruction set
  *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
@@ -35,10 +36,14 @@
  *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
  *
  *  Sweeps read L in the type in which it is stored. Their templates are included twice, for double
- *  and for float, and flip SLV_SINGLE at their end.
+ *  and for float, and flip SLV_SINGLE at their end. The templates of fronts compute in that type.
  *
- *  SLV_SINGLE             0: L is stored in double; 1: in float, and everything else is double
- *  SLV_VALUE              the type of an entry of L
+ *  SLV_SINGLE             0: L is stored in double; 1: in float. In sweeps all else is double
+ *  SLV_VALUE              the type of an entry of L, and of a front
+ *  SLV_OF(f, array)       an array of front f in that type
+ *  SLV_LEAST, SLV_MOST    the reciprocal of a number between them neither overflows nor underflows
+ *  SLV_PIVOT(d)           a pivot in double in the type of the front
+ *  SLV_PACK_PAIRS(l, E, j, length, B)  B += L E from column j on; only in double
  *  SLV_SWEEP(f)           SLV_NAME of a function that reads L; SLW_SWEEP(f): SLW_NAME of one
  *  SLV_READ(l)            what SLV_AXPY, SLV_DOT, SLV_SUM_DOT and SLV_DUP_ load at l, as doubles;
  *                         each instruction set defines SLV_READ_0 for double, SLV_READ_1 for float
@@ -52,6 +57,8 @@
  *  SLV_SUMS(r, a)         lane k of vector r = the sum of accumulator a##k, k = 0 .. 7
  *
  *  SLV_TILES, SLV_COLUMNS             row tiles and columns of the register block of a product
+ *  SLV_VECTOR_TILES                   row tiles of a vector in products and below the pivots: 1, or
+ *                                     2 with SLV_LOAD_TILES(a, p, q), SLV_STORE_TILES(p, q, a)
  *  SLV_EACH_COLUMN(op, t)             op(0, t) op(1, t) .. over the columns of that block
  *
  * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.
@@ -100,8 +107,8 @@
     (void)(mask);
 #define SLI_EXPAND_ADD_PLAIN(to, from) \
     { \
-        double *to_ = (to); \
-        const double *from_ = (from); \
+        SLV_VALUE *to_ = (to); \
+        const SLV_VALUE *from_ = (from); \
         sl_int i_; \
         for (i_ = 0; i_ < count_; i_++) { \
             to_[lanes_[i_]] += from_[i_]; \
@@ -126,7 +133,26 @@
             SLV_WIDEN_ROWS(v + SLI_TILE * c_, (l) + SLI_TILE * c_, rows) \
         } \
     }
+#define SLI_OF_0(f, array) (f)->array
+#define SLI_OF_1(f, array) (f)->single.array
+#define SLI_LEAST_0 1e-290
+#define SLI_LEAST_1 1e-30
+#define SLI_MOST_0 1e290
+#define SLI_MOST_1 1e30
+#define SLI_PIVOT_0(d) (d)
+#define SLI_PIVOT_1(d) sli_to_float(d)
+#define SLI_PACK_PAIRS_0(l, E, j, length, B) \
+    if (E != NULL) { \
+        sli_pair_pack(l, E + (j), length, B); \
+    }
+#define SLI_PACK_PAIRS_1(l, E, j, length, B) (void)E;
 #define SLV_VALUE SLI_BY_TYPE(SLI_VALUE_, SLV_SINGLE)
+#define SLV_OF(f, array) SLI_BY_TYPE(SLI_OF_, SLV_SINGLE)(f, array)
+#define SLV_LEAST SLI_BY_TYPE(SLI_LEAST_, SLV_SINGLE)
+#define SLV_MOST SLI_BY_TYPE(SLI_MOST_, SLV_SINGLE)
+#define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
+#define SLV_PACK_PAIRS(l, E, j, length, B) \
+    SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)

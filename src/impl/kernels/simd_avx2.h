@@ -2,6 +2,7 @@
 #ifndef SLI_KERNELS_SIMD_AVX2_H
 #define SLI_KERNELS_SIMD_AVX2_H
 
+#include "simd_avx2_single.h"
 #include "simd.h"
 #include "table.h"
 
@@ -204,7 +205,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "words_undef.inl.h"
 
 #endif
 

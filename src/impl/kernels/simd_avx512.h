@@ -3,6 +3,7 @@
 #define SLI_KERNELS_SIMD_AVX512_H
 
 #include "simd_avx2.h"
+#include "simd_avx512_single.h"
 #include "simd.h"
 #include "table.h"
 
@@ -110,7 +111,9 @@
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "words_undef.inl.h"
 
 #endif
 

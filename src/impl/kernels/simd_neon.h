@@ -2,6 +2,7 @@
 #ifndef SLI_KERNELS_SIMD_NEON_H
 #define SLI_KERNELS_SIMD_NEON_H
 
+#include "simd_neon_single.h"
 #include "simd.h"
 #include "table.h"
 
@@ -190,7 +191,9 @@
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "words_undef.inl.h"
 
 #endif
 

@@ -2,16 +2,9 @@
 #ifndef SLI_KERNELS_SIMD_SCALAR_H
 #define SLI_KERNELS_SIMD_SCALAR_H
 
+#include "simd_scalar_single.h"
 #include "simd.h"
 #include "table.h"
-
-#define SLI_LOOP(count, statement) \
-    { \
-        int i_; \
-        for (i_ = 0; i_ < (count); i_++) { \
-            statement; \
-        } \
-    }
 
 #define SLV_NAME(f) sli_##f##_scalar
 #define SLV_ISA SL_ISA_SCALAR
@@ -111,7 +104,9 @@
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "words_undef.inl.h"
 #undef SLI_LOOP
 
 #endif

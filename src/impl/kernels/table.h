@@ -23,10 +23,7 @@ typedef struct sli_kernels {
     sl_isa isa;
     sli_sweeps sweeps[2]; /* of sl_storage */
     sli_row_kernel row;
-    sli_pivots_kernel pivots;
-    sli_rows_kernel rows;
-    sli_update_kernel update;
-    sli_assemble_kernel assemble;
+    sli_front_kernels fronts[2]; /* in double, in float */
     sli_products_kernel products;
     sli_gather_kernel gather;
     sli_inverse_phase_kernel inverse_phase;

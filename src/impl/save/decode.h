@@ -116,7 +116,8 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
         !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
         !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
-        !sli_count_is_valid(g->storage, g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT : 0) ||
+        !sli_count_is_valid(g->storage,
+                            g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
         g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
         return 0;
     }
@@ -133,6 +134,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->consistency = g->consistency;
     F->growth_limit = g->growth_limit;
     F->error_limit = g->error_limit;
+    F->rule.epsilon = sli_epsilon(F->storage);
     F->rule.null_tolerance = g->null_tolerance;
     F->rule.regularization = g->regularization;
     F->rule.replaces = skips || g->regularization != 0.0;

@@ -188,7 +188,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     SLI_ADD(8, mass, weighted, weighted);
     SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
     SLI_ADD(8, ratios, trees, anchors);
-    if (g->storage == SL_STORAGE_FLOAT) {
+    if (g->storage != SL_STORAGE_DOUBLE) {
         SLI_ADD(8, values, 0, 0);
         SLI_ADD(4, values, panels, panels);
     } else {

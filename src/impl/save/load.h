@@ -164,7 +164,7 @@ static sl_status sli_read_front(sli_reading *r) {
             return status != SL_OK ? status : SL_ERR_IO;
         }
     }
-    if ((r->F.storage == SL_STORAGE_FLOAT) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
+    if ((r->F.storage != SL_STORAGE_DOUBLE) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
         return SL_ERR_IO;
     }
     memset(&expected, 0, sizeof expected);
@@ -264,7 +264,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     status = sli_factor_use(F, r->opt);
     sli_factor_layout(F, &b, (int)g->has_mass);
     m.first = r->saved.first_number;
-    m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage == SL_STORAGE_FLOAT);
+    m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage != SL_STORAGE_DOUBLE);
     m.head = sizeof *F;
     m.bytes = b.used;
     if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {

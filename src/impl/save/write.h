@@ -192,7 +192,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     f->header.order_mark = SLI_ORDER_MARK;
     f->header.read_version = SLI_READ_VERSION_DOUBLE;
     f->header.write_version = SLI_WRITE_VERSION_PLAIN;
-    if (F != NULL && F->storage == SL_STORAGE_FLOAT) {
+    if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
         f->header.read_version = SLI_READ_VERSION;
         f->header.write_version = SLI_WRITE_VERSION;
     }
