@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5e1f3495b6b42b35
+ * FNV-1a of the lines after this comment, without the license: de90a0050bed7a2c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,54 +33,54 @@
  *   2942 base.h   3221 status.h   3282 options.h   3340 alloc.h   3450 hash.h   3580 file_map.h
  *   3676 sort.h   3740 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3823 panel.h   3845 step.h   3886 pivot_rule.h   3958 front.h   4017 pairs.h
- *   4224 inverse_front.h   4296 table.h   4317 simd.h   4406 simd_scalar_single.h
- *   4451 simd_scalar.h   4566 simd_avx2_single.h   4619 simd_avx2.h   4824 simd_avx512_single.h
- *   4874 simd_avx512.h   4987 simd_neon_single.h   5028 simd_neon.h   5227 dispatch.h
+ *   3823 panel.h   3845 step.h   3886 pivot_rule.h   3960 front.h   4019 pairs.h
+ *   4226 inverse_front.h   4298 table.h   4319 simd.h   4408 simd_scalar_single.h
+ *   4454 simd_scalar.h   4569 simd_avx2_single.h   4623 simd_avx2.h   4828 simd_avx512_single.h
+ *   4879 simd_avx512.h   4992 simd_neon_single.h   5034 simd_neon.h   5233 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5307 csc.h   5421 csc_build.h   5555 csc64.h   5626 csc_triangle.h   5692 csc_products.h
- *   5809 permute.h   5875 sum.h   5957 output_file.h   6166 matrix_market.h
+ *   5313 csc.h   5427 csc_build.h   5561 csc64.h   5632 csc_triangle.h   5698 csc_products.h
+ *   5815 permute.h   5881 sum.h   5963 output_file.h   6172 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6612 graph.h   6761 coarsen.h   7073 labels.h   7267 subgraph.h   7462 heap.h   7522 bisect.h
- *   7752 separator.h   8014 mindeg.h   8197 dissect.h   8531 levelset.h   8651 geometric.h
- *   8826 cells.h   9006 septree.h   9066 metis.h   9215 metis_refined.h   9329 nd.h
- *   9521 compress.h   9642 quotient.h  10056 order.h
+ *   6618 graph.h   6767 coarsen.h   7079 labels.h   7273 subgraph.h   7468 heap.h   7528 bisect.h
+ *   7758 separator.h   8020 mindeg.h   8203 dissect.h   8537 levelset.h   8657 geometric.h
+ *   8832 cells.h   9012 septree.h   9072 metis.h   9221 metis_refined.h   9335 nd.h
+ *   9527 compress.h   9648 quotient.h  10062 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10338 symbolic_types.h  10375 etree.h  10448 counts.h  10505 supernodes.h  10727 structure.h
- *  10848 schedule.h  11128 symbolic.h  11538 reach.h
+ *  10344 symbolic_types.h  10381 etree.h  10454 counts.h  10511 supernodes.h  10733 structure.h
+ *  10854 schedule.h  11134 symbolic.h  11544 reach.h
  * (factor: the numbers of L and D)
- *  11809 factor_types.h  12184 storage.h  12257 pivot_search.h  12603 pivoted.h  12671 scatter.h
- *  12829 uplooking.h  12901 null_product.h  13105 null_dense.h  13182 null_basis.h
- *  13490 null_vectors.h  13632 multifrontal.h  13809 front_tasks.h  14151 nullspace.h
- *  14354 growth.h  14430 factor_setup.h  14730 factor.h  14936 leftlooking.h  15120 factor_query.h
- *  15255 combination.h
+ *  11815 factor_types.h  12190 storage.h  12263 pivot_search.h  12609 pivoted.h  12677 scatter.h
+ *  12835 uplooking.h  12907 null_product.h  13111 null_dense.h  13188 null_basis.h
+ *  13496 null_vectors.h  13638 multifrontal.h  13815 front_tasks.h  14157 nullspace.h
+ *  14360 growth.h  14436 factor_setup.h  14736 factor.h  14942 leftlooking.h  15126 factor_query.h
+ *  15261 combination.h
  * (solve: full and local solves)
- *  15316 region_types.h  15420 work.h  15517 query.h  15691 singular.h  15958 backward.h
- *  15988 sweep.h  16174 compile.h  16367 plan.h  16474 local.h  16624 parts.h  16911 refine.h
- *  17090 refine_local.h  17305 rcond.h  17461 defects.h
+ *  15322 region_types.h  15426 work.h  15523 query.h  15697 singular.h  15964 backward.h
+ *  15994 sweep.h  16180 compile.h  16373 plan.h  16480 local.h  16630 parts.h  16917 refine.h
+ *  17096 refine_local.h  17311 rcond.h  17467 defects.h
  * (inverse: entries of the inverse, regions)
- *  17538 traversal.h  17783 traversal_run.h  17966 row_sets.h  17993 unit_vectors.h
- *  18218 bilinear.h  18395 entries.h  18676 block.h  18916 reserve.h  19108 selected.h
- *  19318 selected_query.h  19420 region_choose.h  19647 region.h
+ *  17544 traversal.h  17789 traversal_run.h  17972 row_sets.h  17999 unit_vectors.h
+ *  18224 bilinear.h  18401 entries.h  18682 block.h  18922 reserve.h  19114 selected.h
+ *  19324 selected_query.h  19426 region_choose.h  19653 region.h
  * (change: a factor that follows changes of its matrix)
- *  19895 update.h  20245 rank.h  20574 edges.h  20728 choose.h  20922 pins.h  21486 subset.h
- *  21593 restrict_analysis.h  21890 restrict_anew.h  21944 restrict_symbolic.h  22125 restrict.h
- *  22473 edit_match.h  22655 edit_place.h  22859 edit_order.h  23020 edit_graph.h
- *  23115 edit_join.h  23391 edit.h
+ *  19901 update.h  20251 rank.h  20580 edges.h  20734 choose.h  20928 pins.h  21492 subset.h
+ *  21599 restrict_analysis.h  21896 restrict_anew.h  21950 restrict_symbolic.h  22131 restrict.h
+ *  22479 edit_match.h  22661 edit_place.h  22865 edit_order.h  23026 edit_graph.h
+ *  23121 edit_join.h  23397 edit.h
  * (save: factors in files)
- *  23543 format.h  23839 decode.h  23987 check.h  24319 write.h  24622 load.h  24890 load_inverse.h
- *  25222 load_calls.h
+ *  23549 format.h  23845 decode.h  23993 check.h  24325 write.h  24628 load.h  24896 load_inverse.h
+ *  25228 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25421 batch_solve.h  25630 batch_factor.h  25831 batch_diagonal.h
+ *  25427 batch_solve.h  25636 batch_factor.h  25837 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  25971 hermitian.h  26133 complex_rows.h
+ *  25977 hermitian.h  26139 complex_rows.h
  * (last: undefine every internal macro)
- *  26301 undef.h
+ *  26307 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26505 front.inl.h  26507 product.inl.h  26898 words_undef.inl.h  26972 multi_rhs.inl.h
- *  27355 sweeps.inl.h  27357 unit_triangle.inl.h  27394 two_rhs.inl.h  27563 small_supernode.inl.h
- *  27722 single_rhs.inl.h  27966 kernel_set.inl.h  27968 inverse_front.inl.h  28253 row.inl.h
- *  28283 change.inl.h
+ *  26512 front.inl.h  26514 product.inl.h  26915 words_undef.inl.h  26989 multi_rhs.inl.h
+ *  27372 sweeps.inl.h  27374 unit_triangle.inl.h  27411 two_rhs.inl.h  27580 small_supernode.inl.h
+ *  27739 single_rhs.inl.h  27983 kernel_set.inl.h  27985 inverse_front.inl.h  28270 row.inl.h
+ *  28300 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1050,13 +1050,13 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *
  *  With SL_STORAGE_FLOAT_FRONTS fronts and pivots are computed in float, too: about half the time
  *  and the memory of double, and all of the above with the following differences.
- *  - Solutions have a backward error of about 1e-7 to 1e-5 * growth before refinement: the rounding
+ *  - Solutions have a backward error of about 1e-7 to 1e-6 * growth before refinement: the rounding
  *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
  *    known to float's accuracy.
  *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
- *    epsilon unless it is given, and SL_ERR_PIVOT says that a pivot is null in float. A may be
- *    regular in double. A pivot of a semidefinite matrix within rounding of 0, which double would
- *    keep and count as weak, is refused, too.
+ *    epsilon, at most 1/32, unless it is given, and SL_ERR_PIVOT says that a pivot is null in
+ *    float. A may be regular in double. A pivot of a semidefinite matrix within rounding of 0,
+ *    which double would keep and count as weak, is refused, too.
  *  - Entries of A above 8.5e37, and pivots computed from magnitudes below 7.9e-31, are refused with
  *    SL_ERR_INACCURATE.
  *  - 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
@@ -3905,6 +3905,8 @@ typedef struct sli_pivot_rule {
 
 #define SLI_NULL_PIVOT DBL_MAX
 
+#define SLI_NULL_MOST 0.03125
+
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
   const double size = fabs(pivot);
   return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
@@ -4424,6 +4426,7 @@ typedef struct sli_kernels {
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
 #define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
+#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
 #define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
 #define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
@@ -4591,6 +4594,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
   SLI_PIN(a);
 #define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
 #define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
+#define SLV_ADD(a, b) a = _mm256_add_ps(a, b);
 #define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
 #define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
@@ -4846,6 +4850,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
           _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), 1)));
 #define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
 #define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
+#define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
@@ -5000,6 +5005,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
 #define SLV_LANE(b, a, k) \
   b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
+#define SLV_ADD(a, b) a##_0 = vaddq_f32(a##_0, b##_0), a##_1 = vaddq_f32(a##_1, b##_1);
 #define SLV_FNMA(a, b, c) \
   a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
 #define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);
@@ -13529,7 +13535,7 @@ SLI_INLINE int sli_signs_agree(double a, double b) {
 }
 
 static double sli_null_rounding(sl_int n, double epsilon) {
-  return 16.0 * (64.0 + n / 8) * epsilon;
+  return fmin(16.0 * (64.0 + n / 8) * epsilon, SLI_NULL_MOST);
 }
 
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
@@ -14571,7 +14577,7 @@ static sl_status sli_factor_prepare(sl_factor *F) {
 }
 
 static double sli_null_tolerance(sl_int n, double epsilon) {
-  return (64.0 + n / 8) * epsilon;
+  return fmin((64.0 + n / 8) * epsilon, SLI_NULL_MOST);
 }
 
 static int sli_factor_choices_are_valid(const sl_options *opt) {
@@ -26405,6 +26411,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_SINGLE_LEAST
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
+#undef SLI_NULL_MOST
 #undef SLI_SUSPECT_ROW
 #undef SLI_INVERSE_GROUP
 #undef SLI_INVERSE_ROW
@@ -26516,14 +26523,23 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #endif
 
 #define SLI_DECLARE(k, v) SLV_DECLARE(c##v##k)
+#if SLV_SINGLE
+#define SLI_LOAD(k, v) SLV_ZERO(c##v##k)
+#define SLI_SUM(k, v) \
+  SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
+  SLV_ADD(c##v##k, b)
+#else
 #define SLI_LOAD(k, v) \
   if ((k) < columns) { \
     SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
   } else { \
     SLV_ZERO(c##v##k) \
   }
+#define SLI_SUM(k, v)
+#endif
 #define SLI_STORE(k, v) \
   if ((k) < columns) { \
+    SLI_SUM(k, v) \
     SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
   }
 #define SLI_UPDATE(k, unused)  \
@@ -26580,6 +26596,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VAL
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
+#undef SLI_SUM
 #undef SLI_STORE
 #undef SLI_UPDATE
 #undef SLI_UPDATE2

@@ -57,13 +57,13 @@
  *
  *  With SL_STORAGE_FLOAT_FRONTS fronts and pivots are computed in float, too: about half the time
  *  and the memory of double, and all of the above with the following differences.
- *  - Solutions have a backward error of about 1e-7 to 1e-5 * growth before refinement: the rounding
+ *  - Solutions have a backward error of about 1e-7 to 1e-6 * growth before refinement: the rounding
  *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
  *    known to float's accuracy.
  *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
- *    epsilon unless it is given, and SL_ERR_PIVOT says that a pivot is null in float. A may be
- *    regular in double. A pivot of a semidefinite matrix within rounding of 0, which double would
- *    keep and count as weak, is refused, too.
+ *    epsilon, at most 1/32, unless it is given, and SL_ERR_PIVOT says that a pivot is null in
+ *    float. A may be regular in double. A pivot of a semidefinite matrix within rounding of 0,
+ *    which double would keep and count as weak, is refused, too.
  *  - Entries of A above 8.5e37, and pivots computed from magnitudes below 7.9e-31, are refused with
  *    SL_ERR_INACCURATE.
  *  - 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.

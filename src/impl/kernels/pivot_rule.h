@@ -29,6 +29,10 @@ typedef struct sli_pivot_rule {
  * and finite, so that 0 times it is 0. */
 #define SLI_NULL_PIVOT DBL_MAX
 
+/* The largest tolerance for null pivots, which only fronts in float reach: pivots of a regular
+ * Laplacian of a large 2D mesh are 0.1 of what they were computed from. */
+#define SLI_NULL_MOST 0.03125
+
 /* A pivot is null if |pivot| <= tolerance * magnitude, the sum of the magnitudes that it was
  * computed from. If the magnitude overflows and the pivot does not, nothing is known about
  * cancellation, and only 0 is null. */

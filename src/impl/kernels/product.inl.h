@@ -14,14 +14,23 @@
 #endif
 
 #define SLI_DECLARE(k, v) SLV_DECLARE(c##v##k)
+#if SLV_SINGLE /* updates are summed first: many are below half a unit in the last place of C */
+#define SLI_LOAD(k, v) SLV_ZERO(c##v##k)
+#define SLI_SUM(k, v) \
+    SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
+    SLV_ADD(c##v##k, b)
+#else
 #define SLI_LOAD(k, v) \
     if ((k) < columns) { \
         SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
     } else { \
         SLV_ZERO(c##v##k) \
     }
+#define SLI_SUM(k, v)
+#endif
 #define SLI_STORE(k, v) \
     if ((k) < columns) { \
+        SLI_SUM(k, v) \
         SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
     }
 #define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
@@ -81,6 +90,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VAL
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
+#undef SLI_SUM
 #undef SLI_STORE
 #undef SLI_UPDATE
 #undef SLI_UPDATE2

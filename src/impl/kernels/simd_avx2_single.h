@@ -33,6 +33,7 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
     SLI_PIN(a); /* used 4 times */
 #define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
 #define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
+#define SLV_ADD(a, b) a = _mm256_add_ps(a, b);
 #define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
 #define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);

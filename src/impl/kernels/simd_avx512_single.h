@@ -32,6 +32,7 @@
                     _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), 1)));
 #define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
 #define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
+#define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
 #define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
 #define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);

@@ -19,6 +19,7 @@
 #define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
 #define SLV_LANE(b, a, k) \
     b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
+#define SLV_ADD(a, b) a##_0 = vaddq_f32(a##_0, b##_0), a##_1 = vaddq_f32(a##_1, b##_1);
 #define SLV_FNMA(a, b, c) \
     a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
 #define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);

@@ -25,6 +25,7 @@
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
 #define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
+#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
 #define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
 #define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
