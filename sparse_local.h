@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: de90a0050bed7a2c
+ * FNV-1a of the lines after this comment, without the license: 3df2ae12e1a4a716
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -65,22 +65,22 @@
  * (change: a factor that follows changes of its matrix)
  *  19901 update.h  20251 rank.h  20580 edges.h  20734 choose.h  20928 pins.h  21492 subset.h
  *  21599 restrict_analysis.h  21896 restrict_anew.h  21950 restrict_symbolic.h  22131 restrict.h
- *  22479 edit_match.h  22661 edit_place.h  22865 edit_order.h  23026 edit_graph.h
- *  23121 edit_join.h  23397 edit.h
+ *  22479 edit_match.h  22665 edit_place.h  22914 edit_separate.h  23226 edit_order.h
+ *  23378 edit_graph.h  23473 edit_join.h  23749 edit.h
  * (save: factors in files)
- *  23549 format.h  23845 decode.h  23993 check.h  24325 write.h  24628 load.h  24896 load_inverse.h
- *  25228 load_calls.h
+ *  23913 format.h  24209 decode.h  24357 check.h  24689 write.h  24992 load.h  25260 load_inverse.h
+ *  25592 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25427 batch_solve.h  25636 batch_factor.h  25837 batch_diagonal.h
+ *  25791 batch_solve.h  26000 batch_factor.h  26201 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  25977 hermitian.h  26139 complex_rows.h
+ *  26341 hermitian.h  26503 complex_rows.h
  * (last: undefine every internal macro)
- *  26307 undef.h
+ *  26671 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26512 front.inl.h  26514 product.inl.h  26915 words_undef.inl.h  26989 multi_rhs.inl.h
- *  27372 sweeps.inl.h  27374 unit_triangle.inl.h  27411 two_rhs.inl.h  27580 small_supernode.inl.h
- *  27739 single_rhs.inl.h  27983 kernel_set.inl.h  27985 inverse_front.inl.h  28270 row.inl.h
- *  28300 change.inl.h
+ *  26876 front.inl.h  26878 product.inl.h  27279 words_undef.inl.h  27353 multi_rhs.inl.h
+ *  27736 sweeps.inl.h  27738 unit_triangle.inl.h  27775 two_rhs.inl.h  27944 small_supernode.inl.h
+ *  28103 single_rhs.inl.h  28347 kernel_set.inl.h  28349 inverse_front.inl.h  28634 row.inl.h
+ *  28664 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2894,8 +2894,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
  *  vertices doubled. The elimination tree of A stays where B has the same neighbors. A row that is
  *  new or has other neighbors goes to the lowest supernode from which they are all above or below;
- *  so an entry between two subtrees moves one of its rows into their separator. Small subtrees with
- *  many such rows are ordered anew.
+ *  so an entry between two subtrees moves one of its rows into their separator, which is then
+ *  replaced near the edit by a minimum vertex cut. Subtrees with many such rows are ordered anew.
  *
  *  The result is an analysis as any other. Its order is as good as the one before if edits are
  *  local, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
@@ -2917,11 +2917,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
  *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
  *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n + nnz + rows of the supernodes) with small constants, to compare the patterns and
- *           to copy the analysis; besides, the order and analysis of the columns above the edit.
- *           With a mesh of 1e6 vertices, of which 0.1 % are remeshed, 1/12 to 1/18 of a new one.
+ *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
+ *           copy the analysis, and the order and analysis of the columns above the edit. Where
+ *           0.1 % of a mesh of 1e6 vertices is remeshed, 1/12 or less of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
- *  Source   [Liu90] elimination trees; [George73] separators.
+ *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
  *  Example  tests/core/test_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
@@ -22492,11 +22492,13 @@ typedef struct sli_edit {
   sl_int *position;
   sl_int *cursor, *waiting;
 
-  sl_int n_active;
-  sl_int *active;
+  sl_int n_changed;
+  sl_int n_near;
+  sl_int *around;
   sl_off *begin;
   sl_int *to;
   uint64_t *list, *scratch;
+  int is_join;
   sl_off steps;
 
   unsigned char *mark;
@@ -22508,6 +22510,8 @@ typedef struct sli_edit {
   sl_int moved;
   void *blocks[3];
 } sli_edit;
+
+#define SLI_EDIT_LAYERS 3
 
 enum { SLI_NODE_KEPT = 0, SLI_NODE_FRESH, SLI_NODE_GROUPED };
 
@@ -22525,7 +22529,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
   e->weight = SLI_TAKE(b, sl_int, supers + 1);
   e->head = SLI_TAKE(b, sl_int, supers + 1);
   e->next = SLI_TAKE(b, sl_int, n);
-  e->active = SLI_TAKE(b, sl_int, n);
+  e->around = SLI_TAKE(b, sl_int, n);
   e->fresh = SLI_TAKE(b, sl_int, n);
 }
 
@@ -22660,14 +22664,31 @@ static void sli_edit_match(sli_edit *e) {
 
 /* src/impl/change/edit_place.h: places new rows in the tree of supernodes, and moves rows until every entry of the */
 
+static void sli_edit_grow(sli_edit *e, int layer) {
+  const sl_csc *B = e->B;
+  const int is_whole = e->triangle == SL_TRIANGLE_BOTH;
+  sl_int j, p;
+  for (j = 0; j < e->n; j++) {
+    for (p = is_whole && e->is_active[j] != layer ? B->p[j + 1] : B->p[j]; p < B->p[j + 1];
+       p++) {
+      const int a = e->is_active[j], b = e->is_active[B->i[p]];
+      if (a == 0 && b == layer && sli_is_read(e->triangle, B->i[p], j)) {
+        e->is_active[j] = (unsigned char)(layer + 1);
+      } else if (b == 0 && a == layer && (is_whole || sli_is_read(e->triangle, B->i[p], j))) {
+        e->is_active[B->i[p]] = (unsigned char)(layer + 1);
+      }
+    }
+  }
+}
+
 static void sli_edit_list(sli_edit *e) {
   sl_int j;
-  e->n_active = 0;
+  e->n_near = 0;
   for (j = 0; j < e->n; j++) {
     e->number[j] = -1;
     if (e->is_active[j]) {
-      e->number[j] = e->n_active;
-      e->active[e->n_active++] = j;
+      e->number[j] = e->n_near;
+      e->around[e->n_near++] = j;
     }
   }
 }
@@ -22684,8 +22705,8 @@ SLI_INLINE void sli_edit_enter(sli_edit *e, sl_int i, sl_int j) {
 static void sli_edit_scan(sli_edit *e) {
   const sl_csc *B = e->B;
   sl_int j, k, p;
-  for (k = 0; k < e->n_active && e->triangle == SL_TRIANGLE_BOTH; k++) {
-    j = e->active[k];
+  for (k = 0; k < e->n_near && e->triangle == SL_TRIANGLE_BOTH; k++) {
+    j = e->around[k];
     for (p = B->p[j]; p < B->p[j + 1]; p++) {
       if (B->i[p] != j) {
         sli_edit_enter(e, j, B->i[p]);
@@ -22710,19 +22731,19 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
   sl_int k, pass;
   sl_status status = SL_OK;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_active + 1);
-    e->list = SLI_TAKE(&b, uint64_t, e->n_active);
-    e->scratch = SLI_TAKE(&b, uint64_t, e->n_active);
+    e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_near + 1);
+    e->list = SLI_TAKE(&b, uint64_t, e->n_near);
+    e->scratch = SLI_TAKE(&b, uint64_t, e->n_near);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   e->blocks[1] = b.base;
   if (status != SL_OK) {
     return status;
   }
-  memset(e->begin, 0, ((size_t)e->n_active + 1) * sizeof(sl_off));
+  memset(e->begin, 0, ((size_t)e->n_near + 1) * sizeof(sl_off));
   e->to = NULL;
   sli_edit_scan(e);
-  for (k = 0; k <= e->n_active; k++) {
+  for (k = 0; k <= e->n_near; k++) {
     const sl_off here = e->begin[k];
     e->begin[k] = total;
     total += here;
@@ -22737,7 +22758,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     return status;
   }
   sli_edit_scan(e);
-  memmove(e->begin + 1, e->begin, (size_t)e->n_active * sizeof(sl_off));
+  memmove(e->begin + 1, e->begin, (size_t)e->n_near * sizeof(sl_off));
   e->begin[0] = 0;
   return SL_OK;
 }
@@ -22758,8 +22779,8 @@ static sl_int sli_edit_meet(sli_edit *e, sl_int a, sl_int b) {
 static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
   const sl_int own = e->node[row], k = e->number[row];
   sl_int lowest = -1;
-  int is_join = 0;
   sl_off at;
+  e->is_join = 0;
   *conflicts = 0;
   for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
     const sl_int node = e->node[e->to[at]];
@@ -22771,13 +22792,40 @@ static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
     if (lowest == -1) {
       lowest = node;
     } else if (sli_edit_is_above(e, lowest, node)) {
-      lowest = is_join ? lowest : node;
+      lowest = e->is_join ? lowest : node;
     } else if (!sli_edit_is_above(e, node, lowest)) {
       lowest = sli_edit_meet(e, lowest, node);
-      is_join = 1;
+      e->is_join = 1;
     }
   }
   return lowest;
+}
+
+#define SLI_EDIT_SHARE 32
+#define SLI_EDIT_LEAST 256
+
+static void sli_edit_weigh(sli_edit *e) {
+  const sl_symbolic *S = e->S;
+  sl_int s, k;
+  memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+  for (k = 0; k < e->n_near; k++) {
+    if (e->is_active[e->around[k]] == 1 && e->node[e->around[k]] != -1) {
+      e->weight[e->node[e->around[k]]]++;
+    }
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    if (S->super_parent[s] != -1) {
+      e->weight[S->super_parent[s]] += e->weight[s];
+    }
+  }
+}
+
+SLI_INLINE int sli_edit_is_small(const sli_edit *e, sl_int s) {
+  const sl_symbolic *S = e->S;
+  const sl_off size =
+    s == S->n_supers ? 0 : S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
+  return s < S->n_supers && size <= (sl_off)SLI_EDIT_SHARE * e->weight[s] &&
+       size + e->weight[s] >= SLI_EDIT_LEAST;
 }
 
 static void sli_edit_move(sli_edit *e, sl_int row, sl_int node) {
@@ -22791,9 +22839,9 @@ static void sli_edit_move(sli_edit *e, sl_int row, sl_int node) {
 
 static void sli_edit_resolve(sli_edit *e) {
   sl_int k, count = 0, conflicts;
-  for (k = 0; k < e->n_active && e->steps > 0; k++) {
-    const sl_int row = e->active[k];
-    if (e->node[row] != -1) {
+  for (k = 0; k < e->n_near && e->steps > 0; k++) {
+    const sl_int row = e->around[k];
+    if (e->node[row] != -1 && e->is_active[row] == 1) {
       (void)sli_edit_lowest(e, row, &conflicts);
       if (conflicts > 0) {
         e->list[count++] = sli_keyed(INT32_MAX - conflicts, row);
@@ -22813,8 +22861,8 @@ static void sli_edit_resolve(sli_edit *e) {
 static void sli_edit_place_new(sli_edit *e) {
   sl_int *queue = e->next, head, tail = 0, k, conflicts;
   sl_off at;
-  for (k = 0; k < e->n_active; k++) {
-    const sl_int row = e->active[k];
+  for (k = 0; k < e->n_near; k++) {
+    const sl_int row = e->around[k];
     for (at = e->begin[k]; e->node[row] == -1 && at < e->begin[k + 1]; at++) {
       if (e->node[e->to[at]] != -1) {
         e->cursor[row] = 1;
@@ -22838,9 +22886,10 @@ static void sli_edit_place_new(sli_edit *e) {
 
 static void sli_edit_lower(sli_edit *e) {
   sl_int k, conflicts;
-  for (k = 0; k < e->n_active && e->steps > 0; k++) {
-    const sl_int row = e->active[k], own = e->node[row];
-    const sl_int lowest = own == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
+  for (k = 0; k < e->n_near && e->steps > 0; k++) {
+    const sl_int row = e->around[k], own = e->node[row];
+    const sl_int lowest =
+      own == -1 || e->is_active[row] != 1 ? -1 : sli_edit_lowest(e, row, &conflicts);
     if (lowest != -1 && lowest != own && sli_edit_is_above(e, own, lowest)) {
       sli_edit_move(e, row, lowest);
     }
@@ -22849,10 +22898,10 @@ static void sli_edit_lower(sli_edit *e) {
 
 static int sli_edit_place_all(sli_edit *e) {
   sl_int k;
-  for (k = 0; k < e->n_active; k++) {
-    e->cursor[e->active[k]] = 0;
-    if (e->node[e->active[k]] != -1) {
-      e->mark[e->node[e->active[k]]] = SLI_NODE_FRESH;
+  for (k = 0; k < e->n_near; k++) {
+    e->cursor[e->around[k]] = 0;
+    if (e->node[e->around[k]] != -1 && e->is_active[e->around[k]] == 1) {
+      e->mark[e->node[e->around[k]]] = SLI_NODE_FRESH;
     }
   }
   e->steps = 4 * ((sl_off)e->n + e->S->n_supers) + 1000;
@@ -22862,30 +22911,333 @@ static int sli_edit_place_all(sli_edit *e) {
   return e->steps > 0;
 }
 
-/* src/impl/change/edit_order.h: the order of an edited matrix: small subtrees with active rows are ordered anew */
+/* src/impl/change/edit_separate.h: smallest separators near an edit, where rows have come and gone */
 
-#define SLI_EDIT_SHARE 8
+typedef struct sli_band {
+  sli_edit *e;
+  sl_int node;
+  sl_int n, n_movable;
+  sl_int branch[2];
+  sl_int *row;
+  sl_int *from, *to;
+  sl_int *queue, *parent;
+  unsigned char *kind, *seen;
+} sli_band;
+
+enum { SLI_BAND_NONE = -2, SLI_BAND_END = -1 };
+
+enum {
+  SLI_BAND_OUT = 0,
+  SLI_BAND_LEFT,
+  SLI_BAND_RIGHT,
+  SLI_BAND_INNER,
+  SLI_BAND_FIRST = 4,
+  SLI_BAND_LAST = 8
+};
+
+static void sli_band_layout(sli_band *w, sli_block *b, sl_int rows) {
+  const uint64_t n = (uint64_t)rows;
+  w->row = SLI_TAKE(b, sl_int, n);
+  w->from = SLI_TAKE(b, sl_int, n);
+  w->to = SLI_TAKE(b, sl_int, n);
+  w->queue = SLI_TAKE(b, sl_int, 2 * n);
+  w->parent = SLI_TAKE(b, sl_int, 2 * n);
+  w->kind = SLI_TAKE(b, unsigned char, n);
+  w->seen = SLI_TAKE(b, unsigned char, 2 * n);
+}
+
+static sl_int sli_band_branch(const sli_band *w, sl_int node) {
+  const sl_symbolic *S = w->e->S;
+  sl_int c = w->node == S->n_supers ? node : w->node - 1;
+  if (w->node == S->n_supers) {
+    while (S->super_parent[c] != -1 && w->e->steps > 0) {
+      c = S->super_parent[c];
+      w->e->steps--;
+    }
+    return c;
+  }
+  while (S->first_descendant[c] > node && w->e->steps > 0) {
+    c = S->first_descendant[c] - 1;
+    w->e->steps--;
+  }
+  return c;
+}
+
+SLI_INLINE int sli_band_is_below(const sli_band *w, sl_int node) {
+  return node != -1 && node != w->node && sli_edit_is_above(w->e, w->node, node);
+}
+
+static void sli_band_grow(sli_band *w) {
+  const sli_edit *e = w->e;
+  sl_int head;
+  sl_off at;
+  for (head = 0; head < w->n; head++) {
+    const sl_int k = e->number[w->row[head]];
+    if (e->is_active[w->row[head]] == SLI_EDIT_LAYERS) {
+      continue;
+    }
+    for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
+      const sl_int row = e->to[at];
+      if (e->cursor[row] == 0 && sli_band_is_below(w, e->node[row])) {
+        e->cursor[row] = w->n + 1;
+        w->row[w->n++] = row;
+      }
+    }
+  }
+}
+
+static int sli_band_branches(sli_band *w) {
+  sl_int k, m, count = 0, *name = w->queue, *size = w->parent;
+  for (k = w->n_movable; k < w->n; k++) {
+    const sl_int branch = sli_band_branch(w, w->e->node[w->row[k]]);
+    w->from[k] = branch;
+    for (m = 0; m < count && name[m] != branch; m++) {
+    }
+    if (m == 16) {
+      return 0;
+    }
+    if (m == count) {
+      name[count] = branch;
+      size[count++] = 0;
+    }
+    size[m]++;
+  }
+  if (count < 2) {
+    return 0;
+  }
+  for (k = 0; k < 2; k++) {
+    for (m = k + 1; m < count; m++) {
+      if (size[m] > size[k]) {
+        const sl_int n = name[m], s = size[m];
+        name[m] = name[k];
+        size[m] = size[k];
+        name[k] = n;
+        size[k] = s;
+      }
+    }
+    w->branch[k] = name[k];
+  }
+  return 1;
+}
+
+static sl_int sli_band_kinds(sli_band *w) {
+  const sli_edit *e = w->e;
+  sl_int k, count = 0, has[2] = {0, 0};
+  sl_off at;
+  for (k = 0; k < w->n; k++) {
+    const int is_outer = e->is_active[w->row[k]] == SLI_EDIT_LAYERS;
+    const int side = k < w->n_movable             ? -1
+             : w->from[k] == w->branch[0] ? 0
+             : w->from[k] == w->branch[1] ? 1
+                            : 2;
+    w->kind[k] = side == 2 || (side == -1 && is_outer) ? SLI_BAND_OUT
+           : !is_outer                           ? SLI_BAND_INNER
+           : side == 0                           ? SLI_BAND_LEFT
+                               : SLI_BAND_RIGHT;
+  }
+  for (k = 0; k < w->n; k++) {
+    const sl_int own = e->number[w->row[k]];
+    int kind = w->kind[k], is_fixed = 0;
+    for (at = e->begin[own]; kind == SLI_BAND_INNER && at < e->begin[own + 1]; at++) {
+      const sl_int v = e->cursor[e->to[at]] - 1;
+      const int other = v == -1 ? -1 : w->kind[v] & 3;
+      w->kind[k] |= other == SLI_BAND_LEFT    ? SLI_BAND_FIRST
+              : other == SLI_BAND_RIGHT ? SLI_BAND_LAST
+                          : 0;
+      is_fixed |= k < w->n_movable && v >= w->n_movable && other == SLI_BAND_OUT;
+    }
+    if (is_fixed) {
+      w->kind[k] = SLI_BAND_OUT;
+    }
+    has[0] |= w->kind[k] == SLI_BAND_LEFT;
+    has[1] |= w->kind[k] == SLI_BAND_RIGHT;
+    count += k < w->n_movable && w->kind[k] != SLI_BAND_OUT;
+  }
+  return has[0] && has[1] ? count : 0;
+}
+
+SLI_INLINE sl_int sli_band_push(sli_band *w, sl_int state, sl_int parent, sl_int tail) {
+  if (!w->seen[state]) {
+    w->seen[state] = 1;
+    w->parent[state] = parent;
+    w->queue[tail++] = state;
+  }
+  return tail;
+}
+
+static sl_int sli_band_search(sli_band *w) {
+  const sli_edit *e = w->e;
+  sl_int v, head, tail = 0;
+  sl_off at;
+  memset(w->seen, 0, 2 * (size_t)w->n);
+  for (v = 0; v < w->n; v++) {
+    if ((w->kind[v] & 3) == SLI_BAND_INNER && (w->kind[v] & SLI_BAND_FIRST) != 0) {
+      tail = sli_band_push(w, 2 * v, -1, tail);
+    }
+  }
+  for (head = 0; head < tail; head++) {
+    const sl_int state = w->queue[head], k = e->number[w->row[state / 2]];
+    v = state / 2;
+    if (state % 2 == 0) {
+      if (w->from[v] == SLI_BAND_NONE) {
+        tail = sli_band_push(w, state + 1, state, tail);
+      } else if (w->from[v] != SLI_BAND_END) {
+        tail = sli_band_push(w, 2 * w->from[v] + 1, state, tail);
+      }
+      continue;
+    }
+    if ((w->kind[v] & SLI_BAND_LAST) != 0 && w->to[v] != SLI_BAND_END) {
+      return v;
+    }
+    if (w->from[v] != SLI_BAND_NONE) {
+      tail = sli_band_push(w, state - 1, state, tail);
+    }
+    for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
+      const sl_int u = e->cursor[e->to[at]] - 1;
+      if (u != -1 && u != w->to[v] && (w->kind[u] & 3) == SLI_BAND_INNER) {
+        tail = sli_band_push(w, 2 * u, state, tail);
+      }
+    }
+  }
+  return -1;
+}
+
+static void sli_band_augment(sli_band *w, sl_int last) {
+  sl_int count = 0, k, state;
+  for (state = 2 * last + 1; state != -1; state = w->parent[state]) {
+    w->queue[count++] = state;
+  }
+  w->from[w->queue[count - 1] / 2] = SLI_BAND_END;
+  for (k = count - 2; k >= 0; k--) {
+    const sl_int a = w->queue[k + 1], b = w->queue[k];
+    if (a % 2 == 1 && b % 2 == 0 && a / 2 == b / 2) {
+      w->from[a / 2] = w->to[a / 2] = SLI_BAND_NONE;
+    } else if (a % 2 == 1 && b % 2 == 0) {
+      w->to[a / 2] = b / 2;
+      w->from[b / 2] = a / 2;
+    }
+  }
+  w->to[last] = SLI_BAND_END;
+}
+
+static void sli_band_apply(sli_band *w) {
+  sli_edit *e = w->e;
+  sl_int k, count = 0, conflicts, progress = 1;
+  for (k = 0; k < w->n; k++) {
+    const sl_int row = w->row[k];
+    const int is_cut = w->seen[2 * k] && !w->seen[2 * k + 1];
+    const sl_int side = w->seen[2 * k] ? w->branch[0] : w->branch[1];
+    if ((w->kind[k] & 3) != SLI_BAND_INNER || (is_cut && k < w->n_movable)) {
+      continue;
+    }
+    if (is_cut) {
+      sli_edit_move(e, row, w->node);
+    } else if (k < w->n_movable || !sli_edit_is_above(e, side, e->node[row])) {
+      e->mark[e->node[row]] = SLI_NODE_FRESH;
+      e->node[row] = -1;
+      e->moved++;
+      w->queue[count++] = row;
+    }
+  }
+  while (count > 0) {
+    sl_int left = 0;
+    for (k = 0; k < count; k++) {
+      const sl_int row = w->queue[k], lowest = sli_edit_lowest(e, row, &conflicts);
+      if (sli_band_is_below(w, lowest) || !progress) {
+        sli_edit_move(e, row, lowest == -1 ? w->node : lowest);
+      } else {
+        w->queue[left++] = row;
+      }
+    }
+    progress = left < count;
+    count = left;
+  }
+}
+
+static void sli_band_cut(sli_band *w) {
+  sl_int k, movable, paths = 0, last = 0;
+  sli_band_grow(w);
+  movable = sli_band_branches(w) ? sli_band_kinds(w) : 0;
+  for (k = 0; k < w->n; k++) {
+    w->from[k] = w->to[k] = SLI_BAND_NONE;
+  }
+  while (paths < movable && (last = sli_band_search(w)) != -1) {
+    sli_band_augment(w, last);
+    paths++;
+  }
+  if (paths < movable) {
+    sli_band_apply(w);
+  }
+  for (k = 0; k < w->n; k++) {
+    w->e->cursor[w->row[k]] = 0;
+  }
+}
+
+static sl_int sli_edit_separates(sli_edit *e, sl_int row) {
+  sl_int conflicts;
+  const sl_int node = e->node[row] == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
+  return node != -1 && e->is_join && sli_edit_is_above(e, e->node[row], node) ? node : -1;
+}
+
+static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
+  const sl_symbolic *S = e->S;
+  sli_band w;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int k, m, count = 0;
+  int pass;
+  memset(&w, 0, sizeof w);
+  w.e = e;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_band_layout(&w, &b, e->n_near);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (k = 0; k < e->n_near; k++) {
+    const sl_int row = e->around[k];
+    const sl_int node = sli_edit_separates(e, row);
+    e->cursor[row] = 0;
+    if (node != -1 && !sli_edit_is_small(e, node)) {
+      e->list[count++] = sli_keyed(S->n_supers - node, row);
+    }
+  }
+  sli_sort(e->list, count, e->scratch);
+  for (k = 0; k < count && e->steps > 0; k = m) {
+    w.node = S->n_supers - sli_key(e->list[k]);
+    w.n = 0;
+    for (m = k; m < count && sli_key(e->list[m]) == sli_key(e->list[k]); m++) {
+      const sl_int row = sli_value(e->list[m]);
+      if (sli_edit_separates(e, row) == w.node) {
+        e->cursor[row] = w.n + 1;
+        w.row[w.n++] = row;
+      }
+    }
+    w.n_movable = w.n;
+    if (w.n > 0) {
+      sli_band_cut(&w);
+    }
+  }
+  sli_free(a, b.base);
+  return SL_OK;
+}
+
+/* src/impl/change/edit_order.h: the order of an edited matrix: small subtrees with active rows are ordered anew */
 
 static void sli_edit_mark(sli_edit *e) {
   const sl_symbolic *S = e->S;
-  sl_int s, k;
-  memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
-  for (k = 0; k < e->n_active; k++) {
-    if (e->node[e->active[k]] != -1) {
-      e->weight[e->node[e->active[k]]]++;
-    }
-  }
+  sl_int s;
+  sli_edit_weigh(e);
   for (s = 0; s < S->n_supers; s++) {
     const sl_int up = S->super_parent[s];
-    if (up != -1) {
-      e->weight[up] += e->weight[s];
-      e->mark[up] = e->mark[s] == SLI_NODE_KEPT ? e->mark[up] : e->mark[s];
+    if (up != -1 && e->mark[s] != SLI_NODE_KEPT) {
+      e->mark[up] = SLI_NODE_FRESH;
     }
   }
   for (s = S->n_supers - 1; s >= 0; s--) {
-    const sl_int low = S->first_descendant[s];
-    const sl_off size = S->super_first[s + 1] - S->super_first[low];
-    if (e->weight[s] > 0 && size <= (sl_off)SLI_EDIT_SHARE * e->weight[s]) {
+    if (e->weight[s] > 0 && sli_edit_is_small(e, s)) {
+      const sl_int low = S->first_descendant[s];
       memset(e->mark + low, SLI_NODE_GROUPED, (size_t)(s - low + 1));
       s = low;
     }
@@ -22918,8 +23270,8 @@ static void sli_edit_collect(sli_edit *e) {
     e->head[s] = -1;
   }
   e->n_fresh = 0;
-  for (k = e->n_active - 1; k >= 0; k--) {
-    const sl_int row = e->active[k], node = e->node[row];
+  for (k = e->n_near - 1; k >= 0; k--) {
+    const sl_int row = e->around[k], node = e->node[row];
     if (node == -1) {
       e->fresh[e->n_fresh++] = row;
     } else if (e->column_of[row] == -1 || S->super_of[e->column_of[row]] != node) {
@@ -23423,7 +23775,8 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
 static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
+  sl_int j;
+  int pass, layer;
   *is_local = 0;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_edit_layout(e, &b);
@@ -23435,12 +23788,23 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
     return status;
   }
   sli_edit_match(e);
-  sli_edit_list(e);
-  if (e->n_active > SLI_EDIT_MOST_ACTIVE * e->n) {
+  for (j = 0; j < e->n; j++) {
+    e->n_changed += e->is_active[j];
+  }
+  if (e->n_changed > SLI_EDIT_MOST_ACTIVE * e->n) {
     return SL_OK;
   }
+  for (layer = 1; layer < SLI_EDIT_LAYERS; layer++) {
+    sli_edit_grow(e, layer);
+  }
+  sli_edit_list(e);
   status = sli_edit_neighbors(e, a);
   if (status != SL_OK || !sli_edit_place_all(e)) {
+    return status;
+  }
+  sli_edit_weigh(e);
+  status = sli_edit_separate(e, a);
+  if (status != SL_OK) {
     return status;
   }
   sli_edit_mark(e);
@@ -23483,7 +23847,7 @@ static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, doubl
   const sl_symbolic_info *now = &T->stats.symbolic, *before = &S->stats.symbolic;
   memset(info, 0, sizeof *info);
   info->is_anew = is_anew;
-  info->changed = e->n_active;
+  info->changed = e->n_changed;
   info->moved = is_anew ? 0 : e->moved;
   info->reordered = is_anew ? e->n : e->n_grouped;
   info->computed = is_anew ? e->n : e->n_fresh;

@@ -165,6 +165,7 @@ extern "C" {
 #include "impl/change/restrict.h"
 #include "impl/change/edit_match.h"
 #include "impl/change/edit_place.h"
+#include "impl/change/edit_separate.h"
 #include "impl/change/edit_order.h"
 #include "impl/change/edit_graph.h"
 #include "impl/change/edit_join.h"

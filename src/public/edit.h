@@ -10,8 +10,8 @@
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
  *  vertices doubled. The elimination tree of A stays where B has the same neighbors. A row that is
  *  new or has other neighbors goes to the lowest supernode from which they are all above or below;
- *  so an entry between two subtrees moves one of its rows into their separator. Small subtrees with
- *  many such rows are ordered anew.
+ *  so an entry between two subtrees moves one of its rows into their separator, which is then
+ *  replaced near the edit by a minimum vertex cut. Subtrees with many such rows are ordered anew.
  *
  *  The result is an analysis as any other. Its order is as good as the one before if edits are
  *  local, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
@@ -33,11 +33,11 @@
  *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
  *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
  *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n + nnz + rows of the supernodes) with small constants, to compare the patterns and
- *           to copy the analysis; besides, the order and analysis of the columns above the edit.
- *           With a mesh of 1e6 vertices, of which 0.1 % are remeshed, 1/12 to 1/18 of a new one.
+ *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
+ *           copy the analysis, and the order and analysis of the columns above the edit. Where
+ *           0.1 % of a mesh of 1e6 vertices is remeshed, 1/12 or less of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
- *  Source   [Liu90] elimination trees; [George73] separators.
+ *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
  *  Example  tests/core/test_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,

@@ -37,7 +37,8 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
 static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
+    sl_int j;
+    int pass, layer;
     *is_local = 0;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_edit_layout(e, &b);
@@ -49,12 +50,23 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
         return status;
     }
     sli_edit_match(e);
-    sli_edit_list(e);
-    if (e->n_active > SLI_EDIT_MOST_ACTIVE * e->n) {
+    for (j = 0; j < e->n; j++) {
+        e->n_changed += e->is_active[j];
+    }
+    if (e->n_changed > SLI_EDIT_MOST_ACTIVE * e->n) {
         return SL_OK;
     }
+    for (layer = 1; layer < SLI_EDIT_LAYERS; layer++) {
+        sli_edit_grow(e, layer);
+    }
+    sli_edit_list(e);
     status = sli_edit_neighbors(e, a);
     if (status != SL_OK || !sli_edit_place_all(e)) {
+        return status;
+    }
+    sli_edit_weigh(e);
+    status = sli_edit_separate(e, a);
+    if (status != SL_OK) {
         return status;
     }
     sli_edit_mark(e);
@@ -99,7 +111,7 @@ static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, doubl
     const sl_symbolic_info *now = &T->stats.symbolic, *before = &S->stats.symbolic;
     memset(info, 0, sizeof *info);
     info->is_anew = is_anew;
-    info->changed = e->n_active;
+    info->changed = e->n_changed;
     info->moved = is_anew ? 0 : e->moved;
     info->reordered = is_anew ? e->n : e->n_grouped;
     info->computed = is_anew ? e->n : e->n_fresh;

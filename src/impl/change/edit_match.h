@@ -17,16 +17,18 @@ typedef struct sli_edit {
     sl_int *column_of;         /* n: the column of L in S, or -1 for a new row */
     sl_int *node;              /* n: where the row is; -1: not placed yet, or in no subtree of S */
     sl_int *number;            /* n: the position in a list of rows, or -1 */
-    unsigned char *is_active;  /* n */
+    unsigned char *is_active;  /* n: 1; rows up to two edges away: 2, 3; 0: others */
     unsigned char *is_matched; /* entries of B: the same entry is in A */
     sl_int *position;          /* entries of A that are read: their position in B; negative: none */
     sl_int *cursor, *waiting;  /* n: scratch of the matching */
 
-    sl_int n_active;
-    sl_int *active; /* n_active rows; room for n */
-    sl_off *begin;  /* n_active + 1: their neighbors */
+    sl_int n_changed; /* active rows */
+    sl_int n_near;
+    sl_int *around; /* n_near rows: those with is_active > 0; room for n */
+    sl_off *begin;  /* n_near + 1: their neighbors */
     sl_int *to;
-    uint64_t *list, *scratch; /* n_active each */
+    uint64_t *list, *scratch; /* n_near each */
+    int is_join;              /* of sli_edit_lowest: a common ancestor, not one of the nodes */
     sl_off steps;             /* steps towards the roots that are still allowed */
 
     unsigned char *mark; /* n_supers + 1: SLI_NODE_* */
@@ -36,8 +38,11 @@ typedef struct sli_edit {
     sl_int n_fresh;
     sl_int *fresh;   /* n_fresh: rows whose columns are analyzed anew, in their order */
     sl_int moved;    /* rows that moved to another node */
-    void *blocks[3]; /* memory of the arrays: by n, by active rows, neighbors */
+    void *blocks[3]; /* memory of the arrays: by n, by near rows, neighbors */
 } sli_edit;
+
+/* The largest is_active. */
+#define SLI_EDIT_LAYERS 3
 
 enum { SLI_NODE_KEPT = 0, SLI_NODE_FRESH, SLI_NODE_GROUPED };
 
@@ -55,7 +60,7 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
     e->weight = SLI_TAKE(b, sl_int, supers + 1);
     e->head = SLI_TAKE(b, sl_int, supers + 1);
     e->next = SLI_TAKE(b, sl_int, n);
-    e->active = SLI_TAKE(b, sl_int, n);
+    e->around = SLI_TAKE(b, sl_int, n);
     e->fresh = SLI_TAKE(b, sl_int, n);
 }
 

@@ -2,32 +2,22 @@
 #ifndef SLI_CHANGE_EDIT_ORDER_H
 #define SLI_CHANGE_EDIT_ORDER_H
 
-#include "edit_place.h"
-
-/* A subtree is ordered anew if at least one in so many of its rows is active. */
-#define SLI_EDIT_SHARE 8
+#include "edit_separate.h"
 
 /* Marks the ancestors of fresh nodes as fresh, and the subtrees that are ordered anew. */
 static void sli_edit_mark(sli_edit *e) {
     const sl_symbolic *S = e->S;
-    sl_int s, k;
-    memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
-    for (k = 0; k < e->n_active; k++) {
-        if (e->node[e->active[k]] != -1) {
-            e->weight[e->node[e->active[k]]]++;
-        }
-    }
+    sl_int s;
+    sli_edit_weigh(e);
     for (s = 0; s < S->n_supers; s++) {
         const sl_int up = S->super_parent[s];
-        if (up != -1) {
-            e->weight[up] += e->weight[s];
-            e->mark[up] = e->mark[s] == SLI_NODE_KEPT ? e->mark[up] : e->mark[s];
+        if (up != -1 && e->mark[s] != SLI_NODE_KEPT) {
+            e->mark[up] = SLI_NODE_FRESH;
         }
     }
     for (s = S->n_supers - 1; s >= 0; s--) {
-        const sl_int low = S->first_descendant[s];
-        const sl_off size = S->super_first[s + 1] - S->super_first[low];
-        if (e->weight[s] > 0 && size <= (sl_off)SLI_EDIT_SHARE * e->weight[s]) {
+        if (e->weight[s] > 0 && sli_edit_is_small(e, s)) {
+            const sl_int low = S->first_descendant[s];
             memset(e->mark + low, SLI_NODE_GROUPED, (size_t)(s - low + 1));
             s = low;
         }
@@ -64,8 +54,8 @@ static void sli_edit_collect(sli_edit *e) {
         e->head[s] = -1;
     }
     e->n_fresh = 0;
-    for (k = e->n_active - 1; k >= 0; k--) {
-        const sl_int row = e->active[k], node = e->node[row];
+    for (k = e->n_near - 1; k >= 0; k--) {
+        const sl_int row = e->around[k], node = e->node[row];
         if (node == -1) {
             e->fresh[e->n_fresh++] = row;
         } else if (e->column_of[row] == -1 || S->super_of[e->column_of[row]] != node) {

@@ -5,15 +5,33 @@
 
 #include "edit_match.h"
 
-/* Lists the active rows, all in `active`. */
+/* Marks the neighbors of the rows of a layer as the next one. */
+static void sli_edit_grow(sli_edit *e, int layer) {
+    const sl_csc *B = e->B;
+    const int is_whole = e->triangle == SL_TRIANGLE_BOTH;
+    sl_int j, p;
+    for (j = 0; j < e->n; j++) {
+        for (p = is_whole && e->is_active[j] != layer ? B->p[j + 1] : B->p[j]; p < B->p[j + 1];
+             p++) {
+            const int a = e->is_active[j], b = e->is_active[B->i[p]];
+            if (a == 0 && b == layer && sli_is_read(e->triangle, B->i[p], j)) {
+                e->is_active[j] = (unsigned char)(layer + 1);
+            } else if (b == 0 && a == layer && (is_whole || sli_is_read(e->triangle, B->i[p], j))) {
+                e->is_active[B->i[p]] = (unsigned char)(layer + 1);
+            }
+        }
+    }
+}
+
+/* Lists the active rows and those near them. */
 static void sli_edit_list(sli_edit *e) {
     sl_int j;
-    e->n_active = 0;
+    e->n_near = 0;
     for (j = 0; j < e->n; j++) {
         e->number[j] = -1;
         if (e->is_active[j]) {
-            e->number[j] = e->n_active;
-            e->active[e->n_active++] = j;
+            e->number[j] = e->n_near;
+            e->around[e->n_near++] = j;
         }
     }
 }
@@ -29,13 +47,13 @@ SLI_INLINE void sli_edit_enter(sli_edit *e, sl_int i, sl_int j) {
     }
 }
 
-/* Counts the neighbors of the active rows, or lists them; begin then moves to the end of each
+/* Counts the neighbors of the near rows, or lists them; begin then moves to the end of each
  * list. The columns of a matrix with both triangles are complete. */
 static void sli_edit_scan(sli_edit *e) {
     const sl_csc *B = e->B;
     sl_int j, k, p;
-    for (k = 0; k < e->n_active && e->triangle == SL_TRIANGLE_BOTH; k++) {
-        j = e->active[k];
+    for (k = 0; k < e->n_near && e->triangle == SL_TRIANGLE_BOTH; k++) {
+        j = e->around[k];
         for (p = B->p[j]; p < B->p[j + 1]; p++) {
             if (B->i[p] != j) {
                 sli_edit_enter(e, j, B->i[p]);
@@ -54,26 +72,26 @@ static void sli_edit_scan(sli_edit *e) {
     }
 }
 
-/* Lists the neighbors of each active row. */
+/* Lists the neighbors of each near row. */
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
     sl_off total = 0;
     sl_int k, pass;
     sl_status status = SL_OK;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_active + 1);
-        e->list = SLI_TAKE(&b, uint64_t, e->n_active);
-        e->scratch = SLI_TAKE(&b, uint64_t, e->n_active);
+        e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_near + 1);
+        e->list = SLI_TAKE(&b, uint64_t, e->n_near);
+        e->scratch = SLI_TAKE(&b, uint64_t, e->n_near);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     e->blocks[1] = b.base;
     if (status != SL_OK) {
         return status;
     }
-    memset(e->begin, 0, ((size_t)e->n_active + 1) * sizeof(sl_off));
+    memset(e->begin, 0, ((size_t)e->n_near + 1) * sizeof(sl_off));
     e->to = NULL;
     sli_edit_scan(e);
-    for (k = 0; k <= e->n_active; k++) {
+    for (k = 0; k <= e->n_near; k++) {
         const sl_off here = e->begin[k];
         e->begin[k] = total;
         total += here;
@@ -88,7 +106,7 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
         return status;
     }
     sli_edit_scan(e);
-    memmove(e->begin + 1, e->begin, (size_t)e->n_active * sizeof(sl_off));
+    memmove(e->begin + 1, e->begin, (size_t)e->n_near * sizeof(sl_off));
     e->begin[0] = 0;
     return SL_OK;
 }
@@ -108,15 +126,15 @@ static sl_int sli_edit_meet(sli_edit *e, sl_int a, sl_int b) {
     return a;
 }
 
-/* The lowest node that is above or below the nodes of all neighbors of an active row, or -1 if none
+/* The lowest node that is above or below the nodes of all neighbors of a near row, or -1 if none
  * of them is placed: the lowest of their nodes if these are on one path to a root, else the lowest
  * common ancestor of the ends of the paths. *conflicts := neighbors that are on no path with the
  * row itself. */
 static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
     const sl_int own = e->node[row], k = e->number[row];
     sl_int lowest = -1;
-    int is_join = 0;
     sl_off at;
+    e->is_join = 0;
     *conflicts = 0;
     for (at = e->begin[k]; at < e->begin[k + 1]; at++) {
         const sl_int node = e->node[e->to[at]];
@@ -128,13 +146,44 @@ static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
         if (lowest == -1) {
             lowest = node;
         } else if (sli_edit_is_above(e, lowest, node)) {
-            lowest = is_join ? lowest : node;
+            lowest = e->is_join ? lowest : node;
         } else if (!sli_edit_is_above(e, node, lowest)) {
             lowest = sli_edit_meet(e, lowest, node);
-            is_join = 1;
+            e->is_join = 1;
         }
     }
     return lowest;
+}
+
+/* A subtree is ordered anew if at least one in so many of its rows is active, and if it has so many
+ * rows: it is ordered without regard to the rows above it, which costs fill at its border. */
+#define SLI_EDIT_SHARE 32
+#define SLI_EDIT_LEAST 256
+
+/* Counts the active rows in each subtree. */
+static void sli_edit_weigh(sli_edit *e) {
+    const sl_symbolic *S = e->S;
+    sl_int s, k;
+    memset(e->weight, 0, ((size_t)S->n_supers + 1) * sizeof(sl_int));
+    for (k = 0; k < e->n_near; k++) {
+        if (e->is_active[e->around[k]] == 1 && e->node[e->around[k]] != -1) {
+            e->weight[e->node[e->around[k]]]++;
+        }
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        if (S->super_parent[s] != -1) {
+            e->weight[S->super_parent[s]] += e->weight[s];
+        }
+    }
+}
+
+/* Is the subtree of a node ordered anew? */
+SLI_INLINE int sli_edit_is_small(const sli_edit *e, sl_int s) {
+    const sl_symbolic *S = e->S;
+    const sl_off size =
+        s == S->n_supers ? 0 : S->super_first[s + 1] - S->super_first[S->first_descendant[s]];
+    return s < S->n_supers && size <= (sl_off)SLI_EDIT_SHARE * e->weight[s] &&
+           size + e->weight[s] >= SLI_EDIT_LEAST;
 }
 
 /* Moves a row to a node, or places it there. */
@@ -151,9 +200,9 @@ static void sli_edit_move(sli_edit *e, sl_int row, sl_int node) {
  * most of these entries. */
 static void sli_edit_resolve(sli_edit *e) {
     sl_int k, count = 0, conflicts;
-    for (k = 0; k < e->n_active && e->steps > 0; k++) {
-        const sl_int row = e->active[k];
-        if (e->node[row] != -1) {
+    for (k = 0; k < e->n_near && e->steps > 0; k++) {
+        const sl_int row = e->around[k];
+        if (e->node[row] != -1 && e->is_active[row] == 1) {
             (void)sli_edit_lowest(e, row, &conflicts);
             if (conflicts > 0) {
                 e->list[count++] = sli_keyed(INT32_MAX - conflicts, row);
@@ -175,8 +224,8 @@ static void sli_edit_resolve(sli_edit *e) {
 static void sli_edit_place_new(sli_edit *e) {
     sl_int *queue = e->next, head, tail = 0, k, conflicts;
     sl_off at;
-    for (k = 0; k < e->n_active; k++) {
-        const sl_int row = e->active[k];
+    for (k = 0; k < e->n_near; k++) {
+        const sl_int row = e->around[k];
         for (at = e->begin[k]; e->node[row] == -1 && at < e->begin[k + 1]; at++) {
             if (e->node[e->to[at]] != -1) {
                 e->cursor[row] = 1;
@@ -201,9 +250,10 @@ static void sli_edit_place_new(sli_edit *e) {
 /* Moves active rows down, out of separators in which they separate nothing any more. */
 static void sli_edit_lower(sli_edit *e) {
     sl_int k, conflicts;
-    for (k = 0; k < e->n_active && e->steps > 0; k++) {
-        const sl_int row = e->active[k], own = e->node[row];
-        const sl_int lowest = own == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
+    for (k = 0; k < e->n_near && e->steps > 0; k++) {
+        const sl_int row = e->around[k], own = e->node[row];
+        const sl_int lowest =
+            own == -1 || e->is_active[row] != 1 ? -1 : sli_edit_lowest(e, row, &conflicts);
         if (lowest != -1 && lowest != own && sli_edit_is_above(e, own, lowest)) {
             sli_edit_move(e, row, lowest);
         }
@@ -213,10 +263,10 @@ static void sli_edit_lower(sli_edit *e) {
 /* Places all active rows. Returns whether that took a moderate number of steps. */
 static int sli_edit_place_all(sli_edit *e) {
     sl_int k;
-    for (k = 0; k < e->n_active; k++) {
-        e->cursor[e->active[k]] = 0;
-        if (e->node[e->active[k]] != -1) {
-            e->mark[e->node[e->active[k]]] = SLI_NODE_FRESH;
+    for (k = 0; k < e->n_near; k++) {
+        e->cursor[e->around[k]] = 0;
+        if (e->node[e->around[k]] != -1 && e->is_active[e->around[k]] == 1) {
+            e->mark[e->node[e->around[k]]] = SLI_NODE_FRESH;
         }
     }
     e->steps = 4 * ((sl_off)e->n + e->S->n_supers) + 1000;
