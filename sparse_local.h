@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3df2ae12e1a4a716
+ * FNV-1a of the lines after this comment, without the license: 82247d30a7f3cc8e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,45 +42,45 @@
  *   5815 permute.h   5881 sum.h   5963 output_file.h   6172 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
  *   6618 graph.h   6767 coarsen.h   7079 labels.h   7273 subgraph.h   7468 heap.h   7528 bisect.h
- *   7758 separator.h   8020 mindeg.h   8203 dissect.h   8537 levelset.h   8657 geometric.h
- *   8832 cells.h   9012 septree.h   9072 metis.h   9221 metis_refined.h   9335 nd.h
- *   9527 compress.h   9648 quotient.h  10062 order.h
+ *   7758 separator.h   8020 mindeg.h   8203 dissect.h   8535 levelset.h   8655 geometric.h
+ *   8830 cells.h   9010 septree.h   9070 metis.h   9219 metis_refined.h   9333 nd.h
+ *   9525 compress.h   9646 quotient.h  10060 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10344 symbolic_types.h  10381 etree.h  10454 counts.h  10511 supernodes.h  10733 structure.h
- *  10854 schedule.h  11134 symbolic.h  11544 reach.h
+ *  10342 symbolic_types.h  10379 etree.h  10452 counts.h  10509 supernodes.h  10731 structure.h
+ *  10852 schedule.h  11132 symbolic.h  11542 reach.h
  * (factor: the numbers of L and D)
- *  11815 factor_types.h  12190 storage.h  12263 pivot_search.h  12609 pivoted.h  12677 scatter.h
- *  12835 uplooking.h  12907 null_product.h  13111 null_dense.h  13188 null_basis.h
- *  13496 null_vectors.h  13638 multifrontal.h  13815 front_tasks.h  14157 nullspace.h
- *  14360 growth.h  14436 factor_setup.h  14736 factor.h  14942 leftlooking.h  15126 factor_query.h
- *  15261 combination.h
+ *  11813 factor_types.h  12188 storage.h  12261 pivot_search.h  12607 pivoted.h  12675 scatter.h
+ *  12833 uplooking.h  12905 null_product.h  13109 null_dense.h  13186 null_basis.h
+ *  13494 null_vectors.h  13636 multifrontal.h  13813 front_tasks.h  14155 nullspace.h
+ *  14358 growth.h  14434 factor_setup.h  14734 factor.h  14940 leftlooking.h  15124 factor_query.h
+ *  15259 combination.h
  * (solve: full and local solves)
- *  15322 region_types.h  15426 work.h  15523 query.h  15697 singular.h  15964 backward.h
- *  15994 sweep.h  16180 compile.h  16373 plan.h  16480 local.h  16630 parts.h  16917 refine.h
- *  17096 refine_local.h  17311 rcond.h  17467 defects.h
+ *  15320 region_types.h  15424 work.h  15521 query.h  15695 singular.h  15962 backward.h
+ *  15992 sweep.h  16178 compile.h  16371 plan.h  16478 local.h  16628 parts.h  16915 refine.h
+ *  17094 refine_local.h  17309 rcond.h  17465 defects.h
  * (inverse: entries of the inverse, regions)
- *  17544 traversal.h  17789 traversal_run.h  17972 row_sets.h  17999 unit_vectors.h
- *  18224 bilinear.h  18401 entries.h  18682 block.h  18922 reserve.h  19114 selected.h
- *  19324 selected_query.h  19426 region_choose.h  19653 region.h
+ *  17542 traversal.h  17787 traversal_run.h  17970 row_sets.h  17997 unit_vectors.h
+ *  18222 bilinear.h  18399 entries.h  18680 block.h  18920 reserve.h  19112 selected.h
+ *  19322 selected_query.h  19424 region_choose.h  19651 region.h
  * (change: a factor that follows changes of its matrix)
- *  19901 update.h  20251 rank.h  20580 edges.h  20734 choose.h  20928 pins.h  21492 subset.h
- *  21599 restrict_analysis.h  21896 restrict_anew.h  21950 restrict_symbolic.h  22131 restrict.h
- *  22479 edit_match.h  22665 edit_place.h  22914 edit_separate.h  23226 edit_order.h
- *  23378 edit_graph.h  23473 edit_join.h  23749 edit.h
+ *  19899 update.h  20249 rank.h  20578 edges.h  20732 choose.h  20926 pins.h  21490 subset.h
+ *  21597 restrict_analysis.h  21894 restrict_anew.h  21948 restrict_symbolic.h  22129 restrict.h
+ *  22477 edit_match.h  22663 edit_place.h  22912 edit_separate.h  23224 edit_order.h
+ *  23376 edit_graph.h  23471 edit_join.h  23747 edit.h
  * (save: factors in files)
- *  23913 format.h  24209 decode.h  24357 check.h  24689 write.h  24992 load.h  25260 load_inverse.h
- *  25592 load_calls.h
+ *  23911 format.h  24207 decode.h  24355 check.h  24687 write.h  24990 load.h  25258 load_inverse.h
+ *  25590 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25791 batch_solve.h  26000 batch_factor.h  26201 batch_diagonal.h
+ *  25789 batch_solve.h  25998 batch_factor.h  26199 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26341 hermitian.h  26503 complex_rows.h
+ *  26339 hermitian.h  26501 complex_rows.h
  * (last: undefine every internal macro)
- *  26671 undef.h
+ *  26669 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26876 front.inl.h  26878 product.inl.h  27279 words_undef.inl.h  27353 multi_rhs.inl.h
- *  27736 sweeps.inl.h  27738 unit_triangle.inl.h  27775 two_rhs.inl.h  27944 small_supernode.inl.h
- *  28103 single_rhs.inl.h  28347 kernel_set.inl.h  28349 inverse_front.inl.h  28634 row.inl.h
- *  28664 change.inl.h
+ *  26874 front.inl.h  26876 product.inl.h  27277 words_undef.inl.h  27351 multi_rhs.inl.h
+ *  27734 sweeps.inl.h  27736 unit_triangle.inl.h  27773 two_rhs.inl.h  27942 small_supernode.inl.h
+ *  28101 single_rhs.inl.h  28345 kernel_set.inl.h  28347 inverse_front.inl.h  28632 row.inl.h
+ *  28662 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8212,7 +8212,6 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
-#define SLI_DISSECT_BAND_WIDE 1
 #define SLI_SEPARATOR_BALANCE 70
 
 typedef struct sli_dissection {
@@ -8221,7 +8220,6 @@ typedef struct sli_dissection {
   int n_levels, level;
   sl_int total;
   sl_int leaf_size;
-  int band;
   int band_growth;
   sli_label_tree tree;
   sli_borders borders;
@@ -8355,10 +8353,15 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
   return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
-static void sli_dissect_set_bands(sli_dissection *d, int growth) {
-  const int is_wide = sli_level_is_wide(&d->levels[0]);
-  d->band = is_wide ? SLI_DISSECT_BAND_WIDE : SLI_DISSECT_BAND;
-  d->band_growth = is_wide ? 0 : growth;
+static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
+  int layers = SLI_DISSECT_BAND;
+  if (sli_level_is_wide(&d->levels[0])) {
+    return weight > SLI_DISSECT_BAND_FROM;
+  }
+  for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
+    layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
+  }
+  return layers;
 }
 
 static void sli_dissect_separate(sli_dissection *d) {
@@ -8368,14 +8371,9 @@ static void sli_dissect_separate(sli_dissection *d) {
   sli_label_tree_breadth_first(&d->tree, d->nodes);
   for (k = 0; k < d->tree.count; k++) {
     const sl_int node = d->nodes[k];
-    sl_int weight = d->tree.weight[node];
-    int layers = d->band;
+    int layers = sli_dissect_layers(d, d->tree.weight[node]);
     if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
       continue;
-    }
-    for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-      layers +=
-        weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
     }
     for (;; layers /= 2) {
       sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders, layers);
@@ -9319,12 +9317,12 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
     return status;
   }
   own = sli_dissect_cost(d, &flat);
-  sli_dissect_set_bands(d, 1);
+  d->band_growth = 1;
   status = sli_dissect_metis(d);
   if (status == SL_OK && sli_tree_cost_is_less(sli_tree_cost_times(own, 100),
                          sli_tree_cost_times(sli_dissect_cost(d, &flat),
                                    SLI_METIS_REFINED_SHARE))) {
-    sli_dissect_set_bands(d, 2);
+    d->band_growth = 2;
     status = sli_dissect_graph(d);
   }
   return status;
@@ -9410,7 +9408,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
-  sli_dissect_set_bands(d, 2);
+  d->band_growth = 2;
   if (w->by_metis) {
 #if defined(SLI_METIS)
     return sli_dissect_metis_refined(d);

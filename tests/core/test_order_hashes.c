@@ -157,7 +157,7 @@ static void patterns_have_one_order(void **state) {
     static const uint64_t expected[ORDER_KINDS] = {
         0x429e992480e24fc4u, 0xb8d7bf2d1561c5c2u, 0x24db227f54397cd2u, 0xe013429af7bf4ed2u,
         0xa8d8bb4b46144a22u, 0x1a0218cf193f977fu, 0xc718bc20262d35b9u, 0x54fc0cb6e52461b8u,
-        0x2c16aa1b73ec6e4au, 0xab5efc3e0064b10du, 0xfa263a328a332289u, 0x53661e3c1e774ff2u};
+        0x2c16aa1b73ec6e4au, 0xab5efc3e0064b10du, 0x164dafecf4c41fc0u, 0x53661e3c1e774ff2u};
     int wrong = 0;
     for (int kind = 0; kind < ORDER_KINDS; kind++) {
         gen_list_t t = pattern(kind);

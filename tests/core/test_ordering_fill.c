@@ -135,7 +135,7 @@ static void meshes_are_near_metis(void **state) {
 }
 
 /* Biharmonic and triharmonic systems: their wide graphs are coarsened by neighborhoods. Measured:
- * fill 0.88 to 1.04, path weight 0.98 to 1.06. With pairs of vertices, bands of several layers and
+ * fill 0.88 to 1.03, path weight 0.98 to 1.07. With pairs of vertices, bands of several layers and
  * level sets, as in other graphs: fill up to 1.07, path weight up to 1.13. */
 static void rings_are_near_metis(void **state) {
     (void)state;

@@ -23,7 +23,6 @@
 #define SLI_DISSECT_LAYERS 3
 #define SLI_DISSECT_BAND 2
 #define SLI_DISSECT_BAND_FROM 1000
-#define SLI_DISSECT_BAND_WIDE 1
 /* Largest percentage of the weight that one side of a separator may have. It exceeds
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
 #define SLI_SEPARATOR_BALANCE 70
@@ -36,7 +35,6 @@ typedef struct sli_dissection {
     int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
-    int band;                         /* layers of the bands of the smallest subgraphs */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
     sli_label_tree tree;
     sli_borders borders;
@@ -178,12 +176,18 @@ static int sli_dissect_is_balanced(const sli_dissection *d) {
     return 100 * total[0] <= SLI_SEPARATOR_BALANCE * sum || total[0] <= before;
 }
 
-/* Sets the width of the bands. The cruder the borders of a method, the wider the bands. In a wide
- * graph, a layer is as wide as two or three of a mesh, and the border is two layers already. */
-static void sli_dissect_set_bands(sli_dissection *d, int growth) {
-    const int is_wide = sli_level_is_wide(&d->levels[0]);
-    d->band = is_wide ? SLI_DISSECT_BAND_WIDE : SLI_DISSECT_BAND;
-    d->band_growth = is_wide ? 0 : growth;
+/* The number of layers of the band of a subgraph of this weight. In a wide graph, a layer is two or
+ * three layers of a mesh, and so is each side of the border: one layer more contains much of a
+ * small subgraph, and several move the separators of large ones away from the middle. */
+static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
+    int layers = SLI_DISSECT_BAND;
+    if (sli_level_is_wide(&d->levels[0])) {
+        return weight > SLI_DISSECT_BAND_FROM;
+    }
+    for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
+        layers += weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
+    }
+    return layers;
 }
 
 /* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
@@ -196,14 +200,9 @@ static void sli_dissect_separate(sli_dissection *d) {
     sli_label_tree_breadth_first(&d->tree, d->nodes);
     for (k = 0; k < d->tree.count; k++) {
         const sl_int node = d->nodes[k];
-        sl_int weight = d->tree.weight[node];
-        int layers = d->band;
+        int layers = sli_dissect_layers(d, d->tree.weight[node]);
         if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
             continue;
-        }
-        for (; weight > SLI_DISSECT_BAND_FROM; weight /= 4) {
-            layers +=
-                weight > 4 * SLI_DISSECT_BAND_FROM ? d->band_growth : sli_min(d->band_growth, 1);
         }
         for (;; layers /= 2) {
             sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders, layers);

@@ -116,12 +116,12 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
         return status;
     }
     own = sli_dissect_cost(d, &flat);
-    sli_dissect_set_bands(d, 1);
+    d->band_growth = 1;
     status = sli_dissect_metis(d);
     if (status == SL_OK && sli_tree_cost_is_less(sli_tree_cost_times(own, 100),
                                                  sli_tree_cost_times(sli_dissect_cost(d, &flat),
                                                                      SLI_METIS_REFINED_SHARE))) {
-        sli_dissect_set_bands(d, 2);
+        d->band_growth = 2;
         status = sli_dissect_graph(d);
     }
     return status;

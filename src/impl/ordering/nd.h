@@ -89,10 +89,11 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
     }
 }
 
-/* Finds labels of the current component by the requested method. */
+/* Finds labels of the current component by the requested method. The cruder the borders of a
+ * method, the wider the bands in which they are refined. */
 static sl_status sli_nd_label(sli_nd *w) {
     sli_dissection *d = &w->d;
-    sli_dissect_set_bands(d, 2);
+    d->band_growth = 2;
     if (w->by_metis) {
 #if defined(SLI_METIS)
         return sli_dissect_metis_refined(d);
