@@ -60,6 +60,13 @@ sort -t, -n "$dir/adf2/adf.csv" | awk -F, '
     END { exit wrong || lines != 4900 }' "$dir/all.csv" -
 record $? 'adf: the values of sparse-local adf, each vertex once'
 
+# A file with the selected inverse: its values, which agree with those of the factor.
+"$program" save hills:70x70 --selected --out "$dir/z.slf" >"$dir/log" 2>&1 &&
+    job 2 "$dir/z.slf" adf "$dir/adfz" 300 &&
+    paste -d, "$dir/adf1/adf.csv" "$dir/adfz/adf.csv" | awk -F, '{ d = $2 / $4 - 1
+        if ($1 != $3 || d > 1e-10 || -d > 1e-10) wrong = 1 } END { exit wrong || NR != 4900 }'
+record $? 'adf: the selected inverse of a file has the values of its factor'
+
 # A mesh in place of a factor: rank 0 factors it.
 job 2 hills:20x20 adf "$dir/mesh" 50
 record $? 'a mesh is factored and saved'

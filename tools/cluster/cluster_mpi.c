@@ -30,8 +30,7 @@ typedef struct job {
     long count;   /* queries */
     int rank, ranks;
     char factor[RESULT_NAME];
-    sl_symbolic *S;
-    sl_factor *F;
+    sl_saved_set set; /* with the selected inverse, if the file has one */
     sl_int n_blocks;
     sl_int *rows, *columns; /* count queries: diagonal entries if columns is NULL */
     MPI_Win counter;
@@ -79,7 +78,7 @@ static void name_block(char *path, const job *j, sl_int block) {
 
 /* Rank 0: the file is there and verified when it returns. */
 static void provide_factor(job *j) {
-    sl_symbolic *S = NULL;
+    sl_saved_set set;
     if (mkdir(j->folder, 0777) != 0 && errno != EEXIST) {
         fail("%s: %s", j->folder, strerror(errno));
     }
@@ -93,8 +92,8 @@ static void provide_factor(job *j) {
         heat_system_free(&h);
         mesh_free(&m);
     }
-    must(sl_map_file(&S, NULL, j->factor, SL_LOAD_VERIFIED, NULL), j->factor);
-    sl_symbolic_free(S);
+    must(sl_map_set_file(&set, j->factor, SL_LOAD_VERIFIED, NULL), j->factor);
+    sl_saved_set_free(&set);
 }
 
 /* ---- the queries ---- */
@@ -112,7 +111,7 @@ static int by_key(const void *a, const void *b) {
 
 /* The same list on every rank and in every run: the blocks have to mean the same. */
 static void choose_queries(job *j) {
-    const sl_symbolic_arrays a = sl_symbolic_view(j->S);
+    const sl_symbolic_arrays a = sl_symbolic_view(j->set.symbolic);
     if (j->kind[0] == 'a') {
         j->count = a.n;
         j->rows = app_alloc((size_t)a.n, sizeof *j->rows);
@@ -191,14 +190,28 @@ static sl_int take_block(const job *j) {
     }
 }
 
+/* Entries of the inverse. Diagonal entries are those of the selected inverse, if the file has one
+ * with all of them: which way a block takes depends on the file alone, so that bits do too. */
+static sl_status find_answers(const job *j, const sl_int *rows, const sl_int *columns, sl_int count,
+                              double *x, sl_work *W) {
+    sl_status status = SL_ERR_PATTERN;
+    if (columns != NULL) {
+        return sl_inverse_pairs(j->set.factor, x, rows, columns, count, W, NULL);
+    }
+    if (j->set.selected != NULL) {
+        status = sl_selected_diagonal(j->set.selected, x, rows, count, NULL);
+    }
+    return status == SL_ERR_PATTERN ? sl_inverse_diagonal(j->set.factor, x, rows, count, W, NULL)
+                                    : status;
+}
+
 static void answer_block(const job *j, sl_int block, double *x, sl_work *W) {
     const size_t first = (size_t)block * (size_t)j->block;
     const size_t left = (size_t)j->count - first;
     const sl_int count = left < (size_t)j->block ? (sl_int)left : j->block;
     char path[RESULT_NAME];
-    must(j->columns == NULL
-             ? sl_inverse_diagonal(j->F, x, j->rows + first, count, W, NULL)
-             : sl_inverse_pairs(j->F, x, j->rows + first, j->columns + first, count, W, NULL),
+    must(find_answers(j, j->rows + first, j->columns != NULL ? j->columns + first : NULL, count, x,
+                      W),
          j->kind);
     name_block(path, j, block);
     FILE *file = open_result(path);
@@ -294,8 +307,8 @@ int main(int argc, char **argv) {
         provide_factor(&j);
     }
     (void)MPI_Barrier(MPI_COMM_WORLD);
-    must(sl_map_file(&j.S, &j.F, j.factor, SL_LOAD_TRUSTED, NULL), j.factor);
-    if (j.F == NULL) {
+    must(sl_map_set_file(&j.set, j.factor, SL_LOAD_TRUSTED, NULL), j.factor);
+    if (j.set.factor == NULL) {
         fail("%s: holds an analysis without a factor", j.factor);
     }
     choose_queries(&j);
@@ -328,8 +341,7 @@ int main(int argc, char **argv) {
     }
     free(j.rows);
     free(j.columns);
-    sl_factor_free(j.F);
-    sl_symbolic_free(j.S);
+    sl_saved_set_free(&j.set);
     (void)MPI_Win_free(&j.counter);
     (void)MPI_Finalize();
     return 0;
