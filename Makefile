@@ -71,7 +71,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
 	figures bench-eigenpairs deps-arpack format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
-	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm deps-mpi cluster test-cluster
+	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm test-exchange deps-mpi cluster test-cluster
 
 all: check-header layers style parts test programs ## the checks, the tests, and the programs of tools/
 
@@ -331,6 +331,12 @@ test-tcc: deps deps-tcc sparse_local.h
 	@+tools/build/platform.sh tcc tcc natively $(SUB_MAKE) run-tests B=build/tcc CC=tcc WARN= DEPEND= SL_DATA= METIS= \
 	TEST_PROGRAMS='$(PLATFORM_TESTS:tests/%.c=build/tcc/tests/%)' LIBS='$(FILE_LIBS) -lm'
 
+# The program over the objects of test-s390x, and natively.
+test-exchange: test-s390x ## saved objects written on big endian, emulated, loaded on this machine, and the other way round
+	@$(MAKE) --no-print-directory $(B)/tests/core/exchange
+	@$(cross_s390x)gcc -std=c99 $(WARN) -O1 -I. -static -o build/s390x/exchange tests/core/exchange.c build/s390x/obj/sparse_local.o -lm
+	@HERE=$(B)/tests/core/exchange THERE='$(run_s390x) build/s390x/exchange' tests/core/check_exchange.sh
+
 test-i386: ## the header's tests on 32-bit x86 with SSE2
 test-i386-x87: ## some of the tests on 32-bit x86 with the x87 unit and its excess precision
 test-armhf: ## some of the tests on 32-bit ARM, emulated; plain C kernels
@@ -341,7 +347,7 @@ test-riscv64: ## some of the tests on RISC-V, emulated
 test-musl: ## some of the tests with the C library musl
 test-tcc: ## some of the tests, compiled by tcc
 
-platforms: $(PLATFORMS:%=test-%) test-tcc ## the tests on all of these platforms, one after the other with -j1
+platforms: $(PLATFORMS:%=test-%) test-exchange test-tcc ## the tests on all of these platforms, one after the other with -j1
 
 platform-table: ## prints the results of the platform targets as a Markdown table, as in the README
 	@printf '| platform | compiler | run | passed | failed | skipped |\n|---|---|---|---|---|---|\n'

@@ -229,10 +229,19 @@ static unsigned char *section(const saved_t *m, uint32_t id, uint64_t *bytes) {
     return NULL;
 }
 
-/* A file is refused after this word of a section is replaced; accepted as it was. */
+/* Where the lower half of an integer of a section begins. */
+static size_t lower_half(uint32_t id) {
+    const uint16_t one = 1;
+    const int is_little = *(const unsigned char *)&one == 1;
+    return is_little || id == 98 || id == 99 || id == 105 ? 0 : 4;
+}
+
+/* A file is refused after the lower 32 bits of an integer at `at` of a section are replaced;
+ * accepted as it was. */
 static void refuse(const target_t *t, uint32_t id, size_t at, uint32_t value) {
     uint64_t bytes = 0;
     memcpy(t->k.bytes, t->m.bytes, t->m.size);
+    at += lower_half(id);
     unsigned char *word = section(&t->k, id, &bytes) + at;
     assert_true(at + 4 <= bytes && saved_u32(word) != value);
     saved_put32(word, value);
