@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 82247d30a7f3cc8e
+ * FNV-1a of the lines after this comment, without the license: 3011a2f4981cef46
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -31,56 +31,56 @@
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
  *   2942 base.h   3221 status.h   3282 options.h   3340 alloc.h   3450 hash.h   3580 file_map.h
- *   3676 sort.h   3740 parallel.h
+ *   3677 sort.h   3741 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3823 panel.h   3845 step.h   3886 pivot_rule.h   3960 front.h   4019 pairs.h
- *   4226 inverse_front.h   4298 table.h   4319 simd.h   4408 simd_scalar_single.h
- *   4454 simd_scalar.h   4569 simd_avx2_single.h   4623 simd_avx2.h   4828 simd_avx512_single.h
- *   4879 simd_avx512.h   4992 simd_neon_single.h   5034 simd_neon.h   5233 dispatch.h
+ *   3824 panel.h   3846 step.h   3887 pivot_rule.h   3961 front.h   4020 pairs.h
+ *   4227 inverse_front.h   4299 table.h   4320 simd.h   4409 simd_scalar_single.h
+ *   4455 simd_scalar.h   4570 simd_avx2_single.h   4624 simd_avx2.h   4829 simd_avx512_single.h
+ *   4880 simd_avx512.h   4993 simd_neon_single.h   5035 simd_neon.h   5234 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5313 csc.h   5427 csc_build.h   5561 csc64.h   5632 csc_triangle.h   5698 csc_products.h
- *   5815 permute.h   5881 sum.h   5963 output_file.h   6172 matrix_market.h
+ *   5314 csc.h   5428 csc_build.h   5562 csc64.h   5633 csc_triangle.h   5699 csc_products.h
+ *   5816 permute.h   5882 sum.h   5964 output_file.h   6173 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6618 graph.h   6767 coarsen.h   7079 labels.h   7273 subgraph.h   7468 heap.h   7528 bisect.h
- *   7758 separator.h   8020 mindeg.h   8203 dissect.h   8535 levelset.h   8655 geometric.h
- *   8830 cells.h   9010 septree.h   9070 metis.h   9219 metis_refined.h   9333 nd.h
- *   9525 compress.h   9646 quotient.h  10060 order.h
+ *   6619 graph.h   6768 coarsen.h   7080 labels.h   7274 subgraph.h   7469 heap.h   7529 bisect.h
+ *   7759 separator.h   8021 mindeg.h   8204 dissect.h   8536 levelset.h   8656 geometric.h
+ *   8831 cells.h   9011 septree.h   9071 metis.h   9220 metis_refined.h   9334 nd.h
+ *   9526 compress.h   9647 quotient.h  10061 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10342 symbolic_types.h  10379 etree.h  10452 counts.h  10509 supernodes.h  10731 structure.h
- *  10852 schedule.h  11132 symbolic.h  11542 reach.h
+ *  10343 symbolic_types.h  10380 etree.h  10453 counts.h  10510 supernodes.h  10732 structure.h
+ *  10853 schedule.h  11133 symbolic.h  11543 reach.h
  * (factor: the numbers of L and D)
- *  11813 factor_types.h  12188 storage.h  12261 pivot_search.h  12607 pivoted.h  12675 scatter.h
- *  12833 uplooking.h  12905 null_product.h  13109 null_dense.h  13186 null_basis.h
- *  13494 null_vectors.h  13636 multifrontal.h  13813 front_tasks.h  14155 nullspace.h
- *  14358 growth.h  14434 factor_setup.h  14734 factor.h  14940 leftlooking.h  15124 factor_query.h
- *  15259 combination.h
+ *  11814 factor_types.h  12189 storage.h  12262 pivot_search.h  12608 pivoted.h  12676 scatter.h
+ *  12834 uplooking.h  12906 null_product.h  13110 null_dense.h  13187 null_basis.h
+ *  13495 null_vectors.h  13637 multifrontal.h  13814 front_tasks.h  14156 nullspace.h
+ *  14359 growth.h  14435 factor_setup.h  14735 factor.h  14941 leftlooking.h  15125 factor_query.h
+ *  15260 combination.h
  * (solve: full and local solves)
- *  15320 region_types.h  15424 work.h  15521 query.h  15695 singular.h  15962 backward.h
- *  15992 sweep.h  16178 compile.h  16371 plan.h  16478 local.h  16628 parts.h  16915 refine.h
- *  17094 refine_local.h  17309 rcond.h  17465 defects.h
+ *  15321 region_types.h  15425 work.h  15522 query.h  15696 singular.h  15963 backward.h
+ *  15993 sweep.h  16179 compile.h  16372 plan.h  16479 local.h  16629 parts.h  16916 refine.h
+ *  17095 refine_local.h  17310 rcond.h  17466 defects.h
  * (inverse: entries of the inverse, regions)
- *  17542 traversal.h  17787 traversal_run.h  17970 row_sets.h  17997 unit_vectors.h
- *  18222 bilinear.h  18399 entries.h  18680 block.h  18920 reserve.h  19112 selected.h
- *  19322 selected_query.h  19424 region_choose.h  19651 region.h
+ *  17543 traversal.h  17788 traversal_run.h  17971 row_sets.h  17998 unit_vectors.h
+ *  18223 bilinear.h  18400 entries.h  18681 block.h  18921 reserve.h  19113 selected.h
+ *  19323 selected_query.h  19425 region_choose.h  19652 region.h
  * (change: a factor that follows changes of its matrix)
- *  19899 update.h  20249 rank.h  20578 edges.h  20732 choose.h  20926 pins.h  21490 subset.h
- *  21597 restrict_analysis.h  21894 restrict_anew.h  21948 restrict_symbolic.h  22129 restrict.h
- *  22477 edit_match.h  22663 edit_place.h  22912 edit_separate.h  23224 edit_order.h
- *  23376 edit_graph.h  23471 edit_join.h  23747 edit.h
+ *  19900 update.h  20250 rank.h  20579 edges.h  20733 choose.h  20927 pins.h  21491 subset.h
+ *  21598 restrict_analysis.h  21895 restrict_anew.h  21949 restrict_symbolic.h  22130 restrict.h
+ *  22478 edit_match.h  22664 edit_place.h  22913 edit_separate.h  23225 edit_order.h
+ *  23377 edit_graph.h  23472 edit_join.h  23748 edit.h
  * (save: factors in files)
- *  23911 format.h  24207 decode.h  24355 check.h  24687 write.h  24990 load.h  25258 load_inverse.h
- *  25590 load_calls.h
+ *  23912 format.h  24208 decode.h  24356 check.h  24688 write.h  24991 load.h  25259 load_inverse.h
+ *  25591 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25789 batch_solve.h  25998 batch_factor.h  26199 batch_diagonal.h
+ *  25790 batch_solve.h  25999 batch_factor.h  26200 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26339 hermitian.h  26501 complex_rows.h
+ *  26340 hermitian.h  26502 complex_rows.h
  * (last: undefine every internal macro)
- *  26669 undef.h
+ *  26670 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26874 front.inl.h  26876 product.inl.h  27277 words_undef.inl.h  27351 multi_rhs.inl.h
- *  27734 sweeps.inl.h  27736 unit_triangle.inl.h  27773 two_rhs.inl.h  27942 small_supernode.inl.h
- *  28101 single_rhs.inl.h  28345 kernel_set.inl.h  28347 inverse_front.inl.h  28632 row.inl.h
- *  28662 change.inl.h
+ *  26875 front.inl.h  26877 product.inl.h  27278 words_undef.inl.h  27352 multi_rhs.inl.h
+ *  27735 sweeps.inl.h  27737 unit_triangle.inl.h  27774 two_rhs.inl.h  27943 small_supernode.inl.h
+ *  28102 single_rhs.inl.h  28346 kernel_set.inl.h  28348 inverse_front.inl.h  28633 row.inl.h
+ *  28663 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3597,7 +3597,8 @@ static sl_status sli_map(const char *path, sli_mapping *out) {
       return SL_ERR_IO;
     }
     if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
-      status = (uint64_t)found.st_size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+      const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
+      status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
     }
     if (status == SL_OK) {
       bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
