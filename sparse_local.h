@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3011a2f4981cef46
+ * FNV-1a of the lines after this comment, without the license: 5e3d2aff3dd5e9d0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,46 +41,46 @@
  *   5314 csc.h   5428 csc_build.h   5562 csc64.h   5633 csc_triangle.h   5699 csc_products.h
  *   5816 permute.h   5882 sum.h   5964 output_file.h   6173 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6619 graph.h   6768 coarsen.h   7080 labels.h   7274 subgraph.h   7469 heap.h   7529 bisect.h
- *   7759 separator.h   8021 mindeg.h   8204 dissect.h   8536 levelset.h   8656 geometric.h
- *   8831 cells.h   9011 septree.h   9071 metis.h   9220 metis_refined.h   9334 nd.h
- *   9526 compress.h   9647 quotient.h  10061 order.h
+ *   6619 graph.h   6768 coarsen.h   7080 labels.h   7276 subgraph.h   7471 heap.h   7531 bisect.h
+ *   7761 separator.h   8023 mindeg.h   8206 dissect.h   8538 levelset.h   8658 geometric.h
+ *   8833 cells.h   9013 septree.h   9073 metis.h   9222 metis_refined.h   9336 nd.h
+ *   9529 compress.h   9650 quotient.h  10064 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10343 symbolic_types.h  10380 etree.h  10453 counts.h  10510 supernodes.h  10732 structure.h
- *  10853 schedule.h  11133 symbolic.h  11543 reach.h
+ *  10346 symbolic_types.h  10383 etree.h  10456 counts.h  10513 supernodes.h  10735 structure.h
+ *  10856 schedule.h  11136 symbolic.h  11546 reach.h
  * (factor: the numbers of L and D)
- *  11814 factor_types.h  12189 storage.h  12262 pivot_search.h  12608 pivoted.h  12676 scatter.h
- *  12834 uplooking.h  12906 null_product.h  13110 null_dense.h  13187 null_basis.h
- *  13495 null_vectors.h  13637 multifrontal.h  13814 front_tasks.h  14156 nullspace.h
- *  14359 growth.h  14435 factor_setup.h  14735 factor.h  14941 leftlooking.h  15125 factor_query.h
- *  15260 combination.h
+ *  11817 factor_types.h  12192 storage.h  12265 pivot_search.h  12611 pivoted.h  12679 scatter.h
+ *  12837 uplooking.h  12909 null_product.h  13113 null_dense.h  13190 null_basis.h
+ *  13498 null_vectors.h  13640 multifrontal.h  13817 front_tasks.h  14159 nullspace.h
+ *  14362 growth.h  14438 factor_setup.h  14738 factor.h  14944 leftlooking.h  15128 factor_query.h
+ *  15263 combination.h
  * (solve: full and local solves)
- *  15321 region_types.h  15425 work.h  15522 query.h  15696 singular.h  15963 backward.h
- *  15993 sweep.h  16179 compile.h  16372 plan.h  16479 local.h  16629 parts.h  16916 refine.h
- *  17095 refine_local.h  17310 rcond.h  17466 defects.h
+ *  15324 region_types.h  15428 work.h  15525 query.h  15699 singular.h  15966 backward.h
+ *  15996 sweep.h  16182 compile.h  16375 plan.h  16482 local.h  16632 parts.h  16919 refine.h
+ *  17098 refine_local.h  17313 rcond.h  17469 defects.h
  * (inverse: entries of the inverse, regions)
- *  17543 traversal.h  17788 traversal_run.h  17971 row_sets.h  17998 unit_vectors.h
- *  18223 bilinear.h  18400 entries.h  18681 block.h  18921 reserve.h  19113 selected.h
- *  19323 selected_query.h  19425 region_choose.h  19652 region.h
+ *  17546 traversal.h  17791 traversal_run.h  17974 row_sets.h  18001 unit_vectors.h
+ *  18228 bilinear.h  18405 entries.h  18686 block.h  18926 reserve.h  19118 selected.h
+ *  19328 selected_query.h  19430 region_choose.h  19657 region.h
  * (change: a factor that follows changes of its matrix)
- *  19900 update.h  20250 rank.h  20579 edges.h  20733 choose.h  20927 pins.h  21491 subset.h
- *  21598 restrict_analysis.h  21895 restrict_anew.h  21949 restrict_symbolic.h  22130 restrict.h
- *  22478 edit_match.h  22664 edit_place.h  22913 edit_separate.h  23225 edit_order.h
- *  23377 edit_graph.h  23472 edit_join.h  23748 edit.h
+ *  19905 update.h  20255 rank.h  20584 edges.h  20738 choose.h  20932 pins.h  21496 subset.h
+ *  21603 restrict_analysis.h  21900 restrict_anew.h  21954 restrict_symbolic.h  22135 restrict.h
+ *  22483 edit_match.h  22669 edit_place.h  22918 edit_separate.h  23230 edit_order.h
+ *  23382 edit_graph.h  23477 edit_join.h  23753 edit.h
  * (save: factors in files)
- *  23912 format.h  24208 decode.h  24356 check.h  24688 write.h  24991 load.h  25259 load_inverse.h
- *  25591 load_calls.h
+ *  23917 format.h  24213 decode.h  24361 check.h  24693 write.h  24997 load.h  25265 load_inverse.h
+ *  25597 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25790 batch_solve.h  25999 batch_factor.h  26200 batch_diagonal.h
+ *  25796 batch_solve.h  26005 batch_factor.h  26206 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26340 hermitian.h  26502 complex_rows.h
+ *  26346 hermitian.h  26508 complex_rows.h
  * (last: undefine every internal macro)
- *  26670 undef.h
+ *  26676 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26875 front.inl.h  26877 product.inl.h  27278 words_undef.inl.h  27352 multi_rhs.inl.h
- *  27735 sweeps.inl.h  27737 unit_triangle.inl.h  27774 two_rhs.inl.h  27943 small_supernode.inl.h
- *  28102 single_rhs.inl.h  28346 kernel_set.inl.h  28348 inverse_front.inl.h  28633 row.inl.h
- *  28663 change.inl.h
+ *  26881 front.inl.h  26883 product.inl.h  27284 words_undef.inl.h  27358 multi_rhs.inl.h
+ *  27741 sweeps.inl.h  27743 unit_triangle.inl.h  27780 two_rhs.inl.h  27949 small_supernode.inl.h
+ *  28108 single_rhs.inl.h  28352 kernel_set.inl.h  28354 inverse_front.inl.h  28639 row.inl.h
+ *  28669 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6550,7 +6550,7 @@ static void sli_set_point(char *number) {
       continue;
     }
     *to++ = '.';
-    while (*from != '\0' && !sli_is_numeric(*from)) {
+    while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
       from++;
     }
   }
@@ -7219,7 +7219,9 @@ static void sli_borders_grow(sli_borders *l) {
   for (pass = 0; pass < 2 && !l->failed; pass++) {
     vertex = SLI_TAKE(&b, sl_int, room);
     next = SLI_TAKE(&b, sl_int, room);
-    l->failed = pass == 0 && (room == l->room || sli_block_alloc(&b, l->a) != SL_OK);
+    l->failed = pass == 0 &&
+          (room == l->room || /* untested: 2^31 */
+           sli_block_alloc(&b, l->a) != SL_OK);
   }
   if (!l->failed) {
     if (l->count > 0) {
@@ -9127,8 +9129,8 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
   for (k = 0; k < count; k++) {
     edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
   }
-  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
+    return SL_ERR_TOO_LARGE;                               /* untested: the same */
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
@@ -9172,8 +9174,8 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
   sl_off e;
   sl_int k;
   int pass, result;
-  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
+    return SL_ERR_TOO_LARGE;                               /* untested: the same */
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     xadj = SLI_TAKE(&b, idx_t, (size_t)g->n + 1);
@@ -9508,7 +9510,8 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
   w.by_metis = by_metis;
   w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
   w.d.a = a;
-  w.d.mindeg.has_popcnt = G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR;
+  w.d.mindeg.has_popcnt =
+    G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_nd_layout(&w, &b);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
@@ -12493,8 +12496,8 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
     f->D = SLI_TAKE(&b, double, f->columns);
     f->E = SLI_TAKE(&b, double, f->columns);
     f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-    if (b.overflow) {
-      return SL_ERR_TOO_LARGE;
+    if (b.overflow) {            /* untested: on 32 bits only */
+      return SL_ERR_TOO_LARGE; /* untested: the same */
     }
     if (pass == 0 && b.used > p->front_size) {
       sli_free(&p->allocator, p->front_block);
@@ -15622,7 +15625,7 @@ SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sl_int lanes, const sl_int *inde
                    const double *M, sli_dense at, sl_int columns) {
   sl_int k, r;
   for (k = 0; k < count; k++) {
-    if (lanes >= 4) {
+    if (lanes >= 4) { /* untested: constant */
       SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
     }
     SLI_UNROLL
@@ -15646,7 +15649,7 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
                      const sl_int *index, sl_int count, sl_int columns) {
   sl_int k, r;
   for (k = 0; k < count; k++) {
-    if (lanes >= 4) {
+    if (lanes >= 4) { /* untested: constant */
       SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
     }
     SLI_UNROLL
@@ -15706,7 +15709,7 @@ SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int
       chains[q] += fabs(row[f + q]);
     }
   }
-  for (q = 0; f < count; q++) {
+  for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
     chains[q] += fabs(row[f++]);
   }
 }
@@ -15722,7 +15725,7 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
       chains[q] += v[q / lanes] * row[f + q];
     }
   }
-  for (q = 0; f < count; q++) {
+  for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
     chains[q] += v[q / lanes] * row[f++];
   }
 }
@@ -18006,7 +18009,9 @@ static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},
                              {1.0, 1.2, 1.9, 2.1}};
 
 SLI_INLINE int sli_isa_row(sl_isa isa) {
-  return isa == SL_ISA_SCALAR ? 1 : isa == SL_ISA_AVX2 ? 2 : isa == SL_ISA_AVX512 ? 3 : 0;
+  return isa == SL_ISA_SCALAR ? 1
+       : isa == SL_ISA_AVX2 ? 2
+                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
 }
 
 typedef struct sli_rhs_block {
@@ -18066,11 +18071,11 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
 }
 
 SLI_INLINE sl_int sli_request_row(const sli_requests *r, sl_int k) {
-  return r->S->iperm[r->rows == NULL ? k : r->rows[k]];
+  return r->S->iperm[r->rows[k]];
 }
 
 SLI_INLINE sl_int sli_request_column(const sli_requests *r, sl_int k) {
-  return r->S->iperm[r->columns == NULL ? k : r->columns[k]];
+  return r->S->iperm[r->columns[k]];
 }
 
 static void sli_requests_layout(sli_requests *r, sli_block *b) {
@@ -21757,8 +21762,8 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
       entries += (uint64_t)(r->A->p[j + 1] - r->A->p[j]);
     }
   }
-  if (entries > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (entries > INT32_MAX) {   /* untested: 2^31 entries */
+    return SL_ERR_TOO_LARGE; /* untested: the same */
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);
@@ -24122,8 +24127,8 @@ static int sli_saved_add_regions(sli_saved *f, const sl_saved_set *set) {
     for (m = 0; m < SLI_REGION_SECTIONS - 1; m++) {
       f->table[first + (uint32_t)m].bytes += bytes[m];
     }
-    if (f->table[first + 3].bytes >> 62 != 0) {
-      return 0;
+    if (f->table[first + 3].bytes >> 62 != 0) { /* untested: 2^62 bytes */
+      return 0;                               /* untested: the same */
     }
   }
   return 1;
@@ -24885,7 +24890,8 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     f->selected.identity[1] = set->selected->numbers.identity.b;
     sli_saved_add_selected(f, set->selected);
   }
-  return fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX ? SL_OK : SL_ERR_TOO_LARGE;
+  fits = fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX; /* untested: 2^62 bytes */
+  return fits ? SL_OK : SL_ERR_TOO_LARGE; /* untested: the same */
 }
 
 static void sli_save_write(sli_saved *f, sli_sink *to) {
@@ -25196,8 +25202,8 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
   m.last = r->saved.first_number;
   m.head = sizeof *S;
   m.bytes = b.used;
-  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) {
-    return SL_ERR_TOO_LARGE;
+  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) { /* untested: on 32 bits only */
+    return SL_ERR_TOO_LARGE;                           /* untested: the same */
   }
   status = sli_read_image(r, &m);
   if (status != SL_OK) {
@@ -25235,8 +25241,8 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage != SL_STORAGE_DOUBLE);
   m.head = sizeof *F;
   m.bytes = b.used;
-  if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {
-    status = SL_ERR_TOO_LARGE;
+  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) { /* untested: on 32 bits only */
+    status = status == SL_OK ? SL_ERR_TOO_LARGE : status; /* untested: the same */
   }
   status = status == SL_OK ? sli_read_image(r, &m) : status;
   if (status != SL_OK) {

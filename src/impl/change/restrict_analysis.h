@@ -182,8 +182,8 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
             entries += (uint64_t)(r->A->p[j + 1] - r->A->p[j]);
         }
     }
-    if (entries > INT32_MAX) {
-        return SL_ERR_TOO_LARGE;
+    if (entries > INT32_MAX) {   /* untested: 2^31 entries */
+        return SL_ERR_TOO_LARGE; /* untested: the same */
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);

@@ -259,8 +259,8 @@ static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front
         f->D = SLI_TAKE(&b, double, f->columns);
         f->E = SLI_TAKE(&b, double, f->columns);
         f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-        if (b.overflow) {
-            return SL_ERR_TOO_LARGE;
+        if (b.overflow) {            /* untested: on 32 bits only */
+            return SL_ERR_TOO_LARGE; /* untested: the same */
         }
         if (pass == 0 && b.used > p->front_size) {
             sli_free(&p->allocator, p->front_block);

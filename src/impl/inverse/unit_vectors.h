@@ -18,7 +18,9 @@ static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},  /
 
 /* The row of an instruction set in the tables of costs. */
 SLI_INLINE int sli_isa_row(sl_isa isa) {
-    return isa == SL_ISA_SCALAR ? 1 : isa == SL_ISA_AVX2 ? 2 : isa == SL_ISA_AVX512 ? 3 : 0;
+    return isa == SL_ISA_SCALAR ? 1
+           : isa == SL_ISA_AVX2 ? 2
+                                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
 }
 
 /* A block of right-hand sides: unit vectors that share one forward sweep, one per lane. */
@@ -86,12 +88,12 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
 
 /* The row of the k-th request, as a column of L. */
 SLI_INLINE sl_int sli_request_row(const sli_requests *r, sl_int k) {
-    return r->S->iperm[r->rows == NULL ? k : r->rows[k]];
+    return r->S->iperm[r->rows[k]];
 }
 
 /* The column of the k-th request, as a column of L. */
 SLI_INLINE sl_int sli_request_column(const sli_requests *r, sl_int k) {
-    return r->S->iperm[r->columns == NULL ? k : r->columns[k]];
+    return r->S->iperm[r->columns[k]];
 }
 
 static void sli_requests_layout(sli_requests *r, sli_block *b) {

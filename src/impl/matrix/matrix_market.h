@@ -414,7 +414,7 @@ static void sli_set_point(char *number) {
             continue;
         }
         *to++ = '.';
-        while (*from != '\0' && !sli_is_numeric(*from)) {
+        while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
             from++;
         }
     }

@@ -161,7 +161,9 @@ static void sli_borders_grow(sli_borders *l) {
     for (pass = 0; pass < 2 && !l->failed; pass++) {
         vertex = SLI_TAKE(&b, sl_int, room);
         next = SLI_TAKE(&b, sl_int, room);
-        l->failed = pass == 0 && (room == l->room || sli_block_alloc(&b, l->a) != SL_OK);
+        l->failed = pass == 0 &&
+                    (room == l->room || /* untested: 2^31 */
+                     sli_block_alloc(&b, l->a) != SL_OK);
     }
     if (!l->failed) {
         if (l->count > 0) {

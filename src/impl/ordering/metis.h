@@ -68,8 +68,8 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
     for (k = 0; k < count; k++) {
         edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
     }
-    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
-        return SL_ERR_TOO_LARGE;
+    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
+        return SL_ERR_TOO_LARGE;                               /* untested: the same */
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
@@ -116,8 +116,8 @@ static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_in
     sl_off e;
     sl_int k;
     int pass, result;
-    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) {
-        return SL_ERR_TOO_LARGE;
+    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
+        return SL_ERR_TOO_LARGE;                               /* untested: the same */
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         xadj = SLI_TAKE(&b, idx_t, (size_t)g->n + 1);

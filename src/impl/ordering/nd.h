@@ -198,7 +198,8 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
     w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
     w.d.a = a;
     /* CPUID takes longer than what it saves in a small graph */
-    w.d.mindeg.has_popcnt = G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR;
+    w.d.mindeg.has_popcnt =
+        G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_nd_layout(&w, &b);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;

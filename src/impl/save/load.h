@@ -227,8 +227,8 @@ static sl_status sli_read_analysis(sli_reading *r, sl_symbolic **out) {
     m.last = r->saved.first_number;
     m.head = sizeof *S;
     m.bytes = b.used;
-    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) {
-        return SL_ERR_TOO_LARGE;
+    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *S) { /* untested: on 32 bits only */
+        return SL_ERR_TOO_LARGE;                           /* untested: the same */
     }
     status = sli_read_image(r, &m);
     if (status != SL_OK) {
@@ -267,8 +267,8 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage != SL_STORAGE_DOUBLE);
     m.head = sizeof *F;
     m.bytes = b.used;
-    if (status == SL_OK && (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F)) {
-        status = SL_ERR_TOO_LARGE;
+    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) { /* untested: on 32 bits only */
+        status = status == SL_OK ? SL_ERR_TOO_LARGE : status; /* untested: the same */
     }
     status = status == SL_OK ? sli_read_image(r, &m) : status;
     if (status != SL_OK) {

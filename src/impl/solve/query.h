@@ -128,7 +128,7 @@ SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sl_int lanes, const sl_int *inde
                                      const double *M, sli_dense at, sl_int columns) {
     sl_int k, r;
     for (k = 0; k < count; k++) {
-        if (lanes >= 4) {
+        if (lanes >= 4) { /* untested: constant */
             SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
         }
         SLI_UNROLL
@@ -155,7 +155,7 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
                                        const sl_int *index, sl_int count, sl_int columns) {
     sl_int k, r;
     for (k = 0; k < count; k++) {
-        if (lanes >= 4) {
+        if (lanes >= 4) { /* untested: constant */
             SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
         }
         SLI_UNROLL

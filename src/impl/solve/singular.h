@@ -19,7 +19,7 @@ SLI_ALWAYS_INLINE void sli_chains_norm(double *chains, const double *row, sl_int
             chains[q] += fabs(row[f + q]);
         }
     }
-    for (q = 0; f < count; q++) {
+    for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
         chains[q] += fabs(row[f++]);
     }
 }
@@ -35,7 +35,7 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
             chains[q] += v[q / lanes] * row[f + q];
         }
     }
-    for (q = 0; f < count; q++) {
+    for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
         chains[q] += v[q / lanes] * row[f++];
     }
 }
