@@ -139,6 +139,17 @@ static void damage_is_located(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_from_csc64(&M, &A, &opt, NULL));
 }
 
+static void no_entries_need_no_rows(void **state) {
+    (void)state;
+    const int64_t p[3] = {0, 0, 0};
+    const sl_csc64 A = {4, 2, p, NULL, NULL};
+    sl_matrix *M = NULL;
+    SL_CHECK(sl_matrix_from_csc64(&M, &A, NULL, NULL));
+    const sl_csc view = sl_matrix_view(M);
+    assert_true(view.n_rows == 4 && view.n_cols == 2 && view.p[2] == 0);
+    sl_matrix_free(M);
+}
+
 static void failing_allocation_gives_no_matrix(void **state) {
     (void)state;
     const int64_t p[2] = {0, 1}, i[1] = {0};
@@ -161,6 +172,7 @@ int main(void) {
         cmocka_unit_test(entries_keep_their_order),
         cmocka_unit_test(large_counts_are_refused),
         cmocka_unit_test(damage_is_located),
+        cmocka_unit_test(no_entries_need_no_rows),
         cmocka_unit_test(failing_allocation_gives_no_matrix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -253,6 +253,31 @@ static void limits_are_inherited(void **state) {
     }
 }
 
+/* Rows without neighbors: their columns of L are copied with nothing below them. */
+static void diagonal_matrices_are_restricted(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_DIAGONAL, 40, 1, 0, NULL);
+    sl_int rows[39];
+    sl_symbolic *S;
+    sl_factor *G;
+    sl_stats stats;
+    double b[39], x[39];
+    for (sl_int k = 0; k < 39; k++) {
+        rows[k] = 39 - k;
+        b[k] = k;
+    }
+    SL_CHECK(sl_factor_restrict(&S, &G, y.F, &y.M.view, rows, 39, NULL, &stats));
+    assert_int_equal(stats.restriction.kept, 39);
+    SL_CHECK(sl_factor_solve(G, x, 39, b, 39, 1, NULL));
+    for (sl_int k = 0; k < 39; k++) {
+        const double d = y.M.x[y.M.p[rows[k]]];
+        assert_true(fabs(x[k] * d - b[k]) <= 4.0 * DBL_EPSILON * b[k]);
+    }
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    factored_free(&y);
+}
+
 static void pairs_are_unsupported(void **state) {
     (void)state;
     const sl_int p[3] = {0, 1, 1}, i[1] = {1}, row = 0; /* [0 1; 1 0] */
@@ -296,6 +321,7 @@ int main(void) {
         cmocka_unit_test(failures_name_rows_of_the_whole_matrix),
         cmocka_unit_test(null_pivots_may_be_removed),
         cmocka_unit_test(regularization_is_inherited),
+        cmocka_unit_test(diagonal_matrices_are_restricted),
         cmocka_unit_test(limits_are_inherited),
         cmocka_unit_test(pairs_are_unsupported),
         cmocka_unit_test(float_storage_and_several_null_vectors_are_unsupported),

@@ -132,7 +132,57 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
     }
 }
 
+/* Replaces every 64-bit word of the sections with numbers by reals that no object has. */
+static void every_replaced_real_is_noticed_or_harmless(void **state) {
+    (void)state;
+    static const double values[] = {NAN, INFINITY, -INFINITY, -1.0, 0.5};
+    const size_t prefix = (size_t)saved_round(SAVED_HEADER + SAVED_KNOWN * SAVED_ENTRY);
+    for (int way = 0; way < SAVED_WAYS; way++) {
+        saved_case_t c = saved_case_make(way, GEN_GRID2, 16, 0, NULL);
+        saved_t m = saved_make(c.y.S, c.y.F), k = saved_of_size(m.size);
+        int refused = 0;
+        for (size_t at = prefix; at < m.size; at += 8) {
+            for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+                memcpy(k.bytes, m.bytes, m.size);
+                memcpy(k.bytes + at, &values[v], sizeof values[v]);
+                saved_repair(k.bytes, m.size);
+                refused += attempt(v % 2 ? sl_load_memory : sl_map_memory, &k, m.size,
+                                   SL_LOAD_CHECKED, &c.y.M.view) != SL_OK;
+            }
+        }
+        assert_true(refused > 0);
+        saved_free(&m);
+        saved_free(&k);
+        saved_case_free(&c);
+    }
+}
+
 /* ---- the table ---- */
+
+/* The last section is missing, in the table and in the header. */
+static void a_missing_section_is_refused(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL);
+    saved_t m = saved_make(y.S, y.F), k = saved_of_size(m.size);
+    const size_t old_prefix = (size_t)saved_round(SAVED_HEADER + SAVED_KNOWN * SAVED_ENTRY),
+                 prefix = (size_t)saved_round(SAVED_HEADER + (SAVED_KNOWN - 1) * SAVED_ENTRY),
+                 moved = old_prefix - prefix;
+    const size_t end = (size_t)saved_u64(saved_entry(m.bytes, SAVED_KNOWN - 1) + SAVED_OFFSET);
+    memcpy(k.bytes, m.bytes, prefix);
+    memcpy(k.bytes + prefix, m.bytes + old_prefix, end - old_prefix);
+    for (uint32_t s = 0; s + 1 < SAVED_KNOWN; s++) {
+        unsigned char *at = saved_entry(k.bytes, s) + SAVED_OFFSET;
+        saved_put64(at, saved_u64(at) - moved);
+    }
+    saved_put32(k.bytes + SAVED_SECTIONS, SAVED_KNOWN - 1);
+    saved_put64(k.bytes + SAVED_BYTES, end - moved);
+    saved_repair(k.bytes, end - moved);
+    assert_int_equal(attempt(sl_load_memory, &k, end - moved, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
+    assert_int_equal(attempt(sl_map_memory, &k, end - moved, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
+    saved_free(&m);
+    saved_free(&k);
+    factored_free(&y);
+}
 
 static void sections_must_follow_each_other(void **state) {
     (void)state;
@@ -269,6 +319,8 @@ int main(void) {
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(every_flipped_bit_is_noticed_or_harmless),
         cmocka_unit_test(every_replaced_word_is_noticed_or_harmless),
+        cmocka_unit_test(every_replaced_real_is_noticed_or_harmless),
+        cmocka_unit_test(a_missing_section_is_refused),
         cmocka_unit_test(sections_must_follow_each_other),
         cmocka_unit_test(later_versions_are_read_only_or_refused),
         cmocka_unit_test(the_other_byte_order_is_loaded_and_not_mapped),

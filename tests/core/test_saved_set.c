@@ -294,6 +294,16 @@ static void what_does_not_belong_together_is_refused(void **state) {
 }
 
 /* A file whose regions or selected inverse name another factor than the one that is in it. */
+/* A set that was filled in by hand, and in part. */
+static void a_set_without_a_list_is_released(void **state) {
+    (void)state;
+    sl_saved_set set;
+    memset(&set, 0, sizeof set);
+    set.n_regions = 3;
+    sl_saved_set_free(&set);
+    assert_true(set.n_regions == 0 && set.regions == NULL);
+}
+
 static void parts_of_another_factor_are_refused(void **state) {
     (void)state;
     sl_options from = options_none();
@@ -383,6 +393,7 @@ int main(void) {
         cmocka_unit_test(the_other_byte_order_is_loaded),
         cmocka_unit_test(a_set_is_saved_in_a_file),
         cmocka_unit_test(what_does_not_belong_together_is_refused),
+        cmocka_unit_test(a_set_without_a_list_is_released),
         cmocka_unit_test(parts_of_another_factor_are_refused),
         cmocka_unit_test(every_allocation_of_a_load_may_fail),
         cmocka_unit_test(a_mapped_set_keeps_little),

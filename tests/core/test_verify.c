@@ -31,6 +31,7 @@ static const option_t options[] = {
     {"error_limit", READS_FACTOR},
     {"null_vector", READS_FACTOR},
     {"null_vector_count", READS_FACTOR},
+    {"storage", READS_FACTOR},
     {"region", READS_REGION},
     {"region_bytes", READS_REGION_BYTES},
 };
@@ -114,6 +115,9 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.null_vector_count = 1;
         break;
     case 20:
+        opt.storage = SL_STORAGE_FLOAT;
+        break;
+    case 21:
         opt.region = f->region;
         break;
     default:

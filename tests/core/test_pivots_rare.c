@@ -1,0 +1,105 @@
+/* test_pivots_rare.c: 2x2 pivots that overflow, in float, and without relaxed supernodes */
+#include "tests/lib/factored.h"
+
+/* A 3 x 3 matrix whose lower triangle is full: a 1x1 pivot, and a 2x2 pivot of the other rows. */
+typedef struct three_t {
+    double x[6]; /* (0,0) (1,0) (2,0) (1,1) (2,1) (2,2) */
+    sl_csc A;
+    sl_symbolic *S;
+} three_t;
+
+static void three_make(three_t *t) {
+    static const sl_int p[4] = {0, 3, 5, 6}, i[6] = {0, 1, 2, 1, 2, 2};
+    static const double x[6] = {10.0, 0.0, 0.0, 0.0, 5.0, 0.0};
+    sl_options opt = options_none();
+    sl_stats stats;
+    memcpy(t->x, x, sizeof x);
+    t->A.n_rows = t->A.n_cols = 3;
+    t->A.p = p;
+    t->A.i = i;
+    t->A.x = t->x;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create_pivoted(&t->S, &t->A, &opt, &stats));
+    assert_int_equal(stats.symbolic.pairs, 1);
+    assert_int_equal(sl_symbolic_view(t->S).perm[0], 0);
+}
+
+/* Either diagonal entry of the pivot, or the one between them, overflows. */
+static void pairs_that_overflow_are_refused(void **state) {
+    (void)state;
+    static const double values[3][6] = {{1e-300, 1e10, 0.0, 0.0, 5.0, 0.0},
+                                        {1e-300, 0.0, 1e10, 0.0, 5.0, 0.0},
+                                        {1.0, 1e154, -1e154, 0.0, 1.7e308, 0.0}};
+    three_t t;
+    three_make(&t);
+    for (int k = 0; k < 3; k++) {
+        sl_factor *F = (sl_factor *)(void *)&t;
+        sl_stats stats;
+        memcpy(t.x, values[k], sizeof t.x);
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, t.S, &t.A, NULL, &stats));
+        assert_null(F);
+        assert_true(stats.error.row == 1 || stats.error.row == 2);
+        assert_true(!(fabs(stats.error.value) <= DBL_MAX));
+    }
+    sl_symbolic_free(t.S);
+}
+
+/* Entries of L that float cannot hold become 0 below a 2x2 pivot, where they do no harm. */
+static void small_entries_below_pairs_are_dropped_in_float(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 4, 5}, i[5] = {1, 2, 1, 2, 2};
+    static const double x[5] = {1.0, 1e-60, 0.0, 1e-60, 3.0}, b[3] = {2.0, 4.0, 6.0};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double out[3];
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &A, &opt, &stats));
+    assert_int_equal(stats.symbolic.pairs, 1);
+    opt = options_none();
+    opt.storage = SL_STORAGE_FLOAT;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_solve(F, out, 3, b, 3, 1, NULL));
+    assert_true(fabs(out[0] - 4.0) <= 1e-14 && fabs(out[1] - 2.0) <= 1e-14);
+    assert_true(fabs(out[2] - 2.0) <= 1e-14);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* Without relaxation supernodes are merged only where a 2x2 pivot needs it. */
+static void pairs_need_no_relaxation(void **state) {
+    (void)state;
+    enum { N = 60 };
+    gen_list_t t = gen_list(N);
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double b[N], x[N];
+    for (sl_int k = 0; k + 1 < N; k++) {
+        gen_add(&t, k + 1, k, k % 2 == 0 ? 2.0 : 0.5);
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    opt.relaxation = SL_RELAXATION_NONE;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, &opt, &stats));
+    assert_int_equal(stats.symbolic.pairs, N / 2);
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    gen_reals(b, N, 3);
+    SL_CHECK(sl_factor_solve(F, x, N, b, N, 1, NULL));
+    BACKWARD_PASSES(&M.view, x, N, b, N, 1);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_that_overflow_are_refused),
+        cmocka_unit_test(small_entries_below_pairs_are_dropped_in_float),
+        cmocka_unit_test(pairs_need_no_relaxation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
