@@ -100,6 +100,31 @@ static void empty_sets_share_no_memory(void **state) {
 }
 
 /* A right-hand side that is zero by its empty set is consistent, in blocks of any size. */
+/* Rows with a thousand neighbors each: no other order is tried, and all of L is stored. */
+static void a_dense_pattern_has_one_order(void **state) {
+    (void)state;
+    enum { ROWS = 1030 };
+    sl_int *p = test_ints(ROWS + 1), *i = test_ints((size_t)ROWS * (ROWS + 1) / 2), at = 0;
+    const sl_csc A = {ROWS, ROWS, p, i, NULL};
+    sl_symbolic *S;
+    sl_stats stats;
+    for (sl_int j = 0; j < ROWS; j++) {
+        p[j] = at;
+        for (sl_int k = j; k < ROWS; k++) {
+            i[at++] = k;
+        }
+    }
+    p[ROWS] = at;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, &stats));
+    assert_int_equal(stats.symbolic.nnz_l, at);
+    assert_int_equal(stats.symbolic.supernodes_fundamental, 1);
+    const sl_symbolic_arrays v = sl_symbolic_view(S);
+    NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+    sl_symbolic_free(S);
+    free(p);
+    free(i);
+}
+
 static void nothing_is_consistent(void **state) {
     (void)state;
     static const sl_int set[2] = {3, 4};
@@ -205,6 +230,7 @@ int main(void) {
         cmocka_unit_test(a_matrix_without_rows_needs_no_arrays),
         cmocka_unit_test(a_matrix_with_a_column_more_is_refused),
         cmocka_unit_test(empty_sets_share_no_memory),
+        cmocka_unit_test(a_dense_pattern_has_one_order),
         cmocka_unit_test(nothing_is_consistent),
         cmocka_unit_test(a_nan_stays_in_its_column),
         cmocka_unit_test(one_array_may_be_both_sides_in_part),

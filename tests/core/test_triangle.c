@@ -456,8 +456,36 @@ static void a_matrix_that_stores_the_other_triangle_is_diagonal(void **state) {
     }
 }
 
+/* Whether a null vector is one is decided by the triangle that is read: the other one is that of no
+ * Laplacian. */
+static void null_vectors_belong_to_the_triangle_that_is_read(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 5, 7}, i[7] = {0, 1, 0, 1, 2, 1, 2};
+    static const double lower[7] = {1, -1, 50, 3, -2, 70, 2}, upper[7] = {1, 50, -1, 3, 70, -2, 2};
+    for (int k = 0; k < 2; k++) {
+        const sl_csc A = {3, 3, p, i, k ? upper : lower};
+        const double b[3] = {1, 0, -1};
+        double x[3];
+        sl_options opt = options_none();
+        sl_symbolic *S;
+        sl_factor *F;
+        sl_stats stats;
+        opt.triangle = k ? SL_TRIANGLE_UPPER : SL_TRIANGLE_LOWER;
+        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        opt = options_none();
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+        assert_int_equal(stats.factor.null, 1);
+        SL_CHECK(sl_factor_solve(F, x, 3, b, 3, 1, NULL));
+        assert_true(fabs(x[0] - x[1] - 1.0) <= 1e-15 && fabs(x[1] - x[2] - 0.5) <= 1e-15);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(null_vectors_belong_to_the_triangle_that_is_read),
         cmocka_unit_test(without_the_option_a_pruned_pattern_is_refused),
         cmocka_unit_test(csc_triangle_returns_the_chosen_triangle),
         cmocka_unit_test(every_ordering_analyzes_the_chosen_triangle),
