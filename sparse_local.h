@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5e3d2aff3dd5e9d0
+ * FNV-1a of the lines after this comment, without the license: bb2592927b77e8a9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,80 +7,80 @@
  *     88 intro.h      what the library does, a quick start, notation, conventions, threads, references
  *    157 config.h     macros that a user may define before the include, the version, and the integer types
  *    236 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    390 options.h    options of all calls, threads, and the allocator
- *    529 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    697 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    869 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    999 factor.h     the numerical factorization P A P' = L D L'
- *   1263 solve.h      full solves, and the workspace of all solves
- *   1373 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1467 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1580 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1693 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1829 batch.h      many independent solves by one call, distributed over threads
- *   1879 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2057 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2176 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2280 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2419 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2537 change.h     a factor that follows small changes of its matrix
- *   2624 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2714 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2841 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2890 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *    392 options.h    options of all calls, threads, and the allocator
+ *    532 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    700 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    872 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1002 factor.h     the numerical factorization P A P' = L D L'
+ *   1269 solve.h      full solves, and the workspace of all solves
+ *   1379 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1473 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1586 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1699 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1835 batch.h      many independent solves by one call, distributed over threads
+ *   1885 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2063 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2182 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2286 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2425 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2543 change.h     a factor that follows small changes of its matrix
+ *   2630 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2720 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2852 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2901 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2942 base.h   3221 status.h   3282 options.h   3340 alloc.h   3450 hash.h   3580 file_map.h
- *   3677 sort.h   3741 parallel.h
+ *   2953 base.h   3232 status.h   3293 options.h   3351 alloc.h   3461 hash.h   3591 file_map.h
+ *   3688 sort.h   3752 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3824 panel.h   3846 step.h   3887 pivot_rule.h   3961 front.h   4020 pairs.h
- *   4227 inverse_front.h   4299 table.h   4320 simd.h   4409 simd_scalar_single.h
- *   4455 simd_scalar.h   4570 simd_avx2_single.h   4624 simd_avx2.h   4829 simd_avx512_single.h
- *   4880 simd_avx512.h   4993 simd_neon_single.h   5035 simd_neon.h   5234 dispatch.h
+ *   3835 panel.h   3857 step.h   3899 pivot_rule.h   3973 front.h   4032 pairs.h
+ *   4239 inverse_front.h   4311 table.h   4332 simd.h   4421 simd_scalar_single.h
+ *   4467 simd_scalar.h   4593 simd_avx2_single.h   4647 simd_avx2.h   4858 simd_avx512_single.h
+ *   4909 simd_avx512.h   5027 simd_neon_single.h   5069 simd_neon.h   5276 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5314 csc.h   5428 csc_build.h   5562 csc64.h   5633 csc_triangle.h   5699 csc_products.h
- *   5816 permute.h   5882 sum.h   5964 output_file.h   6173 matrix_market.h
+ *   5356 csc.h   5470 csc_build.h   5604 csc64.h   5675 csc_triangle.h   5741 csc_products.h
+ *   5858 permute.h   5924 sum.h   6006 output_file.h   6215 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6619 graph.h   6768 coarsen.h   7080 labels.h   7276 subgraph.h   7471 heap.h   7531 bisect.h
- *   7761 separator.h   8023 mindeg.h   8206 dissect.h   8538 levelset.h   8658 geometric.h
- *   8833 cells.h   9013 septree.h   9073 metis.h   9222 metis_refined.h   9336 nd.h
- *   9529 compress.h   9650 quotient.h  10064 order.h
+ *   6661 graph.h   6810 coarsen.h   7122 labels.h   7318 subgraph.h   7513 heap.h   7573 bisect.h
+ *   7803 separator.h   8065 mindeg.h   8248 dissect.h   8580 levelset.h   8700 geometric.h
+ *   8875 cells.h   9055 septree.h   9115 metis.h   9264 metis_refined.h   9378 nd.h
+ *   9571 compress.h   9692 quotient.h  10106 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10346 symbolic_types.h  10383 etree.h  10456 counts.h  10513 supernodes.h  10735 structure.h
- *  10856 schedule.h  11136 symbolic.h  11546 reach.h
+ *  10388 symbolic_types.h  10425 etree.h  10498 counts.h  10555 supernodes.h  10777 structure.h
+ *  10898 schedule.h  11178 symbolic.h  11588 reach.h
  * (factor: the numbers of L and D)
- *  11817 factor_types.h  12192 storage.h  12265 pivot_search.h  12611 pivoted.h  12679 scatter.h
- *  12837 uplooking.h  12909 null_product.h  13113 null_dense.h  13190 null_basis.h
- *  13498 null_vectors.h  13640 multifrontal.h  13817 front_tasks.h  14159 nullspace.h
- *  14362 growth.h  14438 factor_setup.h  14738 factor.h  14944 leftlooking.h  15128 factor_query.h
- *  15263 combination.h
+ *  11859 factor_types.h  12238 storage.h  12393 pivot_search.h  12739 pivoted.h  12807 scatter.h
+ *  12965 uplooking.h  13037 null_product.h  13241 null_dense.h  13318 null_basis.h
+ *  13626 null_vectors.h  13768 multifrontal.h  13944 front_tasks.h  14286 nullspace.h
+ *  14489 growth.h  14565 factor_setup.h  14872 factor.h  15081 leftlooking.h  15265 factor_query.h
+ *  15400 combination.h
  * (solve: full and local solves)
- *  15324 region_types.h  15428 work.h  15525 query.h  15699 singular.h  15966 backward.h
- *  15996 sweep.h  16182 compile.h  16375 plan.h  16482 local.h  16632 parts.h  16919 refine.h
- *  17098 refine_local.h  17313 rcond.h  17469 defects.h
+ *  15461 region_types.h  15565 work.h  15662 query.h  15836 singular.h  16103 backward.h
+ *  16133 sweep.h  16319 compile.h  16512 plan.h  16619 local.h  16769 parts.h  17056 refine.h
+ *  17235 refine_local.h  17450 rcond.h  17606 defects.h
  * (inverse: entries of the inverse, regions)
- *  17546 traversal.h  17791 traversal_run.h  17974 row_sets.h  18001 unit_vectors.h
- *  18228 bilinear.h  18405 entries.h  18686 block.h  18926 reserve.h  19118 selected.h
- *  19328 selected_query.h  19430 region_choose.h  19657 region.h
+ *  17683 traversal.h  17928 traversal_run.h  18111 row_sets.h  18138 unit_vectors.h
+ *  18365 bilinear.h  18542 entries.h  18823 block.h  19063 reserve.h  19255 selected.h
+ *  19465 selected_query.h  19567 region_choose.h  19794 region.h
  * (change: a factor that follows changes of its matrix)
- *  19905 update.h  20255 rank.h  20584 edges.h  20738 choose.h  20932 pins.h  21496 subset.h
- *  21603 restrict_analysis.h  21900 restrict_anew.h  21954 restrict_symbolic.h  22135 restrict.h
- *  22483 edit_match.h  22669 edit_place.h  22918 edit_separate.h  23230 edit_order.h
- *  23382 edit_graph.h  23477 edit_join.h  23753 edit.h
+ *  20042 update.h  20392 rank.h  20721 edges.h  20875 choose.h  21069 pins.h  21633 subset.h
+ *  21740 restrict_analysis.h  22037 restrict_anew.h  22091 restrict_symbolic.h  22272 restrict.h
+ *  22620 edit_match.h  22806 edit_place.h  23055 edit_separate.h  23367 edit_order.h
+ *  23519 edit_graph.h  23614 edit_join.h  23890 edit.h
  * (save: factors in files)
- *  23917 format.h  24213 decode.h  24361 check.h  24693 write.h  24997 load.h  25265 load_inverse.h
- *  25597 load_calls.h
+ *  24054 format.h  24350 decode.h  24498 check.h  24830 write.h  25135 load.h  25403 load_inverse.h
+ *  25735 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25796 batch_solve.h  26005 batch_factor.h  26206 batch_diagonal.h
+ *  25934 batch_solve.h  26143 batch_factor.h  26344 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26346 hermitian.h  26508 complex_rows.h
+ *  26484 hermitian.h  26646 complex_rows.h
  * (last: undefine every internal macro)
- *  26676 undef.h
+ *  26814 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  26881 front.inl.h  26883 product.inl.h  27284 words_undef.inl.h  27358 multi_rhs.inl.h
- *  27741 sweeps.inl.h  27743 unit_triangle.inl.h  27780 two_rhs.inl.h  27949 small_supernode.inl.h
- *  28108 single_rhs.inl.h  28352 kernel_set.inl.h  28354 inverse_front.inl.h  28639 row.inl.h
- *  28669 change.inl.h
+ *  27019 front.inl.h  27021 product.inl.h  27422 words_undef.inl.h  27502 multi_rhs.inl.h
+ *  27885 sweeps.inl.h  27887 unit_triangle.inl.h  27924 two_rhs.inl.h  28093 small_supernode.inl.h
+ *  28252 single_rhs.inl.h  28496 kernel_set.inl.h  28498 complex_small.inl.h
+ *  28658 complex_rows.inl.h  28899 inverse_front.inl.h  29184 row.inl.h  29214 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -341,12 +341,14 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
-/** The type in which a factor keeps L. D, B, X and the arithmetic of solves are double in any case.
- *  See sl_factor_create. */
+/** How a factor keeps L. D, B, X and the arithmetic of solves are double in any case. See
+ *  sl_factor_create. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
-    SL_STORAGE_FLOAT,       /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_FLOAT_FRONTS /* fronts are computed in float, too: half the time, less accuracy */
+    SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
+    SL_STORAGE_FLOAT_FRONTS, /* fronts are computed in float, too: half the time, less accuracy */
+    SL_STORAGE_COMPLEX       /* half the bytes of L in full accuracy: complex Hermitian matrices
+                                only, complex.h */
 } sl_storage;
 
 /** What to do with a null pivot. */
@@ -512,7 +514,8 @@ typedef struct sl_options {
      * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
     /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
-     * float; solutions have the accuracy of float until they are refined (sl_factor_create) */
+     * float; solutions have the accuracy of float until they are refined (sl_factor_create).
+     * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */
@@ -1125,13 +1128,15 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
  *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
- *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with
- *           several null vectors, or more of them in the tree of error.row than columns;
+ *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with several null vectors, or more of
+ *           them in the tree of error.row than columns;
+ *           SL_STORAGE_COMPLEX of a matrix that sl_matrix_from_hermitian did not make, of an
+ *           analysis without block_size 2, of sums, or with null pivots that are replaced;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
- *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
- *           largest panel in double for each thread, and, with the
- *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
- *           meshes, more with threads. SL_NULL_PIVOT_SKIP adds a product
+ *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or half the bytes
+ *           and the largest panel in double for each thread, and, with the supernodal method, the
+ *           update stack: about 5 % more for 2D meshes and 30 % for 3D meshes, more with threads.
+ *           SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
  *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
@@ -1154,11 +1159,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  sl_factor_create.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
- *                   SL_ERR_NOT_FINITE and SL_ERR_INACCURATE it has no numbers, and every solve
- *                   refuses it until a refactor succeeds.
+ *                   SL_ERR_NOT_FINITE, SL_ERR_INACCURATE and SL_ERR_UNSUPPORTED it has no
+ *                   numbers, and every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
- *  Returns, Cost    as sl_factor_create, but never SL_ERR_UNSUPPORTED; SL_ERR_STATE: a mapped
+ *  Returns, Cost    as sl_factor_create, but SL_ERR_UNSUPPORTED only for the values, with
+ *                   SL_STORAGE_COMPLEX; SL_ERR_STATE: a mapped
  *                   factor (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
  *                   refactorization of a loaded factor (sl_load_file), which allocates its fronts.
  *  Threads          exclusive use of F.
@@ -2725,12 +2731,17 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *
  *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
  *     A = sl_matrix_view(M);
- *     options.block_size = 2;                          orders a block as one row, which is quicker
- *     sl_symbolic_create(&S, &A, &options, NULL);
- *     sl_factor_create(&F, S, &A, NULL, NULL);
+ *     blocks.block_size = 2;                           orders a block as one row, which is quicker
+ *     sl_symbolic_create(&S, &A, &blocks, NULL);
+ *     half.storage = SL_STORAGE_COMPLEX;               half the bytes of L
+ *     sl_factor_create(&F, S, &A, &half, NULL);
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
  *
- * L has four times the entries of that of a real matrix with the pattern of H.
+ * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX keeps the first column of each: solves of one
+ * right-hand side read half as much. More right-hand sides are solved one by one; from 4 on
+ * SL_STORAGE_DOUBLE is faster. Every call on factors takes both, except that L as complex is not
+ * changed, restricted or saved.
  */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
@@ -3877,9 +3888,10 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                  double *pivot, double *magnitude);
 
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
-  const size_t tile = SLI_TILE;
-  return nrhs > 2 ? tile * (size_t)nrhs
-          : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
+  const size_t tile = SLI_TILE, tiles = (size_t)sli_tiles(height);
+  const size_t copies = nrhs > 2 ? 1 : (size_t)nrhs;
+  const size_t copied = tile * (tiles * copies + (size_t)width);
+  return copied > tile * (size_t)nrhs ? copied : tile * (size_t)nrhs;
 }
 
 #define SLI_PREFETCH_DISTANCE 4096
@@ -4306,7 +4318,7 @@ typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, co
 
 typedef struct sli_kernels {
   sl_isa isa;
-  sli_sweeps sweeps[2];
+  sli_sweeps sweeps[3];
   sli_row_kernel row;
   sli_front_kernels fronts[2];
   sli_products_kernel products;
@@ -4463,6 +4475,17 @@ typedef struct sli_kernels {
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_TURN_ALL(a, re, im) \
+  { \
+    sl_int i_; \
+    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
+      const double re_ = a[i_]; \
+      a[i_] = re a[i_ + 1]; \
+      a[i_ + 1] = im re_; \
+    } \
+  }
+#define SLV_TURN(a) SLV_TURN_ALL(a, -, +)
+#define SLV_TURN_BACK(a) SLV_TURN_ALL(a, +, -)
 #define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
 #define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_AXPY(a, l, p) \
@@ -4691,6 +4714,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
   a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLV_TURN(a) \
+  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(a##_0, 5)), \
+  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(a##_1, 5));
+#define SLV_TURN_BACK(a) \
+  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), a##_0), 5), \
+  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), a##_1), 5);
 #define SLV_FNMA(a, b, c) \
   a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
 #define SLV_LOAD_PART(a, p, count, rest) \
@@ -4898,6 +4927,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
+#define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
+#define SLV_TURN(a) \
+  a = SLV_SWAP(a), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
+#define SLV_TURN_BACK(a) \
+  a = SLV_SWAP(a), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest) \
   a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
@@ -5074,6 +5108,14 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
   a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
+#define SLV_SAME(a) (a)
+#define SLV_TURN(a) \
+  a##_0 = SLV_TURN_2(a##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(a##_1, vneg_f64, SLV_SAME), \
+  a##_2 = SLV_TURN_2(a##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(a##_3, vneg_f64, SLV_SAME);
+#define SLV_TURN_BACK(a) \
+  a##_0 = SLV_TURN_2(a##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(a##_1, SLV_SAME, vneg_f64), \
+  a##_2 = SLV_TURN_2(a##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(a##_3, SLV_SAME, vneg_f64);
 #define SLV_FNMA(a, b, c) \
   a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
   a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
@@ -11984,8 +12026,12 @@ SLI_INLINE int sli_is_single(const sl_factor *F) {
   return F->storage == SL_STORAGE_FLOAT_FRONTS;
 }
 
+SLI_INLINE int sli_is_float(const sl_factor *F) {
+  return F->storage == SL_STORAGE_FLOAT || sli_is_single(F);
+}
+
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-  return F->storage == SL_STORAGE_FLOAT ? F->panels + F->panel_room * worker
+  return F->storage != SL_STORAGE_DOUBLE ? F->panels + F->panel_room * worker
                       : (double *)F->values + F->S->steps[s].panel;
 }
 
@@ -12189,27 +12235,34 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
   }
 }
 
-/* src/impl/factor/storage.h: L in double or in float: sweeps over it, its entries, panels that are rounded */
+/* src/impl/factor/storage.h: L in double, in float or as complex: sweeps over it, its entries, panels to store */
+
+SLI_INLINE const sli_sweeps *sli_sweeps_of(const sl_factor *F) {
+  return &F->kernels->sweeps[F->storage == SL_STORAGE_COMPLEX ? 2 : sli_is_float(F)];
+}
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
                   const sl_int *rows, double *x, double *scratch) {
-  F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].forward[kind](count, steps, rows, F->values,
-                                    x, scratch);
+  sli_sweeps_of(F)->forward[kind](count, steps, rows, F->values, x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
                    const sli_step *steps, const sl_int *rows_end, const double *D,
                    double *x, double *scratch) {
-  F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].backward[kind](count, steps, rows_end,
-                                     F->values, D, x, scratch);
+  sli_sweeps_of(F)->backward[kind](count, steps, rows_end, F->values, D, x, scratch);
 }
 
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-  return F->storage != SL_STORAGE_DOUBLE ? (double)((const float *)F->values)[at]
-                       : ((const double *)F->values)[at];
+  if (F->storage == SL_STORAGE_COMPLEX) {
+    const double *l = (const double *)F->values + at / (2 * SLI_TILE) * SLI_TILE;
+    const sl_off lane = at % SLI_TILE;
+    return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
+  }
+  return sli_is_float(F) ? (double)((const float *)F->values)[at]
+               : ((const double *)F->values)[at];
 }
 
 SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
-  if (F->storage != SL_STORAGE_DOUBLE) {
+  if (sli_is_float(F)) {
     ((float *)F->values)[at] = 0.0F;
   } else {
     ((double *)F->values)[at] = 0.0;
@@ -12253,13 +12306,88 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int 
   return SL_OK;
 }
 
+static void sli_panel_halve(const sl_factor *F, const sli_front *f, sl_int s) {
+  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
+  double *to = (double *)F->values + F->S->steps[s].panel / 2;
+  const double *from = f->panel;
+  sl_int t, j;
+  for (t = 0; t < tiles; t++) {
+    const sl_int row = SLI_TILE * t, columns = sli_min(w, row + SLI_TILE);
+    for (j = 0; j < columns; j += 2, from += 2 * SLI_TILE, to += SLI_TILE) {
+      memcpy(to, from, SLI_TILE * sizeof(double));
+      if (j >= row) {
+        to[j + 1 - row] = 0.0;
+      }
+    }
+  }
+}
+
+static sl_status sli_panel_store(const sl_factor *F, const sli_front *f, sl_int s,
+                 sli_failure *failure) {
+  if (F->storage == SL_STORAGE_COMPLEX) {
+    sli_panel_halve(F, f, s);
+  }
+  return F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure) : SL_OK;
+}
+
 static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
   const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
-  const float *from = (const float *)F->values + first;
   sl_off k;
   for (k = 0; k < size; k++) {
-    to[k] = from[k];
+    to[k] = sli_entry(F, first + k);
   }
+}
+
+static int sli_rows_are_paired(const sl_symbolic *S) {
+  sl_int s, k;
+  for (k = 0; k < S->n; k += 2) {
+    if (k + 1 == S->n || S->perm[k] % 2 != 0 || S->perm[k + 1] != S->perm[k] + 1) {
+      return 0;
+    }
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_step *step = &S->steps[s];
+    const sl_int *rows = S->rows + S->rows_begin[s];
+    if (step->column % 2 != 0 || step->below % 2 != 0) {
+      return 0;
+    }
+    for (k = 0; k < step->below; k += 2) {
+      if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
+        return 0;
+      }
+    }
+  }
+  return 1;
+}
+
+static int sli_matrix_is_complex(const sl_csc *A) {
+  sl_int j, p, q;
+  for (j = 0; j + 1 < A->n_cols; j += 2) {
+    const sl_int middle = A->p[j + 1], end = A->p[j + 2];
+    for (p = A->p[j], q = middle; p < middle || q < end;) {
+      const sl_int row = p < middle ? A->i[p] : A->i[q];
+      if (row / 2 != j / 2) {
+        if (row % 2 != 0 || p + 1 >= middle || q + 1 >= end || A->i[p + 1] != row + 1 ||
+          A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
+          A->x[q] != -A->x[p + 1]) {
+          return 0;
+        }
+        p += 2;
+        q += 2;
+      } else {
+        const sl_int p_zero = p + 1 < middle && A->i[p + 1] == j + 1;
+        const sl_int q_zero = q < end && A->i[q] == j;
+        if (row != j || p >= middle || (p_zero && A->x[p + 1] != 0.0) ||
+          (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
+          A->x[q + q_zero] != A->x[p]) {
+          return 0;
+        }
+        p += 1 + p_zero;
+        q += 1 + q_zero;
+      }
+    }
+  }
+  return 1;
 }
 
 /* src/impl/factor/pivot_search.h: a multifrontal factorization that only selects 1x1 and 2x2 pivots by values */
@@ -13774,8 +13902,7 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
            ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
            : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
   }
-  return status == SL_OK && F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure)
-                               : status;
+  return status == SL_OK ? sli_panel_store(F, f, s, failure) : status;
 }
 
 static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_front *f,
@@ -13840,7 +13967,7 @@ typedef struct sli_job {
   sl_int left;
   sl_int n_ready;
   sl_int failed;
-  sl_int rounded;
+  sl_int in_turn;
 } sli_job;
 
 enum { SLI_STEP_CLEAR, SLI_STEP_ASSEMBLE, SLI_STEP_ROWS };
@@ -13892,7 +14019,7 @@ static void sli_job_end_large_front(sli_job *job, sl_int at) {
   for (k = 0; ready[k] != at; k++) {
   }
   ready[k] = ready[--job->n_ready];
-  job->rounded = -1;
+  job->in_turn = -1;
   sli_job_end_front(job, at);
 }
 
@@ -13942,9 +14069,9 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((job->F->storage != SL_STORAGE_FLOAT || job->rounded == -1 || job->rounded == at) &&
+    if ((job->F->panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
       sli_top_draw(job, at, &task)) {
-      job->rounded = at;
+      job->in_turn = at;
       p->tops[at].is_begun = 1;
       return task;
     }
@@ -14127,7 +14254,7 @@ static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
   job->from = from;
   job->left = p->n_bundles + p->n_tops;
   job->failed = F->S->n_supers;
-  job->rounded = -1;
+  job->in_turn = -1;
   for (m = 0; m < p->n_tops; m++) {
     sli_top *top = &p->tops[m];
     top->waiting = top->children;
@@ -14466,9 +14593,11 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->center = SLI_TAKE(b, double, n);
     F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
   }
-  F->values = F->storage != SL_STORAGE_DOUBLE
+  F->values = sli_is_float(F)
           ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
-          : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+          : (void *)SLI_TAKE(b, double,
+                     S->panel_begin[S->n_supers] /
+                       (F->storage == SL_STORAGE_COMPLEX ? 2 : 1));
 }
 
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
@@ -14585,7 +14714,7 @@ static double sli_null_tolerance(sl_int n, double epsilon) {
 static int sli_factor_choices_are_valid(const sl_options *opt) {
   return opt == NULL ||
        ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-      (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT_FRONTS &&
+      (unsigned)opt->storage <= (unsigned)SL_STORAGE_COMPLEX &&
       (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
       opt->null_tolerance == opt->null_tolerance &&
       opt->consistency_tolerance == opt->consistency_tolerance &&
@@ -14619,7 +14748,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
   F->growth_limit =
     sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-          F->storage != SL_STORAGE_DOUBLE ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
+          sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -14691,6 +14820,10 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   return SL_OK;
 }
 
+static int sli_complex_is_possible(const sl_factor *F) {
+  return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+}
+
 static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
                 sl_stats *stats) {
   const double started = sli_seconds();
@@ -14708,7 +14841,8 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   draft.method = sli_method(S, opt);
   status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
            (S->n_pairs > 0 && sli_is_single(&draft)) ||
-           (draft.is_centered && draft.null_vectors > 1)
+           (draft.is_centered && draft.null_vectors > 1) ||
+           (draft.storage == SL_STORAGE_COMPLEX && !sli_complex_is_possible(&draft))
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -14880,6 +15014,9 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     if (!sli_is_finite(from->coefficients[t])) {
       (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
     }
+  }
+  if (F->storage == SL_STORAGE_COMPLEX && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
+    (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
   }
   if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     (void)sli_null_vectors_check(F, from, &failure);
@@ -15253,7 +15390,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
   if (F != NULL) {
     v.symbolic = F->S;
     v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
-    v.L_float = F->storage != SL_STORAGE_DOUBLE ? (const float *)F->values : NULL;
+    v.L_float = sli_is_float(F) ? (const float *)F->values : NULL;
     v.D = F->D;
     v.E = F->E;
   }
@@ -16983,7 +17120,7 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
   const size_t n = (size_t)f->F->S->n;
   double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
-  const int may_wait = f->F->storage != SL_STORAGE_DOUBLE && !f->is_slow[c];
+  const int may_wait = sli_is_float(f->F) && !f->is_slow[c];
   size_t i;
   int is_kept;
   for (i = 0; i < n; i++) {
@@ -17459,7 +17596,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     inverse = sli_inverse_norm(&p);
     *rcond = p.norm > 0.0 && inverse > 0.0 ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
                          : 0.0;
-    unit = F->storage != SL_STORAGE_DOUBLE ? (double)FLT_EPSILON : DBL_EPSILON;
+    unit = sli_is_float(F) ? (double)FLT_EPSILON : DBL_EPSILON;
     *rcond *= p.error > SLI_ROUNDING_ERROR * unit ? unit / p.error : 1.0;
   }
   sli_free(&own.allocator, own.block);
@@ -17849,7 +17986,7 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
   const sl_symbolic *S = F->S;
   const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
   const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
-  const size_t entry = F->storage != SL_STORAGE_DOUBLE ? sizeof(float) : sizeof(double);
+  const size_t entry = sizeof(double) / (F->storage == SL_STORAGE_DOUBLE ? 1 : 2);
   sl_off k;
   for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
     SLI_PREFETCH(S->relative + row + k, 0);
@@ -24858,7 +24995,8 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   const sl_factor *F = set->factor;
-  const sl_status status = sli_save_check(set);
+  const sl_status status = F != NULL && F->storage == SL_STORAGE_COMPLEX ? SL_ERR_UNSUPPORTED
+                                       : sli_save_check(set);
   sl_factor none;
   int fits = 1;
   memset(f, 0, sizeof *f);
@@ -27303,6 +27441,12 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
+#undef SLV_SWAP
+#undef SLV_SAME
+#undef SLV_TURN
+#undef SLV_TURN_2
+#undef SLV_TURN_ALL
+#undef SLV_TURN_BACK
 #undef SLV_DUP_LOW
 #undef SLV_DUP_HIGH
 #undef SLV_DUP_AT
@@ -28349,8 +28493,409 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
      SL_VERSION_PATCH != 0
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
-/* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except its sweeps, and their table */
+/* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except its real sweeps, and their table */
 
+/* src/impl/kernels/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
+
+#define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
+#define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
+#define SLI_EACH_PAIR(op) op(0, 1) op(2, 3) op(4, 5) op(6, 7)
+
+#define SLI_PAIR(k, m) \
+  if ((k) < w) { \
+    SLI_PREFETCH(l + SLI_TILE / 2 * (k), SLI_PREFETCH_DISTANCE); \
+    SLV_LANE(y##k, a, k) \
+    SLV_LANE(y##m, a, m) \
+    SLV_ZERO(b) \
+    SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
+    SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
+    SLV_TURN(b) \
+    SLV_ADD(a, b) \
+  }
+#define SLI_PAIR_BELOW(k, m) \
+  if ((k) < w) { \
+    SLI_PREFETCH(l + SLI_TILE / 2 * (k), SLI_PREFETCH_DISTANCE); \
+    SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
+    SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
+  }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int w, sl_int below,
+                                  const sl_int *rows,
+                                  const double *l, double *xs,
+                                  double *x, double *buf) {
+  sl_int row, i;
+  SLV_DECLARE(a)
+  SLV_DECLARE(b)
+  SLI_EACH8(SLI_DECLARE, y)
+  SLV_LOAD_PART(a, xs, w, 0.0)
+  SLI_EACH_PAIR(SLI_PAIR)
+  SLV_STORE(buf, a)
+  for (i = 0; i < w; i++) {
+    xs[i] = buf[i];
+  }
+  for (row = SLI_TILE; row < w + below; row += SLI_TILE) {
+    l += SLI_TILE / 2 * w;
+    SLV_ZERO(a)
+    SLV_ZERO(b)
+    SLI_EACH_PAIR(SLI_PAIR_BELOW)
+    SLV_TURN(b)
+    SLV_ADD(a, b)
+    SLV_STORE(buf + row, a)
+  }
+  buf += w;
+  for (i = 0; i < below; i += 2) {
+    x[rows[i]] += buf[i];
+    x[rows[i + 1]] += buf[i + 1];
+  }
+}
+
+#define SLI_DOT(k, m) \
+  if ((k) < w) { \
+    SLI_PREFETCH(l + SLI_TILE / 2 * (k), -SLI_PREFETCH_DISTANCE); \
+    SLV_SUM_DOT(a##k, l + SLI_TILE / 2 * (k), v) \
+    SLV_SUM_DOT(a##m, l + SLI_TILE / 2 * (k), u) \
+  }
+#define SLI_DOTS \
+  SLV_ZERO(u) \
+  SLV_ADD(u, v) \
+  SLV_TURN_BACK(u) \
+  SLI_DOT(6, 7) SLI_DOT(4, 5) SLI_DOT(2, 3) SLI_DOT(0, 1)
+#define SLI_ROW_AT(k) rows[at + (k)]
+#define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
+#define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_int w, sl_int below,
+                                   const sl_int *rows,
+                                   const double *l,
+                                   const double *d, double *xs,
+                                   const double *x) {
+  const sl_int count = (w + below) % SLI_TILE;
+  sl_int row = w + below - count, at = below, j, k;
+  double r[SLI_TILE];
+  SLV_DECLARE(u)
+  SLV_DECLARE(v)
+  SLV_DECLARE(z)
+  SLI_EACH8(SLI_SUM_DECLARE, a)
+  SLI_EACH8(SLI_SUM_ZERO, a)
+  if (row > 0 && count > 0) {
+    at -= count;
+    l -= SLI_TILE / 2 * w;
+    SLV_GATHER(v, x, SLI_ROW_AT_PART)
+    SLV_FIRST(v, count)
+    SLI_DOTS
+  }
+  for (; row > SLI_TILE; row -= SLI_TILE) {
+    at -= SLI_TILE;
+    l -= SLI_TILE / 2 * w;
+    SLV_GATHER(v, x, SLI_ROW_AT)
+    SLI_DOTS
+  }
+  l -= SLI_TILE / 2 * w;
+  if (w < SLI_TILE && at > 0) {
+    SLV_GATHER(v, x, SLI_ROW_AT_OWN)
+    SLV_FIRST(v, w + at)
+    SLV_BELOW(v, w - 1)
+    SLI_DOTS
+  }
+  SLV_LOAD_PART(z, xs, w, 0.0)
+  SLV_LOAD_PART(v, d, w, 1.0)
+  SLV_DIVIDE(z, z, v)
+  SLV_SUMS(v, a)
+  SLV_ADD(v, z)
+  SLV_STORE_ANY(r, v)
+  for (k = w - 2; k > 0; k -= 2) {
+    for (j = 0; j < k; j += 2) {
+      const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
+      r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
+      r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
+    }
+  }
+  for (k = 0; k < w; k++) {
+    xs[k] = r[k];
+  }
+}
+
+#define SLI_EACH_WIDTH(call) \
+  switch (w) { \
+    SLI_CASE(2, call) \
+    SLI_CASE(4, call) \
+    SLI_CASE(6, call) \
+  default: \
+    call(8); \
+  }
+#define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, below, rows, l, xs, x, buf)
+#define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, below, rows, l, d, xs, x)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_forward_small)(sl_int w, sl_int below,
+                               const sl_int *rows, const double *l,
+                               double *xs, double *x, double *buf) {
+  SLI_EACH_WIDTH(SLI_FORWARD);
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int below,
+                                const sl_int *rows, const double *l,
+                                const double *d, double *xs,
+                                const double *x) {
+  SLI_EACH_WIDTH(SLI_BACKWARD);
+}
+
+#undef SLI_DECLARE
+#undef SLI_SUM_DECLARE
+#undef SLI_SUM_ZERO
+#undef SLI_EACH_PAIR
+#undef SLI_PAIR
+#undef SLI_PAIR_BELOW
+#undef SLI_DOT
+#undef SLI_DOTS
+#undef SLI_ROW_AT
+#undef SLI_ROW_AT_PART
+#undef SLI_ROW_AT_OWN
+#undef SLI_EACH_WIDTH
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+/* end of complex_small.inl.h */
+/* src/impl/kernels/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
+
+#define SLI_HALF (SLI_TILE / 2)
+#define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
+#define SLI_ROW_AT(k) rows[at + (k)] * lanes
+
+#define SLI_INSIDE(k) \
+  if ((k) < inner) { \
+    SLV_LANE(v, a0, k) \
+    SLV_LANE(u, a0, (k) + 1) \
+    SLV_ZERO(b0) \
+    SLV_DOT(a0, l + SLI_HALF * (k), v) \
+    SLV_DOT(b0, l + SLI_HALF * (k), u) \
+    SLV_TURN(b0) \
+    SLV_ADD(a0, b0) \
+  }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const double *L, double *x,
+                 const ptrdiff_t lanes, double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
+  double *xs = x + s->base * lanes;
+  sl_int row, i, j;
+  for (i = first; i < w; i++) {
+    buf[i] = xs[(i - first) * lanes];
+  }
+  for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
+    buf[i] = 0.0;
+  }
+  for (row = first; row < height; row += SLI_TILE) {
+    const sl_int final = sli_min(row, w), inner = sli_clamp(w - row, SLI_TILE);
+    const double *l = tile + SLI_HALF * (ptrdiff_t)first;
+    SLV_DECLARE(a0)
+    SLV_DECLARE(a1)
+    SLV_DECLARE(b0)
+    SLV_DECLARE(b1)
+    SLV_LOAD(a0, buf + row)
+    SLV_ZERO(a1)
+    SLV_ZERO(b0)
+    SLV_ZERO(b1)
+    for (j = first; j + 4 <= final;
+       j += 4, l += 2 * SLI_TILE) {
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+      SLI_PREFETCH(l + SLI_TILE, SLI_PREFETCH_DISTANCE);
+      SLV_AXPY(a0, l, buf + j)
+      SLV_AXPY(b0, l, buf + j + 1)
+      SLV_AXPY(a1, l + SLI_TILE, buf + j + 2)
+      SLV_AXPY(b1, l + SLI_TILE, buf + j + 3)
+    }
+    if (j < final) {
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+      SLV_AXPY(a0, l, buf + j)
+      SLV_AXPY(b0, l, buf + j + 1)
+      l += SLI_TILE;
+    }
+    SLV_ADD(a0, a1)
+    SLV_ADD(b0, b1)
+    SLV_TURN(b0)
+    SLV_ADD(a0, b0)
+    if (inner > 0) {
+      SLV_DECLARE(u)
+      SLV_DECLARE(v)
+      SLI_INSIDE(0)
+      SLI_INSIDE(2)
+      SLI_INSIDE(4)
+      SLI_INSIDE(6)
+    }
+    SLV_STORE(buf + row, a0)
+    tile += SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+  }
+  for (i = first; i < w; i++) {
+    xs[(i - first) * lanes] = buf[i];
+  }
+  for (i = 0; i < s->below; i++) {
+    x[rows[i] * lanes] += buf[w + i];
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const double *x,
+                          sl_int first, sl_int final, double *sums) {
+  ptrdiff_t j;
+  SLV_DECLARE(v)
+  SLV_DECLARE(u)
+  SLV_SUM_DECLARE(a)
+  SLV_SUM_DECLARE(b)
+  SLV_LOAD(v, x)
+  SLV_LOAD(u, x)
+  SLV_TURN_BACK(u)
+  for (j = (ptrdiff_t) final - 2; j >= first; j -= 2) {
+    const double *l = tile + SLI_HALF * j;
+    SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+    SLV_SUM_LOAD(a, sums + SLI_TILE * j)
+    SLV_SUM_LOAD(b, sums + SLI_TILE * (j + 1))
+    SLV_SUM_DOT(a, l, v)
+    SLV_SUM_DOT(b, l, u)
+    SLV_SUM_STORE(sums + SLI_TILE * j, a)
+    SLV_SUM_STORE(sums + SLI_TILE * (j + 1), b)
+  }
+}
+
+#define SLI_TAKE_SUM(k, unused) \
+  if ((k) < inner) { \
+    SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
+  } else { \
+    SLV_SUM_ZERO(a##k) \
+  }
+SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
+                                 const double *sums, const double *d,
+                                 double *xs, const ptrdiff_t lanes,
+                                 double *buf) {
+  double r[SLI_TILE], b[SLI_TILE];
+  sl_int j, k;
+  SLV_DECLARE(v)
+  SLV_DECLARE(z)
+  SLI_EACH8(SLI_DECLARE, a)
+  SLI_EACH8(SLI_TAKE_SUM, 0)
+  for (k = 0; k < inner; k++) {
+    b[k] = xs[k * lanes];
+  }
+  SLV_LOAD_PART(z, b, inner, 0.0)
+  SLV_LOAD_PART(v, d, inner, 1.0)
+  SLV_DIVIDE(z, z, v)
+  SLV_SUMS(v, a)
+  SLV_ADD(v, z)
+  SLV_STORE_ANY(r, v)
+  for (k = inner - 2; k > 0; k -= 2) {
+    for (j = 0; j < k; j += 2) {
+      const double re = l[SLI_HALF * j + k], im = l[SLI_HALF * j + k + 1];
+      r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
+      r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
+    }
+  }
+  for (k = 0; k < inner; k++) {
+    xs[k * lanes] = buf[k] = r[k];
+  }
+}
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
+                const double *D, double *x, const ptrdiff_t lanes, double *buf) {
+  const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+  const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
+  const double *d = D + s->column - first;
+  double *xs = x + (s->base - first) * lanes, *sums = buf + SLI_TILE;
+  sl_int row, j;
+  SLV_DECLARE(v)
+  SLV_SUM_DECLARE(a)
+  SLV_SUM_ZERO(a)
+  for (j = first; j < w; j++) {
+    SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
+  }
+  for (row = SLI_TILE * (sli_tiles(height) - 1); row >= first; row -= SLI_TILE) {
+    const sl_int inner = sli_clamp(w - row, SLI_TILE), final = sli_min(row, w);
+    const sl_int at = row + inner - w, part = sli_min(height - row, SLI_TILE) - inner;
+    tile -= SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
+    if (part == SLI_TILE) {
+      SLV_GATHER(v, x, SLI_ROW_AT)
+      SLV_STORE(buf, v)
+    } else {
+      for (j = 0; j < SLI_TILE; j++) {
+        const int is_below = j >= inner && j < inner + part;
+        buf[j] = is_below ? x[rows[at + j - inner] * lanes] : 0.0;
+      }
+    }
+    if (inner > 0) {
+      if (part > 0) {
+        SLV_NAME(complex_dots)(tile, buf, row, row + inner, sums);
+      }
+      SLV_NAME(complex_diagonal)
+      (tile + SLI_HALF * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
+       xs + row * lanes, lanes, buf);
+    }
+    SLV_NAME(complex_dots)(tile, buf, first, final, sums);
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step *s,
+                           const sl_int *rows, const void *values,
+                           double *x, double *buf) {
+  const double *L = (const double *)values;
+  for (; count > 0; count--, s++) {
+    if (s->width <= SLI_TILE) {
+      SLV_NAME(complex_forward_small)
+      (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
+    } else {
+      SLV_NAME(complex_forward_step)(s, rows, L, x, 1, buf);
+    }
+    rows += s->below;
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step *s,
+                          const sl_int *rows, const void *values,
+                          const double *D, double *x, double *buf) {
+  const double *L = (const double *)values;
+  for (s += count; count > 0; count--) {
+    rows -= (--s)->below;
+    if (s->width <= SLI_TILE) {
+      const double *end = L + (s->panel + sli_panel_size(s->width, s->below)) / 2;
+      SLV_NAME(complex_backward_small)
+      (s->width, s->below, rows, end, D + s->column, x + s->base, x);
+    } else {
+      SLV_NAME(complex_backward_step)(s, rows, L, D, x, 1, buf);
+    }
+  }
+}
+
+#define SLI_COMPLEX_SWEEPS(name, back_name, lanes) \
+  SLV_FUNCTION static void SLV_NAME(name)(sl_int count, const sli_step *s, const sl_int *rows, \
+                      const void *L, double *x, double *buf) { \
+    for (; count > 0; count--, s++) { \
+      sl_int r; \
+      for (r = 0; r < (lanes); r++) { \
+        SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + r, lanes, buf); \
+      } \
+      rows += s->below; \
+    } \
+  } \
+  SLV_FUNCTION static void SLV_NAME(back_name)(sl_int count, const sli_step *s, \
+                         const sl_int *rows, const void *L, \
+                         const double *D, double *x, double *buf) { \
+    for (s += count; count > 0; count--) { \
+      sl_int r; \
+      rows -= (--s)->below; \
+      for (r = 0; r < (lanes); r++) { \
+        SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + r, lanes, buf); \
+      } \
+    } \
+  }
+SLI_COMPLEX_SWEEPS(complex_forward2, complex_backward2, 2)
+SLI_COMPLEX_SWEEPS(complex_forward4, complex_backward4, 4)
+SLI_COMPLEX_SWEEPS(complex_forward8, complex_backward8, 8)
+
+#undef SLI_COMPLEX_SWEEPS
+#undef SLI_TAKE_SUM
+#undef SLI_INSIDE
+#undef SLI_ROW_AT
+#undef SLI_DECLARE
+#undef SLI_HALF
+/* end of complex_rows.inl.h */
 /* src/impl/kernels/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
@@ -28742,7 +29287,11 @@ static const sli_kernels SLV_NAME(kernels) = {
    {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
      SLV_NAME(single_forward8)},
     {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
-     SLV_NAME(single_backward8)}}},
+     SLV_NAME(single_backward8)}},
+   {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME(complex_forward4),
+     SLV_NAME(complex_forward8)},
+    {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME(complex_backward4),
+     SLV_NAME(complex_backward8)}}},
   SLV_NAME(row),
   {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
    {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),

@@ -17,12 +17,17 @@
  *
  *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
  *     A = sl_matrix_view(M);
- *     options.block_size = 2;                          orders a block as one row, which is quicker
- *     sl_symbolic_create(&S, &A, &options, NULL);
- *     sl_factor_create(&F, S, &A, NULL, NULL);
+ *     blocks.block_size = 2;                           orders a block as one row, which is quicker
+ *     sl_symbolic_create(&S, &A, &blocks, NULL);
+ *     half.storage = SL_STORAGE_COMPLEX;               half the bytes of L
+ *     sl_factor_create(&F, S, &A, &half, NULL);
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
  *
- * L has four times the entries of that of a real matrix with the pattern of H.
+ * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX keeps the first column of each: solves of one
+ * right-hand side read half as much. More right-hand sides are solved one by one; from 4 on
+ * SL_STORAGE_DOUBLE is faster. Every call on factors takes both, except that L as complex is not
+ * changed, restricted or saved.
  */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and

@@ -132,13 +132,15 @@
  *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
  *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
- *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with
- *           several null vectors, or more of them in the tree of error.row than columns;
+ *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with several null vectors, or more of
+ *           them in the tree of error.row than columns;
+ *           SL_STORAGE_COMPLEX of a matrix that sl_matrix_from_hermitian did not make, of an
+ *           analysis without block_size 2, of sums, or with null pivots that are replaced;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
- *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or floats and the
- *           largest panel in double for each thread, and, with the
- *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
- *           meshes, more with threads. SL_NULL_PIVOT_SKIP adds a product
+ *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or half the bytes
+ *           and the largest panel in double for each thread, and, with the supernodal method, the
+ *           update stack: about 5 % more for 2D meshes and 30 % for 3D meshes, more with threads.
+ *           SL_NULL_PIVOT_SKIP adds a product
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
  *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
@@ -161,11 +163,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  sl_factor_create.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
- *                   SL_ERR_NOT_FINITE and SL_ERR_INACCURATE it has no numbers, and every solve
- *                   refuses it until a refactor succeeds.
+ *                   SL_ERR_NOT_FINITE, SL_ERR_INACCURATE and SL_ERR_UNSUPPORTED it has no
+ *                   numbers, and every solve refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
- *  Returns, Cost    as sl_factor_create, but never SL_ERR_UNSUPPORTED; SL_ERR_STATE: a mapped
+ *  Returns, Cost    as sl_factor_create, but SL_ERR_UNSUPPORTED only for the values, with
+ *                   SL_STORAGE_COMPLEX; SL_ERR_STATE: a mapped
  *                   factor (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
  *                   refactorization of a loaded factor (sl_load_file), which allocates its fronts.
  *  Threads          exclusive use of F.

@@ -127,7 +127,8 @@ typedef struct sl_options {
      * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
     /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
-     * float; solutions have the accuracy of float until they are refined (sl_factor_create) */
+     * float; solutions have the accuracy of float until they are refined (sl_factor_create).
+     * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
     /* must be NULL; new options take their place, so that the size of the struct never changes */

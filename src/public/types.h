@@ -110,12 +110,14 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
-/** The type in which a factor keeps L. D, B, X and the arithmetic of solves are double in any case.
- *  See sl_factor_create. */
+/** How a factor keeps L. D, B, X and the arithmetic of solves are double in any case. See
+ *  sl_factor_create. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
-    SL_STORAGE_FLOAT,       /* half the bytes of L, its accuracy until refined */
-    SL_STORAGE_FLOAT_FRONTS /* fronts are computed in float, too: half the time, less accuracy */
+    SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
+    SL_STORAGE_FLOAT_FRONTS, /* fronts are computed in float, too: half the time, less accuracy */
+    SL_STORAGE_COMPLEX       /* half the bytes of L in full accuracy: complex Hermitian matrices
+                                only, complex.h */
 } sl_storage;
 
 /** What to do with a null pivot. */

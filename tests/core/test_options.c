@@ -139,7 +139,7 @@ static void unknown_enum_values_are_refused(void **state) {
         SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
-        opt.storage = (sl_storage)unknown(k, SL_STORAGE_FLOAT_FRONTS);
+        opt.storage = (sl_storage)unknown(k, SL_STORAGE_COMPLEX);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));

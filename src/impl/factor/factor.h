@@ -165,6 +165,9 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
             (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
         }
     }
+    if (F->storage == SL_STORAGE_COMPLEX && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
+        (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
+    }
     if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
         (void)sli_null_vectors_check(F, from, &failure);
     }

@@ -134,7 +134,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
     if (F != NULL) {
         v.symbolic = F->S;
         v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
-        v.L_float = F->storage != SL_STORAGE_DOUBLE ? (const float *)F->values : NULL;
+        v.L_float = sli_is_float(F) ? (const float *)F->values : NULL;
         v.D = F->D;
         v.E = F->E;
     }

@@ -40,13 +40,15 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->center = SLI_TAKE(b, double, n);
         F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
     }
-    F->values = F->storage != SL_STORAGE_DOUBLE
+    F->values = sli_is_float(F)
                     ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
-                    : (void *)SLI_TAKE(b, double, S->panel_begin[S->n_supers]);
+                    : (void *)SLI_TAKE(b, double,
+                                       S->panel_begin[S->n_supers] /
+                                           (F->storage == SL_STORAGE_COMPLEX ? 2 : 1));
 }
 
-/* The pieces of scratch for panels that are rounded: one a worker, and one for a large front that
- * they share. */
+/* The pieces of scratch for panels that are not stored in double: one a worker, and one for a large
+ * front that they share. */
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const uint64_t workers = (uint64_t)F->schedule.workers + (F->schedule.workers > 1);
@@ -170,7 +172,7 @@ static double sli_null_tolerance(sl_int n, double epsilon) {
 static int sli_factor_choices_are_valid(const sl_options *opt) {
     return opt == NULL ||
            ((unsigned)opt->method <= (unsigned)SL_METHOD_SUPERNODAL &&
-            (unsigned)opt->storage <= (unsigned)SL_STORAGE_FLOAT_FRONTS &&
+            (unsigned)opt->storage <= (unsigned)SL_STORAGE_COMPLEX &&
             (unsigned)opt->null_pivots <= (unsigned)SL_NULL_PIVOT_SKIP &&
             opt->null_tolerance == opt->null_tolerance &&
             opt->consistency_tolerance == opt->consistency_tolerance &&
@@ -208,7 +210,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
     F->growth_limit =
         sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-                  F->storage != SL_STORAGE_DOUBLE ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
+                  sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
     F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -250,7 +252,7 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
  * supernodal method is 1.1 to 6 times faster. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
-        return SL_METHOD_SUPERNODAL; /* only fronts have 2x2 pivots, and L before it is rounded */
+        return SL_METHOD_SUPERNODAL; /* only fronts have 2x2 pivots, and L before it is stored */
     }
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
         return opt->method;
@@ -285,6 +287,11 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     return SL_OK;
 }
 
+/* With SL_STORAGE_COMPLEX both columns of a pair are treated alike. */
+static int sli_complex_is_possible(const sl_factor *F) {
+    return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+}
+
 /* Creates a factor with its memory and its schedule, but without numbers. */
 static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
                                 sl_stats *stats) {
@@ -303,7 +310,8 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     draft.method = sli_method(S, opt);
     status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
                      (S->n_pairs > 0 && sli_is_single(&draft)) ||
-                     (draft.is_centered && draft.null_vectors > 1)
+                     (draft.is_centered && draft.null_vectors > 1) ||
+                     (draft.storage == SL_STORAGE_COMPLEX && !sli_complex_is_possible(&draft))
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

@@ -62,12 +62,12 @@ struct sl_factor {
     sli_hash identity;
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
-    sl_off updates;    /* rank-one changes since the last complete factorization */
-    double drift;      /* the rounding errors that they have added, relative to the largest entry */
-    sli_hash analysis; /* the identity of S */
-    sl_storage storage;  /* the type of L */
-    void *values;        /* L: the panels of all supernodes, doubles or floats */
-    double *panels;      /* panels that are rounded: scratch for one, one a worker; else NULL */
+    sl_off updates; /* rank-one changes since the last complete factorization */
+    double drift;   /* the rounding errors that they have added, relative to the largest entry */
+    sli_hash analysis;  /* the identity of S */
+    sl_storage storage; /* of L */
+    void *values;       /* L: the panels of all supernodes, as they are stored */
+    double *panels;     /* scratch for panels that are not stored in double, one a worker */
     sl_off panel_room;   /* doubles of such a piece */
     double *D;           /* n pivots */
     double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
@@ -208,9 +208,14 @@ SLI_INLINE int sli_is_single(const sl_factor *F) {
     return F->storage == SL_STORAGE_FLOAT_FRONTS;
 }
 
+/* Is L kept in float? */
+SLI_INLINE int sli_is_float(const sl_factor *F) {
+    return F->storage == SL_STORAGE_FLOAT || sli_is_single(F);
+}
+
 /* The panel of supernode s in double, while a worker factors it. */
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-    return F->storage == SL_STORAGE_FLOAT ? F->panels + F->panel_room * worker
+    return F->storage != SL_STORAGE_DOUBLE ? F->panels + F->panel_room * worker
                                           : (double *)F->values + F->S->steps[s].panel;
 }
 

@@ -39,8 +39,8 @@ typedef struct sli_job {
     sl_int left;      /* bundles and fronts above them that are not done */
     sl_int n_ready;   /* fronts in tops.ready */
     sl_int failed;    /* the first supernode that is known to have failed, or n_supers */
-    /* the large front whose turn it is where L alone is in float: one panel in double; -1: none */
-    sl_int rounded;
+    /* the large front whose turn it is where all share one panel in double; -1: none */
+    sl_int in_turn;
 } sli_job;
 
 enum { SLI_STEP_CLEAR, SLI_STEP_ASSEMBLE, SLI_STEP_ROWS };
@@ -100,7 +100,7 @@ static void sli_job_end_large_front(sli_job *job, sl_int at) {
     for (k = 0; ready[k] != at; k++) {
     }
     ready[k] = ready[--job->n_ready];
-    job->rounded = -1;
+    job->in_turn = -1;
     sli_job_end_front(job, at);
 }
 
@@ -154,9 +154,9 @@ static sli_task sli_job_draw(sli_job *job) {
             task.at = at;
             return task;
         }
-        if ((job->F->storage != SL_STORAGE_FLOAT || job->rounded == -1 || job->rounded == at) &&
+        if ((job->F->panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
             sli_top_draw(job, at, &task)) {
-            job->rounded = at;
+            job->in_turn = at;
             p->tops[at].is_begun = 1;
             return task;
         }
@@ -349,7 +349,7 @@ static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
     job->from = from;
     job->left = p->n_bundles + p->n_tops;
     job->failed = F->S->n_supers;
-    job->rounded = -1;
+    job->in_turn = -1;
     for (m = 0; m < p->n_tops; m++) {
         sli_top *top = &p->tops[m];
         top->waiting = top->children;

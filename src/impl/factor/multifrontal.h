@@ -134,8 +134,8 @@ static void sli_front_hand_over(const sli_front *f) {
     }
 }
 
-/* Ends a front: refuses pivots that are not finite, and null pivots that were not replaced; rounds
- * the panel of a factor whose fronts are in double and L in float. */
+/* Ends a front: refuses pivots that are not finite, and null pivots that were not replaced; stores
+ * the panel unless it is where it belongs. */
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
     const sl_int first = F->S->steps[s].column;
@@ -149,8 +149,7 @@ static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int 
                      ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
                      : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
     }
-    return status == SL_OK && F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure)
-                                                             : status;
+    return status == SL_OK ? sli_panel_store(F, f, s, failure) : status;
 }
 
 /* Factors the panel of an assembled front: its columns of L and D. */

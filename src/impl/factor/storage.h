@@ -1,4 +1,4 @@
-/* storage.h: L in double or in float: sweeps over it, its entries, panels that are rounded */
+/* storage.h: L in double, in float or as complex: sweeps over it, its entries, panels to store */
 #ifndef SLI_FACTOR_STORAGE_H
 #define SLI_FACTOR_STORAGE_H
 
@@ -14,27 +14,41 @@
  * energy norm, by about 2 ||H||, which is of the order of u sqrt(cond A), not u cond A: the pivots,
  * which hold the smallest eigenvalues, are not rounded. */
 
+/* With SL_STORAGE_COMPLEX the columns 2k of L are kept, column by column as in double, and the
+ * columns 2k + 1, which are i times those, are not: L has the blocks [a -b; b a]. In floating point
+ * that holds to rounding, as it does that the entry inside a block is 0 and that the two pivots of
+ * a block are equal. A panel has an even number of columns of 8 rows, so that the position of its
+ * entries says which they are. */
+
+/* Which of the kernels' sweeps read L. */
+SLI_INLINE const sli_sweeps *sli_sweeps_of(const sl_factor *F) {
+    return &F->kernels->sweeps[F->storage == SL_STORAGE_COMPLEX ? 2 : sli_is_float(F)];
+}
+
 /* The sweeps of F's factorization: x := L^-1 x over steps, and x := L'^-1 D^-1 x. */
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
                                   const sl_int *rows, double *x, double *scratch) {
-    F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].forward[kind](count, steps, rows, F->values,
-                                                                      x, scratch);
+    sli_sweeps_of(F)->forward[kind](count, steps, rows, F->values, x, scratch);
 }
 SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
                                    const sli_step *steps, const sl_int *rows_end, const double *D,
                                    double *x, double *scratch) {
-    F->kernels->sweeps[F->storage != SL_STORAGE_DOUBLE].backward[kind](count, steps, rows_end,
-                                                                       F->values, D, x, scratch);
+    sli_sweeps_of(F)->backward[kind](count, steps, rows_end, F->values, D, x, scratch);
 }
 
 /* The entry of L at a position of the panels. */
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-    return F->storage != SL_STORAGE_DOUBLE ? (double)((const float *)F->values)[at]
-                                           : ((const double *)F->values)[at];
+    if (F->storage == SL_STORAGE_COMPLEX) {
+        const double *l = (const double *)F->values + at / (2 * SLI_TILE) * SLI_TILE;
+        const sl_off lane = at % SLI_TILE;
+        return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
+    }
+    return sli_is_float(F) ? (double)((const float *)F->values)[at]
+                           : ((const double *)F->values)[at];
 }
 
 SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
-    if (F->storage != SL_STORAGE_DOUBLE) {
+    if (sli_is_float(F)) {
         ((float *)F->values)[at] = 0.0F;
     } else {
         ((double *)F->values)[at] = 0.0;
@@ -83,14 +97,93 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int 
     return SL_OK;
 }
 
-/* Copies the panel of supernode s, of a factor in float, to doubles. */
+/* Keeps the first column of each pair of the panel of a front. */
+static void sli_panel_halve(const sl_factor *F, const sli_front *f, sl_int s) {
+    const sl_int w = f->width, tiles = sli_tiles(w + f->below);
+    double *to = (double *)F->values + F->S->steps[s].panel / 2;
+    const double *from = f->panel;
+    sl_int t, j;
+    for (t = 0; t < tiles; t++) {
+        const sl_int row = SLI_TILE * t, columns = sli_min(w, row + SLI_TILE);
+        for (j = 0; j < columns; j += 2, from += 2 * SLI_TILE, to += SLI_TILE) {
+            memcpy(to, from, SLI_TILE * sizeof(double));
+            if (j >= row) {
+                to[j + 1 - row] = 0.0; /* inside the block */
+            }
+        }
+    }
+}
+
+/* Stores the panel of a front that is done. */
+static sl_status sli_panel_store(const sl_factor *F, const sli_front *f, sl_int s,
+                                 sli_failure *failure) {
+    if (F->storage == SL_STORAGE_COMPLEX) {
+        sli_panel_halve(F, f, s);
+    }
+    return F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure) : SL_OK;
+}
+
+/* Copies the panel of supernode s, of a factor in another storage, to doubles. */
 static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
     const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
-    const float *from = (const float *)F->values + first;
     sl_off k;
     for (k = 0; k < size; k++) {
-        to[k] = from[k];
+        to[k] = sli_entry(F, first + k);
     }
+}
+
+/* Do the rows of S come in pairs that share a supernode, next to each other? */
+static int sli_rows_are_paired(const sl_symbolic *S) {
+    sl_int s, k;
+    for (k = 0; k < S->n; k += 2) {
+        if (k + 1 == S->n || S->perm[k] % 2 != 0 || S->perm[k + 1] != S->perm[k] + 1) {
+            return 0;
+        }
+    }
+    for (s = 0; s < S->n_supers; s++) {
+        const sli_step *step = &S->steps[s];
+        const sl_int *rows = S->rows + S->rows_begin[s];
+        if (step->column % 2 != 0 || step->below % 2 != 0) {
+            return 0;
+        }
+        for (k = 0; k < step->below; k += 2) {
+            if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Has A the form of sl_matrix_from_hermitian? Its columns 2j + 1 are i times the columns 2j. */
+static int sli_matrix_is_complex(const sl_csc *A) {
+    sl_int j, p, q;
+    for (j = 0; j + 1 < A->n_cols; j += 2) {
+        const sl_int middle = A->p[j + 1], end = A->p[j + 2];
+        for (p = A->p[j], q = middle; p < middle || q < end;) {
+            const sl_int row = p < middle ? A->i[p] : A->i[q];
+            if (row / 2 != j / 2) {
+                if (row % 2 != 0 || p + 1 >= middle || q + 1 >= end || A->i[p + 1] != row + 1 ||
+                    A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
+                    A->x[q] != -A->x[p + 1]) {
+                    return 0;
+                }
+                p += 2;
+                q += 2;
+            } else { /* [a 0; 0 a], of which either 0 may be missing */
+                const sl_int p_zero = p + 1 < middle && A->i[p + 1] == j + 1;
+                const sl_int q_zero = q < end && A->i[q] == j;
+                if (row != j || p >= middle || (p_zero && A->x[p + 1] != 0.0) ||
+                    (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
+                    A->x[q + q_zero] != A->x[p]) {
+                    return 0;
+                }
+                p += 1 + p_zero;
+                q += 1 + q_zero;
+            }
+        }
+    }
+    return 1;
 }
 
 #endif

@@ -25,7 +25,8 @@ typedef struct sli_traversal_run {
     sli_inverse_phase phase;
 } sli_traversal_run;
 
-/* Doubles of scratch per worker: that of the kernels, and for L in float a panel in double. */
+/* Doubles of scratch per worker: that of the kernels, and unless L is in double a panel in
+ * double. */
 SLI_INLINE sl_off sli_traverse_scratch(const sli_traversal *t, sl_storage storage) {
     return t->scratch + (storage != SL_STORAGE_DOUBLE ? t->panel : 0);
 }
@@ -39,7 +40,7 @@ static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal
         (uint64_t)traversal->schedule.workers *(uint64_t)sli_traverse_scratch(traversal, storage));
 }
 
-/* The k-th front of the list, as the kernels take it; without its panel if L is in float. */
+/* The k-th front of the list, as the kernels take it; without its panel if L is not in double. */
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
     const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
     sli_inverse_front f;
@@ -75,7 +76,8 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     const sl_symbolic *S = F->S;
     const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
     const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
-    const size_t entry = F->storage != SL_STORAGE_DOUBLE ? sizeof(float) : sizeof(double);
+    /* bytes of an entry, stored or not */
+    const size_t entry = sizeof(double) / (F->storage == SL_STORAGE_DOUBLE ? 1 : 2);
     sl_off k;
     for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
         SLI_PREFETCH(S->relative + row + k, 0);

@@ -1,5 +1,7 @@
-/* kernel_set.inl.h: all kernels of one instruction set except its sweeps, and their table */
+/* kernel_set.inl.h: all kernels of one instruction set except its real sweeps, and their table */
 
+#include "complex_small.inl.h"
+#include "complex_rows.inl.h"
 #include "inverse_front.inl.h"
 #include "row.inl.h"
 #include "change.inl.h"
@@ -15,7 +17,11 @@ static const sli_kernels SLV_NAME(kernels) = {
      {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
        SLV_NAME(single_forward8)},
       {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
-       SLV_NAME(single_backward8)}}},
+       SLV_NAME(single_backward8)}},
+     {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME(complex_forward4),
+       SLV_NAME(complex_forward8)},
+      {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME(complex_backward4),
+       SLV_NAME(complex_backward8)}}},
     SLV_NAME(row),
     {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
      {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),

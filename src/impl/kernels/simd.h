@@ -26,6 +26,7 @@
  *  SLV_FIRST(a, count)    lanes count .. 7 of a = 0
  *  SLV_BELOW(a, k)        lanes 0 .. k of a = 0
  *  SLV_ADD(a, b)          a += b
+ *  SLV_TURN(a)            pairs of lanes as complex numbers: a *= i. SLV_TURN_BACK: a *= -i
  *  SLV_MULTIPLY(a, b, c)  a = b c. SLV_DIVIDE: a = b / c. SLV_FNMA: a -= b c
  *  SLV_AXPY(a, l, p)      a -= l[0..7] * *p
  *  SLV_DOT(a, l, v)       a -= l[0..7] v, lane by lane

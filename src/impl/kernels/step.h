@@ -28,7 +28,7 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
 enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
 
 /* x := L^-1 x over the steps in ascending order. rows: positions in x of the rows below, step after
- * step. L: doubles or floats, 64-byte aligned. scratch: sli_sweep_scratch doubles for the tallest
+ * step. L: as it is stored, 64-byte aligned. scratch: sli_sweep_scratch doubles for the tallest
  * and widest step, 64-byte aligned. */
 typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
                                    const void *L, double *x, double *scratch);
@@ -53,12 +53,13 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                                double *pivot, double *magnitude);
 
 /* Doubles of scratch for a step of a given height (width + below) and width. Kernels for 1 and 2
- * right-hand sides copy all rows and keep 8 partial sums for each column. The others work on x in
- * place and copy only the rows of one tile. */
+ * right-hand sides, and all of SL_STORAGE_COMPLEX, copy all rows and keep 8 partial sums for each
+ * column. The others work on x in place and copy only the rows of one tile. */
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
-    const size_t tile = SLI_TILE;
-    return nrhs > 2 ? tile * (size_t)nrhs
-                    : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
+    const size_t tile = SLI_TILE, tiles = (size_t)sli_tiles(height);
+    const size_t copies = nrhs > 2 ? 1 : (size_t)nrhs;
+    const size_t copied = tile * (tiles * copies + (size_t)width);
+    return copied > tile * (size_t)nrhs ? copied : tile * (size_t)nrhs;
 }
 
 /* Distance in bytes from the entries of L that a sweep reads to those that it prefetches. Small

@@ -21,7 +21,7 @@ typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, co
 
 typedef struct sli_kernels {
     sl_isa isa;
-    sli_sweeps sweeps[2]; /* of sl_storage */
+    sli_sweeps sweeps[3]; /* of sl_storage */
     sli_row_kernel row;
     sli_front_kernels fronts[2]; /* in double, in float */
     sli_products_kernel products;

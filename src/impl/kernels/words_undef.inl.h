@@ -20,6 +20,12 @@
 #undef SLV_FNMA1
 #undef SLV_STORE_ANY
 #undef SLV_FNMA
+#undef SLV_SWAP
+#undef SLV_SAME
+#undef SLV_TURN
+#undef SLV_TURN_2
+#undef SLV_TURN_ALL
+#undef SLV_TURN_BACK
 #undef SLV_DUP_LOW
 #undef SLV_DUP_HIGH
 #undef SLV_DUP_AT

@@ -168,7 +168,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
         /* Divided by the larger norm first: 1 / (smallest subnormal) is infinite. */
         *rcond = p.norm > 0.0 && inverse > 0.0 ? 1.0 / fmax(p.norm, inverse) / fmin(p.norm, inverse)
                                                : 0.0;
-        unit = F->storage != SL_STORAGE_DOUBLE ? (double)FLT_EPSILON : DBL_EPSILON;
+        unit = sli_is_float(F) ? (double)FLT_EPSILON : DBL_EPSILON;
         *rcond *= p.error > SLI_ROUNDING_ERROR * unit ? unit / p.error : 1.0;
     }
     sli_free(&own.allocator, own.block);

@@ -80,7 +80,7 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
     const size_t n = (size_t)f->F->S->n;
     double *t = f->T + n * (size_t)c, *r = f->R + n * (size_t)c, error;
-    const int may_wait = f->F->storage != SL_STORAGE_DOUBLE && !f->is_slow[c];
+    const int may_wait = sli_is_float(f->F) && !f->is_slow[c];
     size_t i;
     int is_kept;
     for (i = 0; i < n; i++) {
