@@ -14,6 +14,7 @@
  * permutation; Eigen has AMD. A ratio is to our real solve or factorization of the same mesh. */
 typedef struct complex_case {
     bench_system real, twice; /* twice: the real matrix of twice the size */
+    bench_system halved;      /* the same analysis, with SL_STORAGE_COMPLEX */
     sl_int *p, *i;            /* the complex matrix, lower triangle */
     double *x;
     sl_hermitian H;
@@ -36,7 +37,7 @@ static void factor_system(bench_system *s, const char *name, sl_int n, sl_int bl
     s->n = n;
     s->A = sl_matrix_view(s->matrix);
     bench_must(sl_symbolic_create(&s->S, &s->A, &opt, &s->stats), "analysis");
-    bench_must(sl_factor_create(&s->F, s->S, &s->A, &opt, &s->stats), "factorization");
+    bench_must(sl_factor_create(&s->F, s->S, &s->A, NULL, &s->stats), "factorization");
 }
 
 /* The complex matrix: the first columns of the blocks, [a; b] of [a -b; b a]. */
@@ -77,6 +78,13 @@ static complex_case *create(const bench_run *run, const mesh *m, const char *nam
     connection_free(&frames);
     factor_system(&c->real, name, n, 0);
     factor_system(&c->twice, name, 2 * n, 2);
+    c->halved = c->twice;
+    c->halved.F = NULL;
+    sl_options opt;
+    sl_options_init(&opt, sizeof opt);
+    opt.storage = SL_STORAGE_COMPLEX;
+    bench_must(sl_factor_create(&c->halved.F, c->twice.S, &c->twice.A, &opt, NULL),
+               "factorization");
     take_blocks(c);
     const sl_symbolic_arrays view = sl_symbolic_view(c->twice.S);
     sl_int *perm = bench_alloc((size_t)n, sizeof *perm);
@@ -119,6 +127,7 @@ static void release(complex_case *c) {
     sl_plan_free(c->real_plan);
     sl_plan_free(c->complex_plan);
     sl_work_free(c->W);
+    sl_factor_free(c->halved.F);
     release_system(&c->real);
     release_system(&c->twice);
     free(c->p);
@@ -160,6 +169,15 @@ static void solve_eigen(void *state) {
     c->answer = c->X;
 }
 
+static void solve_halved(void *state) {
+    solve(state, &((complex_case *)state)->halved);
+}
+
+static void factor_halved(void *state) {
+    complex_case *c = state;
+    bench_must(sl_factor_refactor(c->halved.F, &c->twice.A, NULL), "refactorization");
+}
+
 static void factor_real(void *state) {
     complex_case *c = state;
     bench_must(sl_factor_refactor(c->real.F, &c->real.A, NULL), "refactorization");
@@ -188,11 +206,17 @@ static void local_real(void *state) {
                "local solve");
 }
 
-static void local_ours(void *state) {
-    complex_case *c = state;
+static void local_complex(complex_case *c, const sl_factor *F) {
     const size_t n = 2 * (size_t)ROWS_LOCAL;
-    bench_must(sl_plan_solve(c->complex_plan, c->twice.F, c->X, n, c->b, n, 1, c->W),
-               "local solve");
+    bench_must(sl_plan_solve(c->complex_plan, F, c->X, n, c->b, n, 1, c->W), "local solve");
+}
+
+static void local_ours(void *state) {
+    local_complex(state, ((complex_case *)state)->twice.F);
+}
+
+static void local_halved(void *state) {
+    local_complex(state, ((complex_case *)state)->halved.F);
 }
 
 typedef struct contender_row {
@@ -224,21 +248,24 @@ static void race(const bench_run *run, bench_report *report, complex_case *c, co
 
 static void one_case(bench_run *run, bench_report *report, const mesh *m, const char *name) {
     complex_case *c = create(run, m, name);
-    const int peers = c->eigen ? 5 : 4;
+    const int count = c->eigen ? 6 : 5;
     const contender_row solves[] = {{"ours, real", solve_real, 0},
-                                    {"ours, complex", solve_ours, 0},
+                                    {"ours, complex in double", solve_ours, 0},
+                                    {"ours, complex", solve_halved, 0},
                                     {"CHOLMOD supernodal", solve_supernodal, 1},
                                     {"CHOLMOD simplicial", solve_simplicial, 1},
                                     {"Eigen defaults", solve_eigen, 1}};
     const contender_row factors[] = {{"ours, real", factor_real, 0},
-                                     {"ours, complex", factor_ours, 0},
+                                     {"ours, complex in double", factor_ours, 0},
+                                     {"ours, complex", factor_halved, 0},
                                      {"CHOLMOD supernodal", factor_supernodal, 1},
                                      {"CHOLMOD simplicial", factor_simplicial, 1},
                                      {"Eigen defaults", factor_eigen, 1}};
     const contender_row locals[] = {{"ours, real", local_real, 0},
-                                    {"ours, complex", local_ours, 0}};
+                                    {"ours, complex in double", local_ours, 0},
+                                    {"ours, complex", local_halved, 0}};
     int passed = 1;
-    for (int k = 1; k < peers; k++) {
+    for (int k = 1; k < count; k++) {
         solves[k].call(c);
         passed &= bench_check_residual(run, &c->twice, c->answer, c->b, 1, solves[k].method);
     }
@@ -246,9 +273,9 @@ static void one_case(bench_run *run, bench_report *report, const mesh *m, const 
         bench_report_note(report, "complex: entries of the real L of %d rows %.4g, panels %.4g",
                           (int)c->twice.n, (double)c->twice.stats.symbolic.nnz_l,
                           (double)c->twice.stats.symbolic.nnz_panels);
-        race(run, report, c, "refactor", factors, peers);
-        race(run, report, c, "full solve", solves, peers);
-        race(run, report, c, "local solve, 100 vertices", locals, 2);
+        race(run, report, c, "refactor", factors, count);
+        race(run, report, c, "full solve", solves, count);
+        race(run, report, c, "local solve, 100 vertices", locals, 3);
     }
     release(c);
 }

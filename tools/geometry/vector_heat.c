@@ -22,10 +22,12 @@ void vector_heat_free(vector_heat *s) {
 
 sl_status vector_heat_create(vector_heat *out, const mesh *m, double t) {
     sl_matrix *A = NULL, *C = NULL;
-    sl_options opt;
+    sl_options blocks, half;
     memset(out, 0, sizeof *out);
-    sl_options_init(&opt, sizeof opt);
-    opt.block_size = 2; /* the two real rows of a vertex */
+    sl_options_init(&blocks, sizeof blocks);
+    sl_options_init(&half, sizeof half);
+    blocks.block_size = 2; /* the two real rows of a vertex */
+    half.storage = SL_STORAGE_COMPLEX;
     if (!(t > 0 && t <= 1e200) || !mesh_faces_are_in_range(m)) {
         return SL_ERR_ARGUMENT;
     }
@@ -44,9 +46,9 @@ sl_status vector_heat_create(vector_heat *out, const mesh *m, double t) {
     status = status == SL_OK ? connection_system(&C, &out->frames, t) : status;
     if (status == SL_OK) {
         const sl_csc view = sl_matrix_view(C);
-        status = sl_symbolic_create(&out->complex_S, &view, &opt, &out->stats);
+        status = sl_symbolic_create(&out->complex_S, &view, &blocks, &out->stats);
         status = status == SL_OK
-                     ? sl_factor_create(&out->vectors, out->complex_S, &view, NULL, &out->stats)
+                     ? sl_factor_create(&out->vectors, out->complex_S, &view, &half, &out->stats)
                      : status;
     }
     sl_matrix_free(A);
