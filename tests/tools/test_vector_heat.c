@@ -168,7 +168,7 @@ static void spheres_are_approximate(void **state) {
     for (int level = 3; level <= 5; level++) {
         fixture y;
         mesh m;
-        char name[16];
+        char name[32];
         vector_field local, f;
         const sl_int source = 17;
         (void)snprintf(name, sizeof name, "sphere:%d", level);
