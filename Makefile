@@ -409,7 +409,7 @@ test-mingw-clang: deps-mingw deps-clang sparse_local.h ## the same by clang, wit
 test-wasm: deps-wasm deps-clang sparse_local.h ## the portable tests for WebAssembly with SIMD128, under node
 	@+tools/build/platform.sh wasm 'clang --target=wasm32-wasi -msimd128' node \
 	$(SUB_MAKE) run-tests B=build/wasm CC='clang --target=wasm32-wasi --sysroot=/usr' $(WITHOUT_CMOCKA) \
-	OPT='-O2 -msimd128' LINK='$$(CC) -Wl,-z,stack-size=8388608' LIBRARY= LIBS= RUN='node --no-warnings tests/lib/wasi/run.mjs' \
+	OPT='-O2 -msimd128' LINK='$$(CC) -Wl,-z,stack-size=8388608' LIBRARY= LIBS= RUN='node --no-warnings --single-threaded-gc tests/lib/wasi/run.mjs' \
 	INCLUDES='-Itests/lib/cmocka -Itests/lib/wasi' TEST_PROGRAMS='$(WASM_TESTS:tests/%.c=build/wasm/tests/%)'
 
 # Counters are atomic because threads run too. The tests run without DATA, so that the figures are those

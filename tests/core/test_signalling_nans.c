@@ -212,9 +212,16 @@ int main(void) {
 
 #else
 
+static void there_are_no_traps(void **state) {
+    (void)state;
+    skip();
+}
+
 int main(void) {
-    (void)printf("no floating-point traps here\n0 passed, 0 failed, 2 skipped\n");
-    return 0;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(there_are_no_traps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
 #endif
