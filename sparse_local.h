@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bb2592927b77e8a9
+ * FNV-1a of the lines after this comment, without the license: e0e3e125ae5e1220
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -65,22 +65,22 @@
  * (change: a factor that follows changes of its matrix)
  *  20042 update.h  20392 rank.h  20721 edges.h  20875 choose.h  21069 pins.h  21633 subset.h
  *  21740 restrict_analysis.h  22037 restrict_anew.h  22091 restrict_symbolic.h  22272 restrict.h
- *  22620 edit_match.h  22806 edit_place.h  23055 edit_separate.h  23367 edit_order.h
- *  23519 edit_graph.h  23614 edit_join.h  23890 edit.h
+ *  22620 edit_match.h  22806 edit_place.h  23055 edit_separate.h  23368 edit_order.h
+ *  23520 edit_graph.h  23615 edit_join.h  23891 edit.h
  * (save: factors in files)
- *  24054 format.h  24350 decode.h  24498 check.h  24830 write.h  25135 load.h  25403 load_inverse.h
- *  25735 load_calls.h
+ *  24055 format.h  24351 decode.h  24499 check.h  24831 write.h  25136 load.h  25404 load_inverse.h
+ *  25736 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25934 batch_solve.h  26143 batch_factor.h  26344 batch_diagonal.h
+ *  25935 batch_solve.h  26144 batch_factor.h  26345 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26484 hermitian.h  26646 complex_rows.h
+ *  26485 hermitian.h  26647 complex_rows.h
  * (last: undefine every internal macro)
- *  26814 undef.h
+ *  26815 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27019 front.inl.h  27021 product.inl.h  27422 words_undef.inl.h  27502 multi_rhs.inl.h
- *  27885 sweeps.inl.h  27887 unit_triangle.inl.h  27924 two_rhs.inl.h  28093 small_supernode.inl.h
- *  28252 single_rhs.inl.h  28496 kernel_set.inl.h  28498 complex_small.inl.h
- *  28658 complex_rows.inl.h  28899 inverse_front.inl.h  29184 row.inl.h  29214 change.inl.h
+ *  27020 front.inl.h  27022 product.inl.h  27423 words_undef.inl.h  27503 multi_rhs.inl.h
+ *  27886 sweeps.inl.h  27888 unit_triangle.inl.h  27925 two_rhs.inl.h  28094 small_supernode.inl.h
+ *  28253 single_rhs.inl.h  28497 kernel_set.inl.h  28499 complex_small.inl.h
+ *  28659 complex_rows.inl.h  28900 inverse_front.inl.h  29185 row.inl.h  29215 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23216,7 +23216,7 @@ static sl_int sli_band_search(sli_band *w) {
       tail = sli_band_push(w, 2 * v, -1, tail);
     }
   }
-  for (head = 0; head < tail; head++) {
+  for (head = 0; head < tail && w->e->steps > 0; head++) {
     const sl_int state = w->queue[head], k = e->number[w->row[state / 2]];
     v = state / 2;
     if (state % 2 == 0) {
@@ -23230,6 +23230,7 @@ static sl_int sli_band_search(sli_band *w) {
     if ((w->kind[v] & SLI_BAND_LAST) != 0 && w->to[v] != SLI_BAND_END) {
       return v;
     }
+    w->e->steps -= 1 + e->begin[k + 1] - e->begin[k];
     if (w->from[v] != SLI_BAND_NONE) {
       tail = sli_band_push(w, state - 1, state, tail);
     }
@@ -23306,7 +23307,7 @@ static void sli_band_cut(sli_band *w) {
     sli_band_augment(w, last);
     paths++;
   }
-  if (paths < movable) {
+  if (paths < movable && w->e->steps > 0) {
     sli_band_apply(w);
   }
   for (k = 0; k < w->n; k++) {

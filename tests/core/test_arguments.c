@@ -191,6 +191,8 @@ CALL(reserve_refine, sl_work_reserve_refine(a->W, a->F, a->nrhs))
 CALL(reserve_selected, sl_work_reserve_selected(a->W, a->Z))
 CALL(reserve_region, sl_work_reserve_region(a->W, a->R, a->F))
 CREATE(symbolic, sl_symbolic, sl_symbolic_free, sl_symbolic_create(&out, a->A, NULL, &a->stats))
+CREATE(edit, sl_symbolic, sl_symbolic_free,
+       sl_symbolic_edit(&out, a->S, &o->good.M.view, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
 CREATE(transpose, sl_matrix, sl_matrix_free, sl_matrix_transpose(&out, a->A, NULL))
 CREATE(permute, sl_matrix, sl_matrix_free, sl_matrix_permute(&out, a->A, o->perm, NULL))
@@ -215,6 +217,7 @@ static const struct {
     {"sl_matrix_permute", permute, A_ | SQUARE_},
     {"sl_matrix_sum", sum, A_ | SQUARE_},
     {"sl_symbolic_create", symbolic, A_ | SQUARE_},
+    {"sl_symbolic_edit", edit, A_ | SQUARE_ | S_},
     {"sl_symbolic_scatter", scatter, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_create", factor, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_refactor", refactor, A_ | SQUARE_ | VALUES_ | F_},

@@ -29,7 +29,7 @@ typedef struct sli_edit {
     sl_int *to;
     uint64_t *list, *scratch; /* n_near each */
     int is_join;              /* of sli_edit_lowest: a common ancestor, not one of the nodes */
-    sl_off steps;             /* steps towards the roots that are still allowed */
+    sl_off steps;             /* steps of searches that are still allowed */
 
     unsigned char *mark; /* n_supers + 1: SLI_NODE_* */
     sl_int *weight;      /* n_supers + 1: active rows in the subtree */

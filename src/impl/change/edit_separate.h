@@ -179,7 +179,7 @@ static sl_int sli_band_search(sli_band *w) {
             tail = sli_band_push(w, 2 * v, -1, tail);
         }
     }
-    for (head = 0; head < tail; head++) {
+    for (head = 0; head < tail && w->e->steps > 0; head++) {
         const sl_int state = w->queue[head], k = e->number[w->row[state / 2]];
         v = state / 2;
         if (state % 2 == 0) { /* before v: through it, or back along the path that it is on */
@@ -193,6 +193,7 @@ static sl_int sli_band_search(sli_band *w) {
         if ((w->kind[v] & SLI_BAND_LAST) != 0 && w->to[v] != SLI_BAND_END) {
             return v;
         }
+        w->e->steps -= 1 + e->begin[k + 1] - e->begin[k];
         if (w->from[v] != SLI_BAND_NONE) {
             tail = sli_band_push(w, state - 1, state, tail);
         }
@@ -272,7 +273,7 @@ static void sli_band_cut(sli_band *w) {
         sli_band_augment(w, last);
         paths++;
     }
-    if (paths < movable) {
+    if (paths < movable && w->e->steps > 0) { /* the last search was complete */
         sli_band_apply(w);
     }
     for (k = 0; k < w->n; k++) {
