@@ -5,21 +5,26 @@
 
 #include "bench/lib/bench.h"
 
-/* Two factors of each system, in double and in float; the baseline is double. The accuracy is that
- * of k-harmonic systems for a known x: the componentwise backward error, and the largest error
- * relative to the largest x, after 0 to 3 steps of refinement. */
+/* Three factors of each system: in double, in double with L in float, and in float; the baseline is
+ * double. Solves are those with L in double and in float. The accuracy is that of k-harmonic
+ * systems for a known x: the componentwise backward error, and the largest error relative to the
+ * largest x, after 0 to 3 steps of refinement. */
 enum { QUERIES = 64, PATCHES = 16, PATCH = 1000, MAX_SYSTEMS = 4, STEPS = 3, ORDERS = 3 };
+enum { TYPES = SL_STORAGE_FLOAT_FRONTS + 1 };
 
-static const char *const names[2] = {"double", "float"};
+static const char *const names[TYPES] = {"double", "float", "float fronts"};
 
-/* The system with its factor in float in place of that in double. Release the factor. */
-static bench_system in_float(const bench_system *system, sl_stats *stats) {
+/* The system with its factor in float in place of that in double. Release the factor, which is NULL
+ * if float cannot tell a pivot from rounding. */
+static bench_system in_float(const bench_system *system, sl_storage storage, sl_stats *stats) {
     bench_system copy = *system;
     sl_options options;
     memset(&options, 0, sizeof options);
-    options.storage = SL_STORAGE_FLOAT;
+    options.storage = storage;
     copy.F = NULL;
-    bench_must(sl_factor_create(&copy.F, system->S, &system->A, &options, stats), "factor");
+    const sl_status status = sl_factor_create(&copy.F, system->S, &system->A, &options, stats);
+    bench_must(storage == SL_STORAGE_FLOAT_FRONTS && status == SL_ERR_PIVOT ? SL_OK : status,
+               "factor");
     return copy;
 }
 
@@ -29,10 +34,10 @@ static void call_refactor(void *state) {
 }
 
 static void race(bench_run *run, bench_report *report, const bench_system *system,
-                 bench_contender *contenders, bench_row row) {
-    bench_sample times[2];
-    bench_race(times, contenders, 2, run->seconds);
-    for (int k = 0; k < 2; k++) {
+                 bench_contender *contenders, int count, bench_row row) {
+    bench_sample times[TYPES];
+    bench_race(times, contenders, count, run->seconds);
+    for (int k = 0; k < count; k++) {
         row.method = names[k];
         row.time = times[k];
         row.baseline = times[0].median;
@@ -59,7 +64,7 @@ static void race_queries(bench_run *run, bench_report *report, bench_queries *co
     }
     if (passed) {
         bench_row_reach(&row, &reach);
-        race(run, report, q[0]->system, contenders, row);
+        race(run, report, q[0]->system, contenders, 2, row);
     }
 }
 
@@ -90,7 +95,7 @@ static void time_patches(bench_run *run, bench_report *report, const bench_syste
 }
 
 static void time_full(bench_run *run, bench_report *report, bench_system *systems) {
-    bench_contender contenders[2];
+    bench_contender contenders[TYPES];
     for (sl_int nrhs = 1; nrhs <= 8; nrhs *= 8) {
         bench_queries *q[2];
         bench_row row = {.what = "full solve", .nrhs = nrhs};
@@ -99,30 +104,32 @@ static void time_full(bench_run *run, bench_report *report, bench_system *system
             contenders[k] = (bench_contender){bench_call_full, q[k], 1, NULL};
         }
         bench_row_full(&row, &systems[0]);
-        race(run, report, &systems[0], contenders, row);
+        race(run, report, &systems[0], contenders, 2, row);
         bench_queries_free(q[0]);
         bench_queries_free(q[1]);
     }
     bench_row row = {.what = "refactor", .flops = systems[0].stats.symbolic.flops};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < TYPES; k++) {
         contenders[k] = (bench_contender){call_refactor, &systems[k], 1, NULL};
     }
-    race(run, report, &systems[0], contenders, row);
+    race(run, report, &systems[0], contenders, systems[TYPES - 1].F == NULL ? 2 : TYPES, row);
 }
 
 static void time_system(bench_run *run, bench_report *report, const bench_system *system) {
-    sl_stats full, single;
-    bench_system systems[2] = {*system, in_float(system, &single)};
+    sl_stats full, single, fronts;
+    bench_system systems[TYPES] = {*system, in_float(system, SL_STORAGE_FLOAT, &single),
+                                   in_float(system, SL_STORAGE_FLOAT_FRONTS, &fronts)};
     sl_factor_stats(system->F, &full);
     time_vertices(run, report, systems);
     time_patches(run, report, systems);
     time_full(run, report, systems);
     const double entries = (double)system->stats.symbolic.nnz_panels;
     bench_report_note(report,
-                      "%-14s   L: %.1f MB, in float %.1f MB; whole factor: %.1f and %.1f MB", "",
+                      "%-14s   L: %.1f MB, in float %.1f MB; whole factor: %.1f, %.1f, %.1f MB", "",
                       8e-6 * entries, 4e-6 * entries, 1e-6 * (double)full.factor.bytes,
-                      1e-6 * (double)single.factor.bytes);
+                      1e-6 * (double)single.factor.bytes, 1e-6 * (double)fronts.factor.bytes);
     sl_factor_free(systems[1].F);
+    sl_factor_free(systems[2].F);
 }
 
 static double largest_error(const double *x, const double *exact, size_t n) {
@@ -150,14 +157,15 @@ static double note_errors(bench_report *report, const bench_system *system, cons
         snprintf(text[steps], sizeof text[0], "%.0e %.0e", stats.refine.backward_error,
                  largest_error(x, exact, n));
     }
-    bench_report_note(report, "%-14s   %-6s  %s; %s; %s; %s", system->name, name, text[0], text[1],
+    bench_report_note(report, "%-14s   %-12s  %s; %s; %s; %s", system->name, name, text[0], text[1],
                       text[2], text[3]);
     return stats.refine.backward_error;
 }
 
 static void accuracy(bench_run *run, bench_report *report, const bench_system *system) {
     const size_t n = (size_t)system->n;
-    const bench_system single = in_float(system, NULL);
+    const bench_system single = in_float(system, SL_STORAGE_FLOAT, NULL);
+    const bench_system fronts = in_float(system, SL_STORAGE_FLOAT_FRONTS, NULL);
     double *exact = bench_alloc(n, sizeof *exact), *b = bench_alloc(n, sizeof *b);
     double *x = bench_alloc(n, sizeof *x), rcond;
     uint64_t rng = 5;
@@ -169,7 +177,13 @@ static void accuracy(bench_run *run, bench_report *report, const bench_system *s
     const double error = note_errors(report, &single, names[1], exact, b, x);
     bench_expect(run, error <= 1e-10 || rcond < 1e-12, "%s: refined backward error %.1e",
                  system->name, error);
+    if (fronts.F == NULL) {
+        bench_report_note(report, "%-14s   %-12s  refused", system->name, names[2]);
+    } else {
+        (void)note_errors(report, &fronts, names[2], exact, b, x);
+    }
     sl_factor_free(single.F);
+    sl_factor_free(fronts.F);
     free(exact);
     free(b);
     free(x);

@@ -110,6 +110,12 @@ static sl_status factor_float(fixture_t *f, const sl_options *opt) {
     return factor(f, &single);
 }
 
+static sl_status factor_float_fronts(fixture_t *f, const sl_options *opt) {
+    sl_options single = *opt;
+    single.storage = SL_STORAGE_FLOAT_FRONTS;
+    return factor(f, &single);
+}
+
 static sl_status lower(fixture_t *f, const sl_options *opt) {
     sl_matrix *M = GARBAGE(sl_matrix);
     return end_matrix(sl_factor_lower(&M, f->y.F, opt), &M);
@@ -330,7 +336,8 @@ static void every_allocation_may_fail(void **state) {
         {"sl_symbolic_create, natural", symbolic_natural},
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},
-        {"sl_factor_create, in float", factor_float},
+        {"sl_factor_create, L in float", factor_float},
+        {"sl_factor_create, fronts in float", factor_float_fronts},
         {"sl_factor_lower", lower},
         {"sl_factor_restrict", restrict_half},
         {"sl_factor_restrict, few rows", restrict_few},
