@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e0e3e125ae5e1220
+ * FNV-1a of the lines after this comment, without the license: d9464eaf1ae1639d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,78 +9,78 @@
  *    236 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    392 options.h    options of all calls, threads, and the allocator
  *    532 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    700 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    872 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1002 factor.h     the numerical factorization P A P' = L D L'
- *   1269 solve.h      full solves, and the workspace of all solves
- *   1379 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1473 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1586 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1699 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1835 batch.h      many independent solves by one call, distributed over threads
- *   1885 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2063 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2182 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2286 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2425 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2543 change.h     a factor that follows small changes of its matrix
- *   2630 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2720 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2852 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2901 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *    701 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    873 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1003 factor.h     the numerical factorization P A P' = L D L'
+ *   1284 solve.h      full solves, and the workspace of all solves
+ *   1394 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1488 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1601 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1714 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1850 batch.h      many independent solves by one call, distributed over threads
+ *   1900 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2078 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2197 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2301 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2440 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2558 change.h     a factor that follows small changes of its matrix
+ *   2645 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2735 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2867 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2916 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2953 base.h   3232 status.h   3293 options.h   3351 alloc.h   3461 hash.h   3591 file_map.h
- *   3688 sort.h   3752 parallel.h
+ *   2968 base.h   3247 status.h   3308 options.h   3366 alloc.h   3476 hash.h   3606 file_map.h
+ *   3703 sort.h   3767 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3835 panel.h   3857 step.h   3899 pivot_rule.h   3973 front.h   4032 pairs.h
- *   4239 inverse_front.h   4311 table.h   4332 simd.h   4421 simd_scalar_single.h
- *   4467 simd_scalar.h   4593 simd_avx2_single.h   4647 simd_avx2.h   4858 simd_avx512_single.h
- *   4909 simd_avx512.h   5027 simd_neon_single.h   5069 simd_neon.h   5276 dispatch.h
+ *   3850 panel.h   3872 step.h   3914 pivot_rule.h   3988 front.h   4047 pairs.h
+ *   4254 inverse_front.h   4326 table.h   4347 simd.h   4436 simd_scalar_single.h
+ *   4482 simd_scalar.h   4608 simd_avx2_single.h   4662 simd_avx2.h   4873 simd_avx512_single.h
+ *   4924 simd_avx512.h   5042 simd_neon_single.h   5084 simd_neon.h   5291 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5356 csc.h   5470 csc_build.h   5604 csc64.h   5675 csc_triangle.h   5741 csc_products.h
- *   5858 permute.h   5924 sum.h   6006 output_file.h   6215 matrix_market.h
+ *   5371 csc.h   5485 csc_build.h   5619 csc64.h   5690 csc_triangle.h   5756 csc_products.h
+ *   5873 permute.h   5939 sum.h   6021 output_file.h   6230 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6661 graph.h   6810 coarsen.h   7122 labels.h   7318 subgraph.h   7513 heap.h   7573 bisect.h
- *   7803 separator.h   8065 mindeg.h   8248 dissect.h   8580 levelset.h   8700 geometric.h
- *   8875 cells.h   9055 septree.h   9115 metis.h   9264 metis_refined.h   9378 nd.h
- *   9571 compress.h   9692 quotient.h  10106 order.h
+ *   6676 graph.h   6825 coarsen.h   7137 labels.h   7333 subgraph.h   7528 heap.h   7588 bisect.h
+ *   7818 separator.h   8080 mindeg.h   8263 dissect.h   8595 levelset.h   8715 geometric.h
+ *   8890 cells.h   9070 septree.h   9130 metis.h   9279 metis_refined.h   9393 nd.h
+ *   9586 compress.h   9707 quotient.h  10121 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10388 symbolic_types.h  10425 etree.h  10498 counts.h  10555 supernodes.h  10777 structure.h
- *  10898 schedule.h  11178 symbolic.h  11588 reach.h
+ *  10403 symbolic_types.h  10440 etree.h  10513 counts.h  10570 supernodes.h  10792 structure.h
+ *  10913 schedule.h  11193 symbolic.h  11603 reach.h
  * (factor: the numbers of L and D)
- *  11859 factor_types.h  12238 storage.h  12393 pivot_search.h  12739 pivoted.h  12807 scatter.h
- *  12965 uplooking.h  13037 null_product.h  13241 null_dense.h  13318 null_basis.h
- *  13626 null_vectors.h  13768 multifrontal.h  13944 front_tasks.h  14286 nullspace.h
- *  14489 growth.h  14565 factor_setup.h  14872 factor.h  15081 leftlooking.h  15265 factor_query.h
- *  15400 combination.h
+ *  11874 factor_types.h  12253 storage.h  12408 pivot_search.h  12754 pivoted.h  12822 scatter.h
+ *  12980 uplooking.h  13052 null_product.h  13256 null_dense.h  13333 null_basis.h
+ *  13641 null_vectors.h  13783 multifrontal.h  13959 front_tasks.h  14301 nullspace.h
+ *  14504 growth.h  14580 factor_setup.h  14888 factor.h  15098 leftlooking.h  15282 factor_query.h
+ *  15417 combination.h
  * (solve: full and local solves)
- *  15461 region_types.h  15565 work.h  15662 query.h  15836 singular.h  16103 backward.h
- *  16133 sweep.h  16319 compile.h  16512 plan.h  16619 local.h  16769 parts.h  17056 refine.h
- *  17235 refine_local.h  17450 rcond.h  17606 defects.h
+ *  15478 region_types.h  15582 work.h  15679 query.h  15853 singular.h  16120 backward.h
+ *  16150 sweep.h  16336 compile.h  16529 plan.h  16636 local.h  16786 parts.h  17073 refine.h
+ *  17252 refine_local.h  17467 rcond.h  17623 defects.h
  * (inverse: entries of the inverse, regions)
- *  17683 traversal.h  17928 traversal_run.h  18111 row_sets.h  18138 unit_vectors.h
- *  18365 bilinear.h  18542 entries.h  18823 block.h  19063 reserve.h  19255 selected.h
- *  19465 selected_query.h  19567 region_choose.h  19794 region.h
+ *  17700 traversal.h  17945 traversal_run.h  18128 row_sets.h  18155 unit_vectors.h
+ *  18382 bilinear.h  18559 entries.h  18840 block.h  19080 reserve.h  19272 selected.h
+ *  19482 selected_query.h  19584 region_choose.h  19811 region.h
  * (change: a factor that follows changes of its matrix)
- *  20042 update.h  20392 rank.h  20721 edges.h  20875 choose.h  21069 pins.h  21633 subset.h
- *  21740 restrict_analysis.h  22037 restrict_anew.h  22091 restrict_symbolic.h  22272 restrict.h
- *  22620 edit_match.h  22806 edit_place.h  23055 edit_separate.h  23368 edit_order.h
- *  23520 edit_graph.h  23615 edit_join.h  23891 edit.h
+ *  20059 update.h  20409 rank.h  20738 edges.h  20892 choose.h  21086 pins.h  21650 subset.h
+ *  21757 restrict_analysis.h  22054 restrict_anew.h  22108 restrict_symbolic.h  22289 restrict.h
+ *  22637 edit_match.h  22823 edit_place.h  23072 edit_separate.h  23385 edit_order.h
+ *  23537 edit_graph.h  23632 edit_join.h  23908 edit.h
  * (save: factors in files)
- *  24055 format.h  24351 decode.h  24499 check.h  24831 write.h  25136 load.h  25404 load_inverse.h
- *  25736 load_calls.h
+ *  24072 format.h  24368 decode.h  24516 check.h  24848 write.h  25153 load.h  25421 load_inverse.h
+ *  25753 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25935 batch_solve.h  26144 batch_factor.h  26345 batch_diagonal.h
+ *  25952 batch_solve.h  26161 batch_factor.h  26362 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26485 hermitian.h  26647 complex_rows.h
+ *  26502 hermitian.h  26664 complex_rows.h
  * (last: undefine every internal macro)
- *  26815 undef.h
+ *  26832 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27020 front.inl.h  27022 product.inl.h  27423 words_undef.inl.h  27503 multi_rhs.inl.h
- *  27886 sweeps.inl.h  27888 unit_triangle.inl.h  27925 two_rhs.inl.h  28094 small_supernode.inl.h
- *  28253 single_rhs.inl.h  28497 kernel_set.inl.h  28499 complex_small.inl.h
- *  28659 complex_rows.inl.h  28900 inverse_front.inl.h  29185 row.inl.h  29215 change.inl.h
+ *  27037 front.inl.h  27039 product.inl.h  27440 words_undef.inl.h  27520 multi_rhs.inl.h
+ *  27903 sweeps.inl.h  27905 unit_triangle.inl.h  27942 two_rhs.inl.h  28111 small_supernode.inl.h
+ *  28270 single_rhs.inl.h  28514 kernel_set.inl.h  28516 complex_small.inl.h
+ *  28676 complex_rows.inl.h  28917 inverse_front.inl.h  29202 row.inl.h  29232 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -690,8 +690,9 @@ typedef struct sl_stats {
     sl_change_info change;
     sl_restrict_info restriction;
     sl_edit_info edit;
+    sl_off storage; /* sl_storage of the factor; with the group factor */
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[10];
+    sl_off reserved[9];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -1056,6 +1057,20 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  - Solutions have a backward error of about 1e-7 to 1e-6 * growth before refinement: the rounding
  *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
  *    known to float's accuracy.
+ *    Refinement multiplies the error by about 1e-7 condition at most: 2 steps for harmonic systems
+ *    and heat with 1e6 rows. Measured as above, with the 5-point Laplacian for heat, M + t L:
+ *
+ *    | k, rows            | condition | no step    | 1 step       | 2 steps      | 3 steps      |
+ *    |--------------------|-----------|------------|--------------|--------------|--------------|
+ *    | heat, t 1, 1e6     | 9         | 1e-7, 2e-7 | 6e-14, 6e-14 | 3e-16, 4e-16 |              |
+ *    | the same, L alone in float | 9 | 6e-8, 2e-8 | 2e-15, 6e-16 | 2e-16, 4e-16 |              |
+ *    | heat, t 10, 1e6    | 80        | 2e-7, 2e-7 | 1e-13, 2e-13 | 3e-16, 9e-16 |              |
+ *    | 1 harmonic, 1e4    | 3e3       | 1e-7, 2e-6 | 6e-13, 4e-12 | 2e-16, 6e-15 |              |
+ *    | 1 harmonic, 1e5    | 3e4       | 1e-7, 8e-6 | 4e-12, 5e-11 | 3e-16, 1e-14 |              |
+ *    | 1 harmonic, 1e6    | 3e5       | 2e-7, 2e-5 | 1e-11, 7e-10 | 6e-16, 8e-14 | 3e-16, 4e-14 |
+ *    | 2 biharmonic, 1e4  | 9e6       | 1e-7, 3e-3 | 5e-10, 6e-6  | 1e-12, 2e-8  | 5e-15, 9e-11 |
+ *    | 2 biharmonic, 1e5; 3 triharmonic, 1e4 | 2e9; 3e10 | refused: SL_ERR_PIVOT |     |    |  |
+ *
  *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
  *    epsilon, at most 1/32, unless it is given, and SL_ERR_PIVOT says that a pivot is null in
  *    float. A may be regular in double. A pivot of a semidefinite matrix within rounding of 0,
@@ -14817,6 +14832,7 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   }
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
+  F->stats.storage = (sl_off)F->storage;
   return SL_OK;
 }
 
@@ -14923,6 +14939,7 @@ static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *
 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
   to->factor = from->factor;
+  to->storage = from->storage;
 }
 
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {

@@ -60,6 +60,20 @@
  *  - Solutions have a backward error of about 1e-7 to 1e-6 * growth before refinement: the rounding
  *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
  *    known to float's accuracy.
+ *    Refinement multiplies the error by about 1e-7 condition at most: 2 steps for harmonic systems
+ *    and heat with 1e6 rows. Measured as above, with the 5-point Laplacian for heat, M + t L:
+ *
+ *    | k, rows            | condition | no step    | 1 step       | 2 steps      | 3 steps      |
+ *    |--------------------|-----------|------------|--------------|--------------|--------------|
+ *    | heat, t 1, 1e6     | 9         | 1e-7, 2e-7 | 6e-14, 6e-14 | 3e-16, 4e-16 |              |
+ *    | the same, L alone in float | 9 | 6e-8, 2e-8 | 2e-15, 6e-16 | 2e-16, 4e-16 |              |
+ *    | heat, t 10, 1e6    | 80        | 2e-7, 2e-7 | 1e-13, 2e-13 | 3e-16, 9e-16 |              |
+ *    | 1 harmonic, 1e4    | 3e3       | 1e-7, 2e-6 | 6e-13, 4e-12 | 2e-16, 6e-15 |              |
+ *    | 1 harmonic, 1e5    | 3e4       | 1e-7, 8e-6 | 4e-12, 5e-11 | 3e-16, 1e-14 |              |
+ *    | 1 harmonic, 1e6    | 3e5       | 2e-7, 2e-5 | 1e-11, 7e-10 | 6e-16, 8e-14 | 3e-16, 4e-14 |
+ *    | 2 biharmonic, 1e4  | 9e6       | 1e-7, 3e-3 | 5e-10, 6e-6  | 1e-12, 2e-8  | 5e-15, 9e-11 |
+ *    | 2 biharmonic, 1e5; 3 triharmonic, 1e4 | 2e9; 3e10 | refused: SL_ERR_PIVOT |     |    |  |
+ *
  *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
  *    epsilon, at most 1/32, unless it is given, and SL_ERR_PIVOT says that a pivot is null in
  *    float. A may be regular in double. A pivot of a semidefinite matrix within rounding of 0,

@@ -163,8 +163,9 @@ typedef struct sl_stats {
     sl_change_info change;
     sl_restrict_info restriction;
     sl_edit_info edit;
+    sl_off storage; /* sl_storage of the factor; with the group factor */
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[10];
+    sl_off reserved[9];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

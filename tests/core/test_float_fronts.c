@@ -100,6 +100,7 @@ static void numbers_beyond_float_are_refused(void **state) {
     (void)state;
     sl_stats stats;
     SL_CHECK(factor_of_two(8e37, 1.0, 8e37, &stats));
+    assert_int_equal(stats.storage, SL_STORAGE_FLOAT_FRONTS);
     SL_EXPECT(SL_ERR_INACCURATE, factor_of_two(1.0, 9e37, 1.0, &stats));
     assert_int_equal(stats.error.row, 1); /* an entry of A */
     assert_int_equal(stats.error.column, 0);

@@ -66,6 +66,7 @@ static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *
 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
     to->factor = from->factor;
+    to->storage = from->storage;
 }
 
 static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {

@@ -284,6 +284,7 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     }
     F->stats.factor.isa = F->kernels->isa;
     F->stats.factor.method = F->method;
+    F->stats.storage = (sl_off)F->storage;
     return SL_OK;
 }
 

@@ -320,7 +320,8 @@ class Factor:
         stats = Stats()
         lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
         lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
-        return {"symbolic": _as_dict(stats.symbolic), "factor": _as_dict(stats.factor)}
+        return {"symbolic": _as_dict(stats.symbolic), "factor": _as_dict(stats.factor),
+                "storage": stats.storage}
 
     def __repr__(self):
         info = self.stats

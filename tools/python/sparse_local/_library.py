@@ -86,7 +86,7 @@ class Stats(ctypes.Structure):
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
-                ("edit", _EditInfo), ("reserved", _OFF * 10)]
+                ("edit", _EditInfo), ("storage", _OFF), ("reserved", _OFF * 9)]
 
 
 class SymbolicArrays(ctypes.Structure):
