@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d9464eaf1ae1639d
+ * FNV-1a of the lines after this comment, without the license: 23f566a6e58917f0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2945,7 +2945,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
  *           copy the analysis, and the order and analysis of the columns above the edit. Where
- *           0.1 % of a mesh of 1e6 vertices is remeshed, 1/12 or less of a new order and analysis.
+ *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
  *  Example  tests/core/test_edit.c

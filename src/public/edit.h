@@ -35,7 +35,7 @@
  *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
  *           copy the analysis, and the order and analysis of the columns above the edit. Where
- *           0.1 % of a mesh of 1e6 vertices is remeshed, 1/12 or less of a new order and analysis.
+ *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
  *  Example  tests/core/test_edit.c
