@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 23f566a6e58917f0
+ * FNV-1a of the lines after this comment, without the license: 062852d23ddaf87b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -13,74 +13,74 @@
  *    873 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1003 factor.h     the numerical factorization P A P' = L D L'
  *   1284 solve.h      full solves, and the workspace of all solves
- *   1394 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1488 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1601 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1714 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1850 batch.h      many independent solves by one call, distributed over threads
- *   1900 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2078 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2197 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2301 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2440 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2558 change.h     a factor that follows small changes of its matrix
- *   2645 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2735 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2867 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2916 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *   1396 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1490 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1603 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1716 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1852 batch.h      many independent solves by one call, distributed over threads
+ *   1902 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2080 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2199 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2303 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2442 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2560 change.h     a factor that follows small changes of its matrix
+ *   2647 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2737 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2869 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2918 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2968 base.h   3247 status.h   3308 options.h   3366 alloc.h   3476 hash.h   3606 file_map.h
- *   3703 sort.h   3767 parallel.h
+ *   2970 base.h   3249 status.h   3310 options.h   3368 alloc.h   3478 hash.h   3608 file_map.h
+ *   3705 sort.h   3769 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3850 panel.h   3872 step.h   3914 pivot_rule.h   3988 front.h   4047 pairs.h
- *   4254 inverse_front.h   4326 table.h   4347 simd.h   4436 simd_scalar_single.h
- *   4482 simd_scalar.h   4608 simd_avx2_single.h   4662 simd_avx2.h   4873 simd_avx512_single.h
- *   4924 simd_avx512.h   5042 simd_neon_single.h   5084 simd_neon.h   5291 dispatch.h
+ *   3896 panel.h   3918 step.h   3960 pivot_rule.h   4034 front.h   4093 pairs.h
+ *   4300 inverse_front.h   4372 table.h   4393 simd.h   4482 simd_scalar_single.h
+ *   4528 simd_scalar.h   4654 simd_avx2_single.h   4708 simd_avx2.h   4919 simd_avx512_single.h
+ *   4970 simd_avx512.h   5088 simd_neon_single.h   5130 simd_neon.h   5337 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5371 csc.h   5485 csc_build.h   5619 csc64.h   5690 csc_triangle.h   5756 csc_products.h
- *   5873 permute.h   5939 sum.h   6021 output_file.h   6230 matrix_market.h
+ *   5417 csc.h   5531 csc_build.h   5665 csc64.h   5736 csc_triangle.h   5802 csc_products.h
+ *   5919 permute.h   5985 sum.h   6067 output_file.h   6276 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6676 graph.h   6825 coarsen.h   7137 labels.h   7333 subgraph.h   7528 heap.h   7588 bisect.h
- *   7818 separator.h   8080 mindeg.h   8263 dissect.h   8595 levelset.h   8715 geometric.h
- *   8890 cells.h   9070 septree.h   9130 metis.h   9279 metis_refined.h   9393 nd.h
- *   9586 compress.h   9707 quotient.h  10121 order.h
+ *   6722 graph.h   6871 coarsen.h   7183 labels.h   7379 subgraph.h   7574 heap.h   7634 bisect.h
+ *   7864 separator.h   8126 mindeg.h   8309 dissect.h   8641 levelset.h   8761 geometric.h
+ *   8936 cells.h   9116 septree.h   9176 metis.h   9325 metis_refined.h   9439 nd.h
+ *   9632 compress.h   9753 quotient.h  10167 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10403 symbolic_types.h  10440 etree.h  10513 counts.h  10570 supernodes.h  10792 structure.h
- *  10913 schedule.h  11193 symbolic.h  11603 reach.h
+ *  10449 symbolic_types.h  10486 etree.h  10559 counts.h  10616 supernodes.h  10838 structure.h
+ *  10959 schedule.h  11239 symbolic.h  11649 reach.h
  * (factor: the numbers of L and D)
- *  11874 factor_types.h  12253 storage.h  12408 pivot_search.h  12754 pivoted.h  12822 scatter.h
- *  12980 uplooking.h  13052 null_product.h  13256 null_dense.h  13333 null_basis.h
- *  13641 null_vectors.h  13783 multifrontal.h  13959 front_tasks.h  14301 nullspace.h
- *  14504 growth.h  14580 factor_setup.h  14888 factor.h  15098 leftlooking.h  15282 factor_query.h
- *  15417 combination.h
+ *  11920 factor_types.h  12299 storage.h  12454 pivot_search.h  12800 pivoted.h  12868 scatter.h
+ *  13026 uplooking.h  13098 null_product.h  13302 null_dense.h  13379 null_basis.h
+ *  13687 null_vectors.h  13829 multifrontal.h  14005 front_tasks.h  14347 nullspace.h
+ *  14550 growth.h  14626 factor_setup.h  14934 factor.h  15144 leftlooking.h  15328 factor_query.h
+ *  15463 combination.h
  * (solve: full and local solves)
- *  15478 region_types.h  15582 work.h  15679 query.h  15853 singular.h  16120 backward.h
- *  16150 sweep.h  16336 compile.h  16529 plan.h  16636 local.h  16786 parts.h  17073 refine.h
- *  17252 refine_local.h  17467 rcond.h  17623 defects.h
+ *  15524 region_types.h  15628 work.h  15728 query.h  15902 singular.h  16169 backward.h
+ *  16199 sweep_tasks.h  16521 sweep.h  16731 compile.h  16924 plan.h  17031 local.h  17181 parts.h
+ *  17468 refine.h  17647 refine_local.h  17862 rcond.h  18018 defects.h
  * (inverse: entries of the inverse, regions)
- *  17700 traversal.h  17945 traversal_run.h  18128 row_sets.h  18155 unit_vectors.h
- *  18382 bilinear.h  18559 entries.h  18840 block.h  19080 reserve.h  19272 selected.h
- *  19482 selected_query.h  19584 region_choose.h  19811 region.h
+ *  18095 traversal.h  18340 traversal_run.h  18523 row_sets.h  18550 unit_vectors.h
+ *  18777 bilinear.h  18954 entries.h  19235 block.h  19475 reserve.h  19667 selected.h
+ *  19877 selected_query.h  19979 region_choose.h  20206 region.h
  * (change: a factor that follows changes of its matrix)
- *  20059 update.h  20409 rank.h  20738 edges.h  20892 choose.h  21086 pins.h  21650 subset.h
- *  21757 restrict_analysis.h  22054 restrict_anew.h  22108 restrict_symbolic.h  22289 restrict.h
- *  22637 edit_match.h  22823 edit_place.h  23072 edit_separate.h  23385 edit_order.h
- *  23537 edit_graph.h  23632 edit_join.h  23908 edit.h
+ *  20454 update.h  20804 rank.h  21133 edges.h  21287 choose.h  21481 pins.h  22045 subset.h
+ *  22152 restrict_analysis.h  22449 restrict_anew.h  22503 restrict_symbolic.h  22684 restrict.h
+ *  23032 edit_match.h  23218 edit_place.h  23467 edit_separate.h  23780 edit_order.h
+ *  23932 edit_graph.h  24027 edit_join.h  24303 edit.h
  * (save: factors in files)
- *  24072 format.h  24368 decode.h  24516 check.h  24848 write.h  25153 load.h  25421 load_inverse.h
- *  25753 load_calls.h
+ *  24467 format.h  24763 decode.h  24911 check.h  25243 write.h  25548 load.h  25816 load_inverse.h
+ *  26148 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  25952 batch_solve.h  26161 batch_factor.h  26362 batch_diagonal.h
+ *  26347 batch_solve.h  26556 batch_factor.h  26757 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26502 hermitian.h  26664 complex_rows.h
+ *  26897 hermitian.h  27059 complex_rows.h
  * (last: undefine every internal macro)
- *  26832 undef.h
+ *  27227 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27037 front.inl.h  27039 product.inl.h  27440 words_undef.inl.h  27520 multi_rhs.inl.h
- *  27903 sweeps.inl.h  27905 unit_triangle.inl.h  27942 two_rhs.inl.h  28111 small_supernode.inl.h
- *  28270 single_rhs.inl.h  28514 kernel_set.inl.h  28516 complex_small.inl.h
- *  28676 complex_rows.inl.h  28917 inverse_front.inl.h  29202 row.inl.h  29232 change.inl.h
+ *  27435 front.inl.h  27437 product.inl.h  27838 words_undef.inl.h  27918 multi_rhs.inl.h
+ *  28301 sweeps.inl.h  28303 unit_triangle.inl.h  28340 two_rhs.inl.h  28509 small_supernode.inl.h
+ *  28668 single_rhs.inl.h  28912 kernel_set.inl.h  28914 complex_small.inl.h
+ *  29074 complex_rows.inl.h  29315 inverse_front.inl.h  29600 row.inl.h  29630 change.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -427,7 +427,7 @@ typedef struct sl_allocator {
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
  *  |   sl_batch_factor                          | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
- *  | sl_selected_create                         | threads                                  |
+ *  | sl_selected_create, sl_work_create         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
  *  | sl_plan_create, sl_complex_plan_create     | region                                   |
  *  | sl_region_create                           | region_bytes                             |
@@ -1286,7 +1286,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 /** Creates an empty workspace for one thread. It grows when a call needs more and never shrinks.
  *
  *  out  [out]  the workspace, or NULL on error; release with sl_work_free.
- *  opt  [in]   allocator; may be NULL.
+ *  opt  [in]   allocator, threads: full solves with this workspace use them; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *opt);
@@ -1364,7 +1364,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_defects(sl_work *W, const sl_fac
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 8)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
- *  Threads  any number at once on one F, each with its own W.
+ *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
+ *           than 8, of a regular A are distributed over the threads that W was created with, with
+ *           the same bits; W then grows to twice the size, or to that for each thread.
  *  Example  tests/core/test_solve.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,
@@ -3837,6 +3839,50 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
 #endif
   for (k = 0; k < count; k++) {
     body(data, k);
+  }
+}
+
+#define SLI_PHASES_MAX 3
+
+typedef struct sli_phases {
+  void (*run)(void *data, sl_int phase, sl_int item, sl_int worker);
+  void *data;
+  sl_int count[SLI_PHASES_MAX];
+  sli_atomic lock, changes;
+  sl_int phase, next, done;
+} sli_phases;
+
+static void sli_phases_body(void *data, sl_int worker) {
+  sli_phases *p = (sli_phases *)data;
+  for (;;) {
+    sl_int phase, item = -1;
+    sli_atomic seen;
+    int turn;
+    sli_lock(&p->lock);
+    if (p->phase < SLI_PHASES_MAX && p->done == p->count[p->phase]) {
+      p->phase++;
+      p->next = p->done = 0;
+    }
+    phase = p->phase;
+    if (phase < SLI_PHASES_MAX && p->next < p->count[phase]) {
+      item = p->next++;
+    }
+    seen = p->changes;
+    sli_unlock(&p->lock);
+    if (phase == SLI_PHASES_MAX || p->count[phase] == 0) {
+      return;
+    }
+    if (item >= 0) {
+      p->run(p->data, phase, item, worker);
+      sli_lock(&p->lock);
+      p->done++;
+      sli_atomic_write(&p->changes, p->changes + 1);
+      sli_unlock(&p->lock);
+      continue;
+    }
+    for (turn = 0; sli_atomic_read(&p->changes) == seen; turn++) {
+      sli_pause(turn);
+    }
   }
 }
 
@@ -15583,6 +15629,7 @@ static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundar
 
 struct sl_work {
   sl_allocator allocator;
+  sl_threads threads;
   void *block;
   size_t size;
 };
@@ -15604,9 +15651,8 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
 
 static sl_work sli_work_own(const sl_allocator *a) {
   sl_work own;
+  memset(&own, 0, sizeof own);
   own.allocator = *a;
-  own.block = NULL;
-  own.size = 0;
   return own;
 }
 
@@ -15661,6 +15707,9 @@ SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
     return SL_ERR_MEMORY;
   }
   **out = sli_work_own(&a);
+  if (opt != NULL) {
+    (*out)->threads = opt->threads;
+  }
   return SL_OK;
 }
 
@@ -16147,6 +16196,328 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
              F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
+/* src/impl/solve/sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
+
+#if defined(SLI_SMALL_TASKS)
+#define SLI_SOLVE_ENTRIES 1
+#else
+#define SLI_SOLVE_ENTRIES 400000
+#endif
+#define SLI_SOLVE_TASKS 64
+
+typedef struct sli_sweep_task {
+  sl_int first, last;
+  sl_int slots;
+} sli_sweep_task;
+
+typedef struct sli_sweep_tasks {
+  const sl_factor *F;
+  const sli_query *q;
+  sl_int nrhs, workers;
+  sl_int n_tasks, n_tops, n_slots;
+  sli_sweep_task tasks[SLI_SOLVE_TASKS];
+  sl_int order[SLI_SOLVE_TASKS];
+  sl_int tops[SLI_SOLVE_TASKS];
+  double *X;
+  const double *B;
+  sli_dense x_at, b_at;
+  void *memory;
+  size_t bytes, total;
+  double *y, *scratch;
+  sl_int *slot_row;
+  sl_int *rows;
+} sli_sweep_tasks;
+
+SLI_INLINE sl_off sli_sweep_entries(const sl_symbolic *S, sl_int first, sl_int last) {
+  return S->panel_begin[last + 1] - S->panel_begin[first];
+}
+
+static void sli_sweep_tasks_add(sli_sweep_tasks *t, sl_int first, sl_int last, sl_off least) {
+  const sl_symbolic *S = t->F->S;
+  sl_int s = last;
+  while (s >= first) {
+    sl_int low = S->first_descendant[s];
+    while (low > first) {
+      const sl_int next = S->first_descendant[low - 1];
+      if (t->n_tasks < SLI_SOLVE_TASKS - 1 &&
+        (sli_sweep_entries(S, low, s) >= least ||
+         sli_sweep_entries(S, next, low - 1) >= least)) {
+        break;
+      }
+      low = next;
+    }
+    t->tasks[t->n_tasks].first = low;
+    t->tasks[t->n_tasks++].last = s;
+    s = low - 1;
+  }
+}
+
+static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_int *largest) {
+  const sl_symbolic *S = t->F->S;
+  double sum = 0.0, most = 0.0, tops = 0.0, most_tree = 0.0;
+  sl_int m;
+  *largest = -1;
+  for (m = 0; m < t->n_tops; m++) {
+    tops += (double)sli_sweep_entries(S, t->tops[m], t->tops[m]);
+  }
+  for (m = 0; m < t->n_tasks; m++) {
+    const sli_sweep_task *task = &t->tasks[m];
+    const double entries = (double)sli_sweep_entries(S, task->first, task->last);
+    sum += entries;
+    most = entries > most ? entries : most;
+    if (task->first < task->last && S->first_descendant[task->last] == task->first &&
+      entries > most_tree) {
+      most_tree = entries;
+      *largest = m;
+    }
+  }
+  return tops + (most > sum / workers ? most : sum / workers);
+}
+
+static double sli_sweep_tasks_divide(sli_sweep_tasks *t, sl_int workers) {
+  const sl_symbolic *S = t->F->S;
+  const sl_off least = S->panel_begin[S->n_supers] / (16 * (sl_off)workers);
+  sli_sweep_task kept[SLI_SOLVE_TASKS];
+  sl_int n_kept = 0, n_kept_tops = 0, at, step;
+  double best = (double)S->panel_begin[S->n_supers], path;
+  t->n_tasks = t->n_tops = 0;
+  sli_sweep_tasks_add(t, 0, S->n_supers - 1, least);
+  for (step = 0; step < SLI_SOLVE_TASKS / 2; step++) {
+    path = sli_sweep_tasks_path(t, workers, &at);
+    if (path < best) {
+      best = path;
+      memcpy(kept, t->tasks, sizeof kept);
+      n_kept = t->n_tasks;
+      n_kept_tops = t->n_tops;
+    }
+    if (at == -1 || t->n_tasks >= SLI_SOLVE_TASKS - 1) {
+      break;
+    }
+    t->tops[t->n_tops++] = t->tasks[at].last;
+    {
+      const sli_sweep_task tree = t->tasks[at];
+      t->tasks[at] = t->tasks[--t->n_tasks];
+      sli_sweep_tasks_add(t, tree.first, tree.last - 1, least);
+    }
+  }
+  memcpy(t->tasks, kept, sizeof kept);
+  t->n_tasks = n_kept;
+  t->n_tops = n_kept_tops;
+  return best;
+}
+
+SLI_INLINE sl_int sli_sweep_leaves_at(const sl_symbolic *S, sl_int s, sl_int end) {
+  const sl_off from = S->rows_begin[s], to = S->rows_begin[s + 1];
+  return to == from || S->rows[to - 1] < end
+         ? (sl_int)(to - from)
+         : sli_lower_bound(S->rows + from, (sl_int)(to - from), end);
+}
+
+static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
+  const sl_symbolic *S = t->F->S;
+  sl_int m, k, s;
+  for (m = 1; m < t->n_tasks; m++) {
+    const sli_sweep_task task = t->tasks[m];
+    for (k = m; k > 0 && t->tasks[k - 1].first > task.first; k--) {
+      t->tasks[k] = t->tasks[k - 1];
+    }
+    t->tasks[k] = task;
+  }
+  for (m = 1; m < t->n_tops; m++) {
+    const sl_int top = t->tops[m];
+    for (k = m; k > 0 && t->tops[k - 1] > top; k--) {
+      t->tops[k] = t->tops[k - 1];
+    }
+    t->tops[k] = top;
+  }
+  t->n_slots = 0;
+  for (m = 0; m < t->n_tasks; m++) {
+    sli_sweep_task *task = &t->tasks[m];
+    const sl_off size = sli_sweep_entries(S, task->first, task->last);
+    task->slots = t->n_slots;
+    for (s = task->first; s <= task->last; s++) {
+      t->n_slots +=
+        S->steps[s].below - sli_sweep_leaves_at(S, s, S->super_first[task->last + 1]);
+    }
+    for (k = m; k > 0 && sli_sweep_entries(S, t->tasks[t->order[k - 1]].first,
+                         t->tasks[t->order[k - 1]].last) < size;
+       k--) {
+      t->order[k] = t->order[k - 1];
+    }
+    t->order[k] = m;
+  }
+}
+
+static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
+  const sl_symbolic *S = t->F->S;
+  const uint64_t workers = (uint64_t)t->workers;
+  t->y = SLI_TAKE(b, double, (uint64_t)S->n + (uint64_t)t->n_slots);
+  t->scratch = SLI_TAKE(b, double, workers *sli_sweep_scratch(S->tallest, S->widest, 1));
+  t->slot_row = SLI_TAKE(b, sl_int, t->n_slots);
+  t->rows = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+}
+
+static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
+                 sl_int nrhs, const sl_threads *threads) {
+  const sl_symbolic *S = F->S;
+  sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
+  sli_block b = {NULL, 0, 0};
+  sl_int workers;
+  t->workers = 1;
+#if defined(SLI_ATOMIC)
+  workers = sli_workers(threads);
+#else
+  workers = 1;
+#endif
+  if (nrhs > 8) {
+    workers = sli_min(workers, sli_tiles(nrhs));
+    entries *= 8;
+  }
+  workers = entries < workers ? (sl_int)entries : workers;
+  if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
+    q->x_index != S->iperm || q->region != NULL || F->n_nulls > 0 || F->checks) {
+    return;
+  }
+  t->F = F;
+  t->q = q;
+  t->nrhs = nrhs;
+  if (nrhs > 8) {
+    t->bytes = sli_vectors_bytes(q, 8);
+    t->total = t->bytes > SIZE_MAX / (size_t)workers ? SIZE_MAX : t->bytes * (size_t)workers;
+    t->workers = workers;
+    return;
+  }
+  if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers] ||
+    t->n_tasks < 2) {
+    return;
+  }
+  sli_sweep_tasks_finish(t);
+  if (t->n_slots <= SLI_ROWS_MAX - S->n) {
+    t->workers = workers;
+    sli_sweep_tasks_layout(t, &b);
+    t->total = b.used;
+  }
+}
+
+static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
+  const sl_symbolic *S = t->F->S;
+  sl_int k;
+  for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
+    t->y[k] = t->B[(size_t)S->perm[k] * t->b_at.row];
+  }
+}
+
+static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
+  const sl_symbolic *S = t->F->S;
+  sl_int k;
+  for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
+    t->X[(size_t)S->perm[k] * t->x_at.row] = t->y[k];
+  }
+}
+
+static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int last,
+                  const sl_int *rows, double *scratch) {
+  const sl_symbolic *S = t->F->S;
+  if (first <= last) {
+    sli_forward_sweep(t->F, SLI_NRHS_1, last + 1 - first, S->steps + first,
+              rows == NULL ? S->rows + S->rows_begin[first] : rows, t->y, scratch);
+  }
+}
+
+static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_int last,
+                   double *scratch) {
+  const sl_symbolic *S = t->F->S;
+  sli_reach R = t->q->backward;
+  R.count = last + 1 - first;
+  R.steps = S->steps + first;
+  R.rows = S->rows + S->rows_begin[first];
+  R.n_rows = S->rows_begin[last + 1] - S->rows_begin[first];
+  sli_backward(t->F, &R, SLI_NRHS_1, t->y, scratch);
+}
+
+static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_task *task,
+                  double *scratch, sl_int *rows) {
+  const sl_symbolic *S = t->F->S;
+  const sl_int end = S->super_first[task->last + 1];
+  sl_int s, from = task->first, slot = task->slots, k;
+  sli_sweep_tasks_pack(t, task->first, task->last);
+  for (s = task->first; s <= task->last; s++) {
+    const sl_int below = S->steps[s].below, leaves = sli_sweep_leaves_at(S, s, end);
+    if (leaves == below) {
+      continue;
+    }
+    memcpy(rows, S->rows + S->rows_begin[s], (size_t)below * sizeof(sl_int));
+    for (k = leaves; k < below; k++) {
+      t->slot_row[slot] = rows[k];
+      rows[k] = S->n + slot++;
+      t->y[rows[k]] = -0.0;
+    }
+    sli_sweep_tasks_steps(t, from, s - 1, NULL, scratch);
+    sli_sweep_tasks_steps(t, s, s, rows, scratch);
+    from = s + 1;
+  }
+  sli_sweep_tasks_steps(t, from, task->last, NULL, scratch);
+}
+
+static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
+  sl_int m, k, at = 0;
+  for (m = 0; m < t->n_tops; m++) {
+    sli_sweep_tasks_pack(t, t->tops[m], t->tops[m]);
+  }
+  for (m = 0; m < t->n_tasks; m++) {
+    const sl_int last = m + 1 < t->n_tasks ? t->tasks[m + 1].slots : t->n_slots;
+    for (; at < t->n_tops && t->tops[at] < t->tasks[m].first; at++) {
+      sli_sweep_tasks_steps(t, t->tops[at], t->tops[at], NULL, scratch);
+    }
+    for (k = t->tasks[m].slots; k < last; k++) {
+      t->y[t->slot_row[k]] += t->y[t->F->S->n + k];
+    }
+  }
+  for (; at < t->n_tops; at++) {
+    sli_sweep_tasks_steps(t, t->tops[at], t->tops[at], NULL, scratch);
+  }
+  for (m = t->n_tops - 1; m >= 0; m--) {
+    sli_sweep_tasks_backward(t, t->tops[m], t->tops[m], scratch);
+    sli_sweep_tasks_unpack(t, t->tops[m], t->tops[m]);
+  }
+}
+
+static void sli_sweep_tasks_item(void *data, sl_int phase, sl_int item, sl_int worker) {
+  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  const sl_symbolic *S = t->F->S;
+  const sli_sweep_task *task = &t->tasks[t->order[item]];
+  double *scratch = t->scratch + (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1);
+  if (phase == 0) {
+    sli_sweep_tasks_forward(t, task, scratch, t->rows + (size_t)worker * (size_t)S->tallest);
+  } else if (phase == 1) {
+    sli_sweep_tasks_tops(t, scratch);
+  } else {
+    sli_sweep_tasks_backward(t, task->first, task->last, scratch);
+    sli_sweep_tasks_unpack(t, task->first, task->last);
+  }
+}
+
+static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
+                void (*run_block)(void *data, sl_int phase, sl_int item,
+                          sl_int worker)) {
+  sli_block b = {NULL, 0, 0};
+  sli_phases phases;
+  memset(&phases, 0, sizeof phases);
+  phases.data = t;
+  t->memory = memory;
+  if (t->nrhs > 8) {
+    phases.run = run_block;
+    phases.count[0] = sli_tiles(t->nrhs);
+  } else {
+    b.base = (unsigned char *)memory;
+    sli_sweep_tasks_layout(t, &b);
+    phases.run = sli_sweep_tasks_item;
+    phases.count[0] = phases.count[2] = t->n_tasks;
+    phases.count[1] = 1;
+  }
+  sli_parallel(threads, t->workers, sli_phases_body, &phases);
+}
+
 /* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
 
 static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, sl_int lanes) {
@@ -16269,17 +16640,34 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
   return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
+static void sli_sweep_tasks_block(void *data, sl_int phase, sl_int m, sl_int worker) {
+  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  const sl_int block = sli_min(8, t->nrhs - 8 * m);
+  (void)phase;
+  (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)m * 8 * t->x_at.column, t->x_at,
+               t->B + (size_t)m * 8 * t->b_at.column, t->b_at, block,
+               (unsigned char *)t->memory + (size_t)worker * t->bytes);
+}
+
 static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                  const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
   sl_work own;
   sl_status status;
+  sli_sweep_tasks t;
   if (nrhs == 0 || q->nx == 0) {
     return SL_OK;
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  status = sli_work_grow(W, sli_vectors_bytes(q, nrhs));
-  if (status == SL_OK) {
+  sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
+  status = sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs));
+  if (status == SL_OK && t.workers > 1) {
+    t.X = X;
+    t.x_at = x_at;
+    t.B = B;
+    t.b_at = b_at;
+    sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
+  } else if (status == SL_OK) {
     status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
   }
   sli_free(&own.allocator, own.block);
@@ -16326,11 +16714,18 @@ static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
   sli_query q;
+  sl_status status = SL_OK;
+  sl_int r;
   if (W == NULL || F == NULL || nrhs < 0) {
     return SL_ERR_ARGUMENT;
   }
   q = sli_query_all(F->S);
-  return sli_work_reserve(W, &q, nrhs);
+  for (r = 1; r <= nrhs && status == SL_OK; r += sli_max(nrhs - 1, 1)) {
+    sli_sweep_tasks t;
+    sli_sweep_tasks_plan(&t, F, &q, r, &W->threads);
+    status = sli_work_grow(W, t.workers > 1 ? t.total : 0);
+  }
+  return status == SL_OK ? sli_work_reserve(W, &q, nrhs) : status;
 }
 
 /* src/impl/solve/compile.h: compiles a b-set and an x-set into a query: sorting, reaches, row indices */
@@ -26852,6 +27247,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_USLEEP
 #undef SLI_WORKER_FLOPS
 #undef SLI_SMALL_TASKS
+#undef SLI_PHASES_MAX
+#undef SLI_SOLVE_ENTRIES
+#undef SLI_SOLVE_TASKS
 #undef SLI_ASSERT
 #undef SLI_HASH_STRIPE
 #undef SLI_HASH_1

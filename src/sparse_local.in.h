@@ -130,6 +130,7 @@ extern "C" {
 #include "impl/solve/query.h"
 #include "impl/solve/singular.h"
 #include "impl/solve/backward.h"
+#include "impl/solve/sweep_tasks.h"
 #include "impl/solve/sweep.h"
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"

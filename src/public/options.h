@@ -40,7 +40,7 @@ typedef struct sl_allocator {
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
  *  |   sl_batch_factor                          | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
- *  | sl_selected_create                         | threads                                  |
+ *  | sl_selected_create, sl_work_create         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
  *  | sl_plan_create, sl_complex_plan_create     | region                                   |
  *  | sl_region_create                           | region_bytes                             |

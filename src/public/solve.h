@@ -8,7 +8,7 @@
 /** Creates an empty workspace for one thread. It grows when a call needs more and never shrinks.
  *
  *  out  [out]  the workspace, or NULL on error; release with sl_work_free.
- *  opt  [in]   allocator; may be NULL.
+ *  opt  [in]   allocator, threads: full solves with this workspace use them; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY.
  */
 SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *opt);
@@ -86,7 +86,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_defects(sl_work *W, const sl_fac
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
  *           min(nrhs, 8)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
- *  Threads  any number at once on one F, each with its own W.
+ *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
+ *           than 8, of a regular A are distributed over the threads that W was created with, with
+ *           the same bits; W then grows to twice the size, or to that for each thread.
  *  Example  tests/core/test_solve.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,

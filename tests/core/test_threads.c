@@ -1,4 +1,4 @@
-/* test_threads.c: factorizations by several threads: the same bits, errors and memory */
+/* test_threads.c: factorizations and solves by several threads: the same bits, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SLI_SMALL_TASKS 1 /* small systems are divided too, small fronts into pieces */
@@ -224,6 +224,60 @@ static void every_allocation_may_fail(void **state) {
     factored_free(&y);
 }
 
+/* Full solves with the threads of the workspace: one right-hand side by subtrees, many by blocks.
+ * After a reserve call they allocate nothing. */
+static void solves_give_the_same_bits(void **state) {
+    (void)state;
+    enum { RHS = 20, COUNTS = 4 };
+    static const sl_int counts[COUNTS] = {1, 2, 3, 8}, some[COUNTS] = {1, 3, 9, RHS};
+    for (int kind = 0; kind < GEN_REGULAR; kind++) {
+        for (int size = 30; size <= 300; size *= 10) {
+            factored_t y = factored_make((gen_kind_t)kind, size, 0, 0, NULL);
+            const size_t n = (size_t)y.M.view.n_cols;
+            uint64_t seed = 5;
+            double *B = test_reals(n * RHS), *one = test_reals(n * RHS), *X = test_reals(n * RHS);
+            for (size_t k = 0; k < n * RHS; k++) {
+                B[k] = gen_real(&seed);
+            }
+            for (int c = 0; c < COUNTS * COUNTS * RUNS; c++) {
+                const sl_int nrhs = some[c % COUNTS];
+                int calls = 0;
+                counter_t counter = counter_make();
+                sl_options opt = options_with_threads(runs[c / COUNTS % RUNS],
+                                                      counts[c / COUNTS / RUNS], &calls);
+                sl_work *W = NULL;
+                opt.method = SL_METHOD_AUTO;
+                opt.allocator = options_counted(&counter).allocator;
+                SL_CHECK(sl_work_create(&W, &opt));
+                SL_CHECK(sl_work_reserve_factor(W, y.F, nrhs));
+                const size_t before = counter.calls;
+                SL_CHECK(sl_factor_solve(y.F, one, n, B, n, nrhs, NULL));
+                SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, W));
+                assert_memory_equal(X, one, n * (size_t)nrhs * sizeof *X);
+                memcpy(X, B, n * (size_t)nrhs * sizeof *X);
+                SL_CHECK(sl_factor_solve(y.F, X, n, X, n, nrhs, W));
+                assert_memory_equal(X, one, n * (size_t)nrhs * sizeof *X);
+                SL_CHECK(sl_factor_solve_interleaved(y.F, one, RHS, B, RHS, nrhs, NULL));
+                SL_CHECK(sl_factor_solve_interleaved(y.F, X, RHS, B, RHS, nrhs, W));
+                for (size_t k = 0; k < n; k++) {
+                    assert_memory_equal(X + RHS * k, one + RHS * k, (size_t)nrhs * sizeof *X);
+                }
+                SL_CHECK(sl_factor_solve(y.F, X, n, B, n, 1, W)); /* reserved too */
+                assert_int_equal(counter.calls, before);
+                if (kind == GEN_GRID2 && size == 300 && counts[c / COUNTS / RUNS] > 1) {
+                    assert_int_equal(calls, nrhs == 1 ? 4 : nrhs == 3 ? 1 : 4);
+                }
+                sl_work_free(W);
+                COUNTER_CLEAN(&counter);
+            }
+            free(X);
+            free(one);
+            free(B);
+            factored_free(&y);
+        }
+    }
+}
+
 static void unusual_thread_counts_are_handled(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
@@ -251,6 +305,7 @@ int main(void) {
         cmocka_unit_test(failures_in_large_fronts_are_reported),
         cmocka_unit_test(errors_do_not_depend_on_the_thread_count),
         cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(solves_give_the_same_bits),
         cmocka_unit_test(unusual_thread_counts_are_handled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -90,6 +90,52 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     }
 }
 
+#define SLI_PHASES_MAX 3
+
+/* Items that workers draw, phase after phase: a phase begins when all items of the one before are
+ * done. */
+typedef struct sli_phases {
+    void (*run)(void *data, sl_int phase, sl_int item, sl_int worker);
+    void *data;
+    sl_int count[SLI_PHASES_MAX]; /* items of each phase; 0: there are no more phases */
+    sli_atomic lock, changes;     /* lock: of what follows, and of changes, which counts items */
+    sl_int phase, next, done;
+} sli_phases;
+
+static void sli_phases_body(void *data, sl_int worker) {
+    sli_phases *p = (sli_phases *)data;
+    for (;;) {
+        sl_int phase, item = -1;
+        sli_atomic seen;
+        int turn;
+        sli_lock(&p->lock);
+        if (p->phase < SLI_PHASES_MAX && p->done == p->count[p->phase]) {
+            p->phase++;
+            p->next = p->done = 0;
+        }
+        phase = p->phase;
+        if (phase < SLI_PHASES_MAX && p->next < p->count[phase]) {
+            item = p->next++;
+        }
+        seen = p->changes;
+        sli_unlock(&p->lock);
+        if (phase == SLI_PHASES_MAX || p->count[phase] == 0) {
+            return;
+        }
+        if (item >= 0) {
+            p->run(p->data, phase, item, worker);
+            sli_lock(&p->lock);
+            p->done++;
+            sli_atomic_write(&p->changes, p->changes + 1);
+            sli_unlock(&p->lock);
+            continue;
+        }
+        for (turn = 0; sli_atomic_read(&p->changes) == seen; turn++) {
+            sli_pause(turn);
+        }
+    }
+}
+
 /* Where the range of worker k begins among the row tiles first .. last-1: the ranges have equal
  * length, or for a triangle, whose rows grow longer, equal area. */
 static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,

@@ -5,6 +5,7 @@
 #include "backward.h"
 #include "query.h"
 #include "singular.h"
+#include "sweep_tasks.h"
 
 /* Copies y to the backward vector in the columns that are in both reaches; the rest of that vector
  * is 0. */
@@ -138,18 +139,36 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
     return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
+/* Block m of 8 right-hand sides of a solve by several workers. */
+static void sli_sweep_tasks_block(void *data, sl_int phase, sl_int m, sl_int worker) {
+    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    const sl_int block = sli_min(8, t->nrhs - 8 * m);
+    (void)phase;
+    (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)m * 8 * t->x_at.column, t->x_at,
+                           t->B + (size_t)m * 8 * t->b_at.column, t->b_at, block,
+                           (unsigned char *)t->memory + (size_t)worker * t->bytes);
+}
+
 /* Solves a query in the caller's workspace, or in one of its own. */
 static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                                  const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
     sl_work own;
     sl_status status;
+    sli_sweep_tasks t;
     if (nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    status = sli_work_grow(W, sli_vectors_bytes(q, nrhs));
-    if (status == SL_OK) {
+    sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
+    status = sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs));
+    if (status == SL_OK && t.workers > 1) {
+        t.X = X;
+        t.x_at = x_at;
+        t.B = B;
+        t.b_at = b_at;
+        sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
+    } else if (status == SL_OK) {
         status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
     }
     sli_free(&own.allocator, own.block);
@@ -198,11 +217,18 @@ static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
     sli_query q;
+    sl_status status = SL_OK;
+    sl_int r;
     if (W == NULL || F == NULL || nrhs < 0) {
         return SL_ERR_ARGUMENT;
     }
     q = sli_query_all(F->S);
-    return sli_work_reserve(W, &q, nrhs);
+    for (r = 1; r <= nrhs && status == SL_OK; r += sli_max(nrhs - 1, 1)) { /* 1 and nrhs */
+        sli_sweep_tasks t;
+        sli_sweep_tasks_plan(&t, F, &q, r, &W->threads);
+        status = sli_work_grow(W, t.workers > 1 ? t.total : 0);
+    }
+    return status == SL_OK ? sli_work_reserve(W, &q, nrhs) : status;
 }
 
 #endif

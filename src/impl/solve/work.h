@@ -7,6 +7,7 @@
 
 struct sl_work {
     sl_allocator allocator;
+    sl_threads threads; /* of full solves */
     void *block; /* size bytes, 64-byte aligned; contents live for one call */
     size_t size;
 };
@@ -30,9 +31,8 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
 /* An empty workspace for one call. The caller releases its block. */
 static sl_work sli_work_own(const sl_allocator *a) {
     sl_work own;
+    memset(&own, 0, sizeof own);
     own.allocator = *a;
-    own.block = NULL;
-    own.size = 0;
     return own;
 }
 
@@ -92,6 +92,9 @@ SL_API sl_status sl_work_create(sl_work **out, const sl_options *opt) {
         return SL_ERR_MEMORY;
     }
     **out = sli_work_own(&a);
+    if (opt != NULL) {
+        (*out)->threads = opt->threads;
+    }
     return SL_OK;
 }
 

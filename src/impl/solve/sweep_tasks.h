@@ -1,0 +1,353 @@
+/* sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
+#ifndef SLI_SOLVE_SWEEP_TASKS_H
+#define SLI_SOLVE_SWEEP_TASKS_H
+
+#include "backward.h"
+#include "query.h"
+
+/* Each worker reads at least so many entries of L: about half a ms. */
+#if defined(SLI_SMALL_TASKS)
+#define SLI_SOLVE_ENTRIES 1
+#else
+#define SLI_SOLVE_ENTRIES 400000
+#endif
+#define SLI_SOLVE_TASKS 64
+
+/* Supernodes first .. last: whole trees whose parent, if any, is above. */
+typedef struct sli_sweep_task {
+    sl_int first, last;
+    sl_int slots; /* its first slot */
+} sli_sweep_task;
+
+/* A full solve. Workers take the subtrees in the forward sweep, one takes the supernodes above
+ * them in both sweeps, then workers take the subtrees in the backward sweep.
+ *
+ * In a forward sweep, many supernodes add to the same row above. Sums are rounded, so that they
+ * must be added in the order of supernodes: a subtree writes each number that leaves it to a slot,
+ * behind the vector. Kernels for one right-hand side add the whole contribution of a supernode to
+ * a row at once; a slot that begins as -0 then holds just that. Those for more do not.
+ *
+ * More than 8 right-hand sides are distributed by blocks of 8. */
+typedef struct sli_sweep_tasks {
+    const sl_factor *F;
+    const sli_query *q;
+    sl_int nrhs, workers;
+    sl_int n_tasks, n_tops, n_slots;
+    sli_sweep_task tasks[SLI_SOLVE_TASKS]; /* ascending */
+    sl_int order[SLI_SOLVE_TASKS];         /* the largest first */
+    sl_int tops[SLI_SOLVE_TASKS];          /* supernodes above the tasks */
+    double *X;
+    const double *B;
+    sli_dense x_at, b_at;
+    void *memory;
+    size_t bytes, total; /* of one worker's vectors where blocks are distributed; of everything */
+    double *y, *scratch; /* y: n + slots */
+    sl_int *slot_row;    /* slots: the row that each is added to */
+    sl_int *rows;        /* tallest, for each worker */
+} sli_sweep_tasks;
+
+SLI_INLINE sl_off sli_sweep_entries(const sl_symbolic *S, sl_int first, sl_int last) {
+    return S->panel_begin[last + 1] - S->panel_begin[first];
+}
+
+/* Adds the trees first .. last as tasks, from the last tree on. Trees of fewer than `least` entries
+ * are joined. */
+static void sli_sweep_tasks_add(sli_sweep_tasks *t, sl_int first, sl_int last, sl_off least) {
+    const sl_symbolic *S = t->F->S;
+    sl_int s = last;
+    while (s >= first) {
+        sl_int low = S->first_descendant[s];
+        while (low > first) {
+            const sl_int next = S->first_descendant[low - 1];
+            if (t->n_tasks < SLI_SOLVE_TASKS - 1 &&
+                (sli_sweep_entries(S, low, s) >= least ||
+                 sli_sweep_entries(S, next, low - 1) >= least)) {
+                break;
+            }
+            low = next;
+        }
+        t->tasks[t->n_tasks].first = low;
+        t->tasks[t->n_tasks++].last = s;
+        s = low - 1;
+    }
+}
+
+/* Entries that follow one another with so many workers, and the largest task that is a tree with
+ * children, or -1. */
+static double sli_sweep_tasks_path(const sli_sweep_tasks *t, sl_int workers, sl_int *largest) {
+    const sl_symbolic *S = t->F->S;
+    double sum = 0.0, most = 0.0, tops = 0.0, most_tree = 0.0;
+    sl_int m;
+    *largest = -1;
+    for (m = 0; m < t->n_tops; m++) {
+        tops += (double)sli_sweep_entries(S, t->tops[m], t->tops[m]);
+    }
+    for (m = 0; m < t->n_tasks; m++) {
+        const sli_sweep_task *task = &t->tasks[m];
+        const double entries = (double)sli_sweep_entries(S, task->first, task->last);
+        sum += entries;
+        most = entries > most ? entries : most;
+        if (task->first < task->last && S->first_descendant[task->last] == task->first &&
+            entries > most_tree) {
+            most_tree = entries;
+            *largest = m;
+        }
+    }
+    return tops + (most > sum / workers ? most : sum / workers);
+}
+
+/* Divides trees, the largest first, as long as that shortens the path, with a few steps beyond. */
+static double sli_sweep_tasks_divide(sli_sweep_tasks *t, sl_int workers) {
+    const sl_symbolic *S = t->F->S;
+    const sl_off least = S->panel_begin[S->n_supers] / (16 * (sl_off)workers);
+    sli_sweep_task kept[SLI_SOLVE_TASKS];
+    sl_int n_kept = 0, n_kept_tops = 0, at, step;
+    double best = (double)S->panel_begin[S->n_supers], path;
+    t->n_tasks = t->n_tops = 0;
+    sli_sweep_tasks_add(t, 0, S->n_supers - 1, least);
+    for (step = 0; step < SLI_SOLVE_TASKS / 2; step++) {
+        path = sli_sweep_tasks_path(t, workers, &at);
+        if (path < best) {
+            best = path;
+            memcpy(kept, t->tasks, sizeof kept);
+            n_kept = t->n_tasks;
+            n_kept_tops = t->n_tops;
+        }
+        if (at == -1 || t->n_tasks >= SLI_SOLVE_TASKS - 1) {
+            break;
+        }
+        t->tops[t->n_tops++] = t->tasks[at].last;
+        {
+            const sli_sweep_task tree = t->tasks[at];
+            t->tasks[at] = t->tasks[--t->n_tasks];
+            sli_sweep_tasks_add(t, tree.first, tree.last - 1, least);
+        }
+    }
+    memcpy(t->tasks, kept, sizeof kept);
+    t->n_tasks = n_kept;
+    t->n_tops = n_kept_tops;
+    return best;
+}
+
+/* The first row of supernode s, of those below it, that is `end` or later. */
+SLI_INLINE sl_int sli_sweep_leaves_at(const sl_symbolic *S, sl_int s, sl_int end) {
+    const sl_off from = S->rows_begin[s], to = S->rows_begin[s + 1];
+    return to == from || S->rows[to - 1] < end
+               ? (sl_int)(to - from)
+               : sli_lower_bound(S->rows + from, (sl_int)(to - from), end);
+}
+
+/* Sorts tasks and supernodes above them, and counts the slots. */
+static void sli_sweep_tasks_finish(sli_sweep_tasks *t) {
+    const sl_symbolic *S = t->F->S;
+    sl_int m, k, s;
+    for (m = 1; m < t->n_tasks; m++) {
+        const sli_sweep_task task = t->tasks[m];
+        for (k = m; k > 0 && t->tasks[k - 1].first > task.first; k--) {
+            t->tasks[k] = t->tasks[k - 1];
+        }
+        t->tasks[k] = task;
+    }
+    for (m = 1; m < t->n_tops; m++) {
+        const sl_int top = t->tops[m];
+        for (k = m; k > 0 && t->tops[k - 1] > top; k--) {
+            t->tops[k] = t->tops[k - 1];
+        }
+        t->tops[k] = top;
+    }
+    t->n_slots = 0;
+    for (m = 0; m < t->n_tasks; m++) {
+        sli_sweep_task *task = &t->tasks[m];
+        const sl_off size = sli_sweep_entries(S, task->first, task->last);
+        task->slots = t->n_slots;
+        for (s = task->first; s <= task->last; s++) {
+            t->n_slots +=
+                S->steps[s].below - sli_sweep_leaves_at(S, s, S->super_first[task->last + 1]);
+        }
+        for (k = m; k > 0 && sli_sweep_entries(S, t->tasks[t->order[k - 1]].first,
+                                               t->tasks[t->order[k - 1]].last) < size;
+             k--) {
+            t->order[k] = t->order[k - 1];
+        }
+        t->order[k] = m;
+    }
+}
+
+static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
+    const sl_symbolic *S = t->F->S;
+    const uint64_t workers = (uint64_t)t->workers;
+    t->y = SLI_TAKE(b, double, (uint64_t)S->n + (uint64_t)t->n_slots);
+    t->scratch = SLI_TAKE(b, double, workers *sli_sweep_scratch(S->tallest, S->widest, 1));
+    t->slot_row = SLI_TAKE(b, sl_int, t->n_slots);
+    t->rows = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+}
+
+/* Plans a solve by several workers. workers := 1 where one is as fast, or where rounding would
+ * differ. */
+static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
+                                 sl_int nrhs, const sl_threads *threads) {
+    const sl_symbolic *S = F->S;
+    sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
+    sli_block b = {NULL, 0, 0};
+    sl_int workers;
+    t->workers = 1;
+#if defined(SLI_ATOMIC)
+    workers = sli_workers(threads);
+#else
+    workers = 1;
+#endif
+    if (nrhs > 8) {
+        workers = sli_min(workers, sli_tiles(nrhs));
+        entries *= 8;
+    }
+    workers = entries < workers ? (sl_int)entries : workers;
+    if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
+        q->x_index != S->iperm || q->region != NULL || F->n_nulls > 0 || F->checks) {
+        return;
+    }
+    t->F = F;
+    t->q = q;
+    t->nrhs = nrhs;
+    if (nrhs > 8) {
+        t->bytes = sli_vectors_bytes(q, 8);
+        t->total = t->bytes > SIZE_MAX / (size_t)workers ? SIZE_MAX : t->bytes * (size_t)workers;
+        t->workers = workers;
+        return;
+    }
+    if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers] ||
+        t->n_tasks < 2) {
+        return;
+    }
+    sli_sweep_tasks_finish(t);
+    if (t->n_slots <= SLI_ROWS_MAX - S->n) {
+        t->workers = workers;
+        sli_sweep_tasks_layout(t, &b);
+        t->total = b.used;
+    }
+}
+
+/* y := P b in the columns of supernodes first .. last. */
+static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
+    const sl_symbolic *S = t->F->S;
+    sl_int k;
+    for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
+        t->y[k] = t->B[(size_t)S->perm[k] * t->b_at.row];
+    }
+}
+
+static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
+    const sl_symbolic *S = t->F->S;
+    sl_int k;
+    for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
+        t->X[(size_t)S->perm[k] * t->x_at.row] = t->y[k];
+    }
+}
+
+/* The forward sweep over supernodes first .. last, with other positions of the rows, or NULL. */
+static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int last,
+                                  const sl_int *rows, double *scratch) {
+    const sl_symbolic *S = t->F->S;
+    if (first <= last) {
+        sli_forward_sweep(t->F, SLI_NRHS_1, last + 1 - first, S->steps + first,
+                          rows == NULL ? S->rows + S->rows_begin[first] : rows, t->y, scratch);
+    }
+}
+
+static void sli_sweep_tasks_backward(const sli_sweep_tasks *t, sl_int first, sl_int last,
+                                     double *scratch) {
+    const sl_symbolic *S = t->F->S;
+    sli_reach R = t->q->backward;
+    R.count = last + 1 - first;
+    R.steps = S->steps + first;
+    R.rows = S->rows + S->rows_begin[first];
+    R.n_rows = S->rows_begin[last + 1] - S->rows_begin[first];
+    sli_backward(t->F, &R, SLI_NRHS_1, t->y, scratch);
+}
+
+/* The forward sweep over a task. */
+static void sli_sweep_tasks_forward(const sli_sweep_tasks *t, const sli_sweep_task *task,
+                                    double *scratch, sl_int *rows) {
+    const sl_symbolic *S = t->F->S;
+    const sl_int end = S->super_first[task->last + 1];
+    sl_int s, from = task->first, slot = task->slots, k;
+    sli_sweep_tasks_pack(t, task->first, task->last);
+    for (s = task->first; s <= task->last; s++) {
+        const sl_int below = S->steps[s].below, leaves = sli_sweep_leaves_at(S, s, end);
+        if (leaves == below) {
+            continue;
+        }
+        memcpy(rows, S->rows + S->rows_begin[s], (size_t)below * sizeof(sl_int));
+        for (k = leaves; k < below; k++) {
+            t->slot_row[slot] = rows[k];
+            rows[k] = S->n + slot++;
+            t->y[rows[k]] = -0.0;
+        }
+        sli_sweep_tasks_steps(t, from, s - 1, NULL, scratch);
+        sli_sweep_tasks_steps(t, s, s, rows, scratch);
+        from = s + 1;
+    }
+    sli_sweep_tasks_steps(t, from, task->last, NULL, scratch);
+}
+
+/* Both sweeps over the supernodes above the tasks, with what the tasks pass to them. */
+static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
+    sl_int m, k, at = 0;
+    for (m = 0; m < t->n_tops; m++) {
+        sli_sweep_tasks_pack(t, t->tops[m], t->tops[m]);
+    }
+    for (m = 0; m < t->n_tasks; m++) {
+        const sl_int last = m + 1 < t->n_tasks ? t->tasks[m + 1].slots : t->n_slots;
+        for (; at < t->n_tops && t->tops[at] < t->tasks[m].first; at++) {
+            sli_sweep_tasks_steps(t, t->tops[at], t->tops[at], NULL, scratch);
+        }
+        for (k = t->tasks[m].slots; k < last; k++) {
+            t->y[t->slot_row[k]] += t->y[t->F->S->n + k];
+        }
+    }
+    for (; at < t->n_tops; at++) {
+        sli_sweep_tasks_steps(t, t->tops[at], t->tops[at], NULL, scratch);
+    }
+    for (m = t->n_tops - 1; m >= 0; m--) {
+        sli_sweep_tasks_backward(t, t->tops[m], t->tops[m], scratch);
+        sli_sweep_tasks_unpack(t, t->tops[m], t->tops[m]);
+    }
+}
+
+static void sli_sweep_tasks_item(void *data, sl_int phase, sl_int item, sl_int worker) {
+    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    const sl_symbolic *S = t->F->S;
+    const sli_sweep_task *task = &t->tasks[t->order[item]];
+    double *scratch = t->scratch + (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1);
+    if (phase == 0) {
+        sli_sweep_tasks_forward(t, task, scratch, t->rows + (size_t)worker * (size_t)S->tallest);
+    } else if (phase == 1) {
+        sli_sweep_tasks_tops(t, scratch);
+    } else {
+        sli_sweep_tasks_backward(t, task->first, task->last, scratch);
+        sli_sweep_tasks_unpack(t, task->first, task->last);
+    }
+}
+
+/* Runs a planned solve in memory of t->total bytes; run_block solves a block of 8. */
+static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
+                                void (*run_block)(void *data, sl_int phase, sl_int item,
+                                                  sl_int worker)) {
+    sli_block b = {NULL, 0, 0};
+    sli_phases phases;
+    memset(&phases, 0, sizeof phases);
+    phases.data = t;
+    t->memory = memory;
+    if (t->nrhs > 8) {
+        phases.run = run_block;
+        phases.count[0] = sli_tiles(t->nrhs);
+    } else {
+        b.base = (unsigned char *)memory;
+        sli_sweep_tasks_layout(t, &b);
+        phases.run = sli_sweep_tasks_item;
+        phases.count[0] = phases.count[2] = t->n_tasks;
+        phases.count[1] = 1;
+    }
+    sli_parallel(threads, t->workers, sli_phases_body, &phases);
+}
+
+#endif
