@@ -1,86 +1,87 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 062852d23ddaf87b
+ * FNV-1a of the lines after this comment, without the license: 7ad00c5c255e8e9d
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     88 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    157 config.h     macros that a user may define before the include, the version, and the integer types
- *    236 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    392 options.h    options of all calls, threads, and the allocator
- *    532 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    701 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    873 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1003 factor.h     the numerical factorization P A P' = L D L'
- *   1284 solve.h      full solves, and the workspace of all solves
- *   1396 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1490 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1603 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1716 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1852 batch.h      many independent solves by one call, distributed over threads
- *   1902 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2080 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2199 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2303 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2442 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2560 change.h     a factor that follows small changes of its matrix
- *   2647 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2737 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2869 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2918 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *     89 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    158 config.h     macros that a user may define before the include, the version, and the integer types
+ *    237 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    393 options.h    options of all calls, threads, and the allocator
+ *    533 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    702 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    874 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1004 factor.h     the numerical factorization P A P' = L D L'
+ *   1285 solve.h      full solves, and the workspace of all solves
+ *   1398 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1492 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1605 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1718 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1854 batch.h      many independent solves by one call, distributed over threads
+ *   1904 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2082 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2201 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2305 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2444 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2562 change.h     a factor that follows small changes of its matrix
+ *   2649 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2739 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2871 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2920 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2970 base.h   3249 status.h   3310 options.h   3368 alloc.h   3478 hash.h   3608 file_map.h
- *   3705 sort.h   3769 parallel.h
+ *   2972 base.h   3251 status.h   3312 options.h   3370 alloc.h   3480 hash.h   3610 file_map.h
+ *   3707 sort.h   3771 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3896 panel.h   3918 step.h   3960 pivot_rule.h   4034 front.h   4093 pairs.h
- *   4300 inverse_front.h   4372 table.h   4393 simd.h   4482 simd_scalar_single.h
- *   4528 simd_scalar.h   4654 simd_avx2_single.h   4708 simd_avx2.h   4919 simd_avx512_single.h
- *   4970 simd_avx512.h   5088 simd_neon_single.h   5130 simd_neon.h   5337 dispatch.h
+ *   3898 panel.h   3920 step.h   3971 pivot_rule.h   4045 front.h   4104 pairs.h
+ *   4311 inverse_front.h   4383 table.h   4411 simd.h   4500 simd_scalar_single.h
+ *   4546 simd_scalar.h   4673 simd_avx2_single.h   4727 simd_avx2.h   4939 simd_avx512_single.h
+ *   4990 simd_avx512.h   5143 simd_neon_single.h   5185 simd_neon.h   5393 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5417 csc.h   5531 csc_build.h   5665 csc64.h   5736 csc_triangle.h   5802 csc_products.h
- *   5919 permute.h   5985 sum.h   6067 output_file.h   6276 matrix_market.h
+ *   5473 csc.h   5587 csc_build.h   5721 csc64.h   5792 csc_triangle.h   5858 csc_products.h
+ *   5975 permute.h   6041 sum.h   6123 output_file.h   6332 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6722 graph.h   6871 coarsen.h   7183 labels.h   7379 subgraph.h   7574 heap.h   7634 bisect.h
- *   7864 separator.h   8126 mindeg.h   8309 dissect.h   8641 levelset.h   8761 geometric.h
- *   8936 cells.h   9116 septree.h   9176 metis.h   9325 metis_refined.h   9439 nd.h
- *   9632 compress.h   9753 quotient.h  10167 order.h
+ *   6778 graph.h   6927 coarsen.h   7239 labels.h   7435 subgraph.h   7630 heap.h   7690 bisect.h
+ *   7920 separator.h   8182 mindeg.h   8365 dissect.h   8697 levelset.h   8817 geometric.h
+ *   8992 cells.h   9172 septree.h   9232 metis.h   9381 metis_refined.h   9495 nd.h
+ *   9688 compress.h   9809 quotient.h  10223 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10449 symbolic_types.h  10486 etree.h  10559 counts.h  10616 supernodes.h  10838 structure.h
- *  10959 schedule.h  11239 symbolic.h  11649 reach.h
+ *  10505 symbolic_types.h  10542 etree.h  10615 counts.h  10672 supernodes.h  10894 structure.h
+ *  11015 schedule.h  11295 symbolic.h  11705 reach.h
  * (factor: the numbers of L and D)
- *  11920 factor_types.h  12299 storage.h  12454 pivot_search.h  12800 pivoted.h  12868 scatter.h
- *  13026 uplooking.h  13098 null_product.h  13302 null_dense.h  13379 null_basis.h
- *  13687 null_vectors.h  13829 multifrontal.h  14005 front_tasks.h  14347 nullspace.h
- *  14550 growth.h  14626 factor_setup.h  14934 factor.h  15144 leftlooking.h  15328 factor_query.h
- *  15463 combination.h
+ *  11976 factor_types.h  12355 storage.h  12510 pivot_search.h  12856 pivoted.h  12924 scatter.h
+ *  13082 uplooking.h  13154 null_product.h  13358 null_dense.h  13435 null_basis.h
+ *  13743 null_vectors.h  13885 multifrontal.h  14061 front_tasks.h  14403 nullspace.h
+ *  14606 growth.h  14682 factor_setup.h  14990 factor.h  15200 leftlooking.h  15384 factor_query.h
+ *  15519 combination.h
  * (solve: full and local solves)
- *  15524 region_types.h  15628 work.h  15728 query.h  15902 singular.h  16169 backward.h
- *  16199 sweep_tasks.h  16521 sweep.h  16731 compile.h  16924 plan.h  17031 local.h  17181 parts.h
- *  17468 refine.h  17647 refine_local.h  17862 rcond.h  18018 defects.h
+ *  15580 region_types.h  15684 work.h  15784 query.h  15994 singular.h  16261 backward.h
+ *  16291 sweep_tasks.h  16618 sweep.h  16830 compile.h  17023 plan.h  17130 local.h  17282 parts.h
+ *  17571 refine.h  17750 refine_local.h  17966 rcond.h  18122 defects.h
  * (inverse: entries of the inverse, regions)
- *  18095 traversal.h  18340 traversal_run.h  18523 row_sets.h  18550 unit_vectors.h
- *  18777 bilinear.h  18954 entries.h  19235 block.h  19475 reserve.h  19667 selected.h
- *  19877 selected_query.h  19979 region_choose.h  20206 region.h
+ *  18200 traversal.h  18445 traversal_run.h  18628 row_sets.h  18655 unit_vectors.h
+ *  18882 bilinear.h  19059 entries.h  19340 block.h  19580 reserve.h  19772 selected.h
+ *  19982 selected_query.h  20084 region_choose.h  20311 region.h
  * (change: a factor that follows changes of its matrix)
- *  20454 update.h  20804 rank.h  21133 edges.h  21287 choose.h  21481 pins.h  22045 subset.h
- *  22152 restrict_analysis.h  22449 restrict_anew.h  22503 restrict_symbolic.h  22684 restrict.h
- *  23032 edit_match.h  23218 edit_place.h  23467 edit_separate.h  23780 edit_order.h
- *  23932 edit_graph.h  24027 edit_join.h  24303 edit.h
+ *  20559 update.h  20909 rank.h  21238 edges.h  21392 choose.h  21586 pins.h  22150 subset.h
+ *  22257 restrict_analysis.h  22554 restrict_anew.h  22608 restrict_symbolic.h  22789 restrict.h
+ *  23137 edit_match.h  23323 edit_place.h  23572 edit_separate.h  23885 edit_order.h
+ *  24037 edit_graph.h  24132 edit_join.h  24408 edit.h
  * (save: factors in files)
- *  24467 format.h  24763 decode.h  24911 check.h  25243 write.h  25548 load.h  25816 load_inverse.h
- *  26148 load_calls.h
+ *  24572 format.h  24868 decode.h  25016 check.h  25348 write.h  25653 load.h  25921 load_inverse.h
+ *  26253 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26347 batch_solve.h  26556 batch_factor.h  26757 batch_diagonal.h
+ *  26452 batch_solve.h  26661 batch_factor.h  26862 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  26897 hermitian.h  27059 complex_rows.h
+ *  27002 hermitian.h  27164 complex_rows.h
  * (last: undefine every internal macro)
- *  27227 undef.h
+ *  27332 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27435 front.inl.h  27437 product.inl.h  27838 words_undef.inl.h  27918 multi_rhs.inl.h
- *  28301 sweeps.inl.h  28303 unit_triangle.inl.h  28340 two_rhs.inl.h  28509 small_supernode.inl.h
- *  28668 single_rhs.inl.h  28912 kernel_set.inl.h  28914 complex_small.inl.h
- *  29074 complex_rows.inl.h  29315 inverse_front.inl.h  29600 row.inl.h  29630 change.inl.h
+ *  27542 front.inl.h  27544 product.inl.h  27945 words_undef.inl.h  28025 multi_rhs.inl.h
+ *  28502 sweeps.inl.h  28504 unit_triangle.inl.h  28541 two_rhs.inl.h  28710 small_supernode.inl.h
+ *  28869 single_rhs.inl.h  29113 kernel_set.inl.h  29115 complex_small.inl.h
+ *  29275 complex_rows.inl.h  29516 inverse_front.inl.h  29801 row.inl.h  29831 change.inl.h
+ *  29895 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1355,14 +1356,15 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_defects(sl_work *W, const sl_fac
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A.
  *                May be B itself (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 8; a block
- *                takes as long as two to three single solves.
+ *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 32, then 16,
+ *                then up to 8, for which a solution has the same bits. 8 take as long as two to
+ *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: a column of B
  *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
  *           could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
- *           min(nrhs, 8)). If consistency is checked, right-hand sides beyond the eighth take an
+ *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with
@@ -3931,7 +3933,16 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
   return s->width - SLI_TILE * s->first_tile;
 }
 
-enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
+enum {
+  SLI_NRHS_1,
+  SLI_NRHS_2,
+  SLI_NRHS_4,
+  SLI_NRHS_8,
+  SLI_NRHS_16,
+  SLI_NRHS_32,
+  SLI_SWEEP_KINDS,
+  SLI_NRHS_KINDS = SLI_NRHS_16
+};
 
 typedef void (*sli_forward_kernel)(sl_int count, const sli_step *steps, const sl_int *rows,
                    const void *L, double *x, double *scratch);
@@ -3940,8 +3951,8 @@ typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const s
                   const void *L, const double *D, double *x, double *scratch);
 
 typedef struct sli_sweeps {
-  sli_forward_kernel forward[SLI_NRHS_KINDS];
-  sli_backward_kernel backward[SLI_NRHS_KINDS];
+  sli_forward_kernel forward[SLI_SWEEP_KINDS];
+  sli_backward_kernel backward[SLI_SWEEP_KINDS];
 } sli_sweeps;
 
 typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_int *rows,
@@ -4377,12 +4388,19 @@ typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, do
 typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
                     double *w);
 
+typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
+                const double *M, size_t ldm);
+typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
+                  const sl_int *index, sl_int count);
+
 typedef struct sli_kernels {
   sl_isa isa;
   sli_sweeps sweeps[3];
   sli_row_kernel row;
   sli_front_kernels fronts[2];
   sli_products_kernel products;
+  sli_interleave_kernel interleave;
+  sli_separate_kernel separate;
   sli_gather_kernel gather;
   sli_inverse_phase_kernel inverse_phase;
   sli_takahashi_kernel takahashi;
@@ -4634,6 +4652,7 @@ typedef struct sli_kernels {
 #include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_scalar
+#define SLW_GROUPS
 #define SLW_NRHS 8
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
@@ -4882,6 +4901,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_DIVIDE
 
 #define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_GROUPS
 #define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_NRHS 8
 #define SLW_ROWS 4
@@ -5070,8 +5090,43 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLW_GROUPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+#define SLW_NAME(f) sli_##f##16_avx512
+#define SLW_GROUPS
+#define SLW_NRHS 16
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m512d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm512_loadu_pd(p), a##_1 = _mm512_loadu_pd((p) + 8);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const __m512d s_ = _mm512_set1_pd(s); \
+    a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
+    a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = _mm512_add_pd(a##_0, b##_0), a##_1 = _mm512_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
+  a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#undef SLW_NAME
+#undef SLW_NRHS
+#undef SLW_GROUPS
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
@@ -5293,6 +5348,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_DIVIDE
 
 #define SLW_NAME(f) sli_##f##8_neon
+#define SLW_GROUPS
 #define SLW_HALF(f) sli_##f##4_neon
 #define SLW_NRHS 8
 #define SLW_ROWS 4
@@ -15761,10 +15817,23 @@ SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
-  return nrhs <= 1   ? SLI_NRHS_1
-       : nrhs == 2 ? SLI_NRHS_2
-       : nrhs <= 4 ? SLI_NRHS_4
-             : SLI_NRHS_8;
+  return nrhs <= 1    ? SLI_NRHS_1
+       : nrhs == 2  ? SLI_NRHS_2
+       : nrhs <= 4  ? SLI_NRHS_4
+       : nrhs <= 8  ? SLI_NRHS_8
+       : nrhs <= 16 ? SLI_NRHS_16
+            : SLI_NRHS_32;
+}
+
+SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
+  return sli_min(nrhs, most) >= 32 ? 32 : sli_min(nrhs, most) >= 16 ? 16 : sli_min(nrhs, 8);
+}
+
+#define SLI_BLOCK_MOST 32
+SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
+  return F->n_nulls > 0 || F->checks || F->is_centered || F->storage == SL_STORAGE_COMPLEX
+         ? 8
+         : SLI_BLOCK_MOST;
 }
 
 typedef struct sli_vectors {
@@ -15784,11 +15853,11 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
   v->scratch = SLI_TAKE(b, double, most > across ? most : across);
 }
 
-static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
+static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
   sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
   sli_vectors v;
   sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
-  sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
+  sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
   return few.used > many.used ? few.used : many.used;
 }
 
@@ -15862,18 +15931,31 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
   }
 }
 
-static void sli_pack(const sli_query *q, double *y, const double *B, sli_dense at, sl_int lanes,
-           sl_int nrhs) {
+#define SLI_PACK_CHUNK 1024
+
+static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, const double *B,
+           sli_dense at, sl_int lanes, sl_int nrhs) {
   const sl_int *index = q->b_index, count = q->nb;
   if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
     memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
   }
   if (q->b_repeats) {
     sli_pack_sums(y, lanes, index, count, B, at, nrhs);
-  } else if (nrhs == 8 && at.row == 1) {
-    sli_pack_rows(y, 8, index, count, B, sli_dense_of(SLI_COLUMN_MAJOR, at.column), 8);
-  } else if (nrhs == 8) {
-    sli_pack_rows(y, 8, index, count, B, sli_dense_of(SLI_INTERLEAVED, at.row), 8);
+  } else if (nrhs % 8 == 0 && at.row == 1) {
+    sl_int first, r;
+    for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+      for (r = 0; r < nrhs; r += 8) {
+        kernels->interleave(y + r, lanes, index + first,
+                  sli_min(SLI_PACK_CHUNK, count - first),
+                  B + (size_t)first + (size_t)r * at.column, at.column);
+      }
+    }
+  } else if (nrhs % 8 == 0) {
+    sl_int r;
+    for (r = 0; r < nrhs; r += 8) {
+      sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_of(SLI_INTERLEAVED, at.row),
+              8);
+    }
   } else if (nrhs == 3) {
     sli_pack_rows(y, 4, index, count, B, at, 3);
   } else if (nrhs == 1) {
@@ -15883,13 +15965,23 @@ static void sli_pack(const sli_query *q, double *y, const double *B, sli_dense a
   }
 }
 
-static void sli_unpack(const sli_query *q, double *X, sli_dense at, const double *x, sl_int lanes,
-             sl_int nrhs) {
+static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X, sli_dense at,
+             const double *x, sl_int lanes, sl_int nrhs) {
   const sl_int *index = q->x_index, count = q->nx;
-  if (nrhs == 8 && at.row == 1) {
-    sli_unpack_rows(X, sli_dense_of(SLI_COLUMN_MAJOR, at.column), x, 8, index, count, 8);
-  } else if (nrhs == 8) {
-    sli_unpack_rows(X, sli_dense_of(SLI_INTERLEAVED, at.row), x, 8, index, count, 8);
+  if (nrhs % 8 == 0 && at.row == 1) {
+    sl_int first, r;
+    for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+      for (r = 0; r < nrhs; r += 8) {
+        kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
+                  lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+      }
+    }
+  } else if (nrhs % 8 == 0) {
+    sl_int r;
+    for (r = 0; r < nrhs; r += 8) {
+      sli_unpack_rows(X + r, sli_dense_of(SLI_INTERLEAVED, at.row), x + r, lanes, index,
+              count, 8);
+    }
   } else if (nrhs == 3) {
     sli_unpack_rows(X, at, x, 4, index, count, 3);
   } else if (nrhs == 1) {
@@ -16214,6 +16306,7 @@ typedef struct sli_sweep_tasks {
   const sl_factor *F;
   const sli_query *q;
   sl_int nrhs, workers;
+  sl_int share;
   sl_int n_tasks, n_tops, n_slots;
   sli_sweep_task tasks[SLI_SOLVE_TASKS];
   sl_int order[SLI_SOLVE_TASKS];
@@ -16382,7 +16475,11 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   t->q = q;
   t->nrhs = nrhs;
   if (nrhs > 8) {
-    t->bytes = sli_vectors_bytes(q, 8);
+    t->share = 8;
+    while (2 * t->share * workers <= nrhs && t->share < sli_block_most(F)) {
+      t->share *= 2;
+    }
+    t->bytes = sli_vectors_bytes(q, t->share, sli_block_most(F));
     t->total = t->bytes > SIZE_MAX / (size_t)workers ? SIZE_MAX : t->bytes * (size_t)workers;
     t->workers = workers;
     return;
@@ -16507,7 +16604,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
   t->memory = memory;
   if (t->nrhs > 8) {
     phases.run = run_block;
-    phases.count[0] = sli_tiles(t->nrhs);
+    phases.count[0] = (t->nrhs - 1) / t->share + 1;
   } else {
     b.base = (unsigned char *)memory;
     sli_sweep_tasks_layout(t, &b);
@@ -16518,7 +16615,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
   sli_parallel(threads, t->workers, sli_phases_body, &phases);
 }
 
-/* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
+/* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of right-hand sides */
 
 static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, sl_int lanes) {
   sli_intersection m = sli_intersection_of(&q->forward, &q->backward);
@@ -16571,7 +16668,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
               const double *B, sli_dense at, sl_int nrhs) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   double norms[SLI_TILE];
-  sli_pack(q, v->y, B, at, lanes, nrhs);
+  sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
   if (F->checks) {
     sli_norms(&q->forward, v->y, lanes, norms);
     if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
@@ -16617,16 +16714,17 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const d
 
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                   const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
-  sl_int r;
-  for (r = 0; r < nrhs; r += 8) {
-    const sl_int block = sli_min(8, nrhs - r);
-    const sli_vectors v = sli_vectors_of(q, block, memory);
+  sl_int r, block;
+  for (r = 0; r < nrhs; r += block) {
+    sli_vectors v;
+    block = sli_block_size(nrhs - r, sli_block_most(F));
+    v = sli_vectors_of(q, block, memory);
     if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
       return SL_ERR_INCONSISTENT;
     }
     sli_sweep_backward(F, q, &v, block);
-    sli_unpack(q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << sli_lanes_kind(block),
-           block);
+    sli_unpack(q, F->kernels, X + (size_t)r * x_at.column, x_at, v.x,
+           (sl_int)1 << sli_lanes_kind(block), block);
   }
   return SL_OK;
 }
@@ -16642,10 +16740,10 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
 
 static void sli_sweep_tasks_block(void *data, sl_int phase, sl_int m, sl_int worker) {
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-  const sl_int block = sli_min(8, t->nrhs - 8 * m);
+  const sl_int first = m * t->share, count = sli_min(t->share, t->nrhs - first);
   (void)phase;
-  (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)m * 8 * t->x_at.column, t->x_at,
-               t->B + (size_t)m * 8 * t->b_at.column, t->b_at, block,
+  (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)first * t->x_at.column, t->x_at,
+               t->B + (size_t)first * t->b_at.column, t->b_at, count,
                (unsigned char *)t->memory + (size_t)worker * t->bytes);
 }
 
@@ -16660,7 +16758,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
-  status = sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs));
+  status = sli_work_grow(W, t.workers > 1 ? t.total
+                      : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
   if (status == SL_OK && t.workers > 1) {
     t.X = X;
     t.x_at = x_at;
@@ -16709,7 +16808,7 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
 }
 
 static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-  return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0);
+  return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs, SLI_BLOCK_MOST) : 0);
 }
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
@@ -17075,7 +17174,9 @@ static void sli_local_compile(void *data) {
 static void sli_local_layout_vectors(void *data, sli_block *b) {
   sli_local *l = (sli_local *)data;
   const size_t bytes =
-    l->status == SL_OK && l->nrhs > 0 ? sli_vectors_bytes(&l->query, l->nrhs) : 0;
+    l->status == SL_OK && l->nrhs > 0
+      ? sli_vectors_bytes(&l->query, l->nrhs, SLI_BLOCK_MOST)
+      : 0;
   l->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
@@ -17205,7 +17306,7 @@ static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int 
 }
 
 static void sli_parts_layout(sli_parts *p, sli_block *b, sl_int nrhs) {
-  p->memory = SLI_TAKE(b, unsigned char, sli_vectors_bytes(&p->q, nrhs));
+  p->memory = SLI_TAKE(b, unsigned char, sli_vectors_bytes(&p->q, nrhs, 8));
   p->steps = SLI_TAKE(b, sli_step, p->q.backward.count);
   p->ones = SLI_TAKE(b, double, p->q.backward.widest);
   p->identity = SLI_TAKE(b, sl_int, p->q.forward.columns);
@@ -17358,9 +17459,11 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
     const sl_int block = sli_min(8, nrhs - r);
     const int kind = sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);
-    sli_pack(&p->q, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind, block);
+    sli_pack(&p->q, p->F->kernels, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind,
+         block);
     sli_parts_apply(p, &v, kind);
-    sli_unpack(&p->q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind, block);
+    sli_unpack(&p->q, p->F->kernels, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind,
+           block);
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -17483,7 +17586,7 @@ typedef struct sli_refinement {
 static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
   const sli_query q = sli_query_all(f->F->S);
   const uint64_t n = (uint64_t)f->F->S->n;
-  const size_t bytes = sli_vectors_bytes(&q, columns);
+  const size_t bytes = sli_vectors_bytes(&q, columns, 8);
   f->R = SLI_TAKE(b, double, n *(uint64_t)columns);
   f->T = SLI_TAKE(b, double, n *(uint64_t)columns);
   f->size = SLI_TAKE(b, double, n);
@@ -17523,10 +17626,10 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
   const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
-  sli_pack(&q, v.y, f->R, at, lanes, columns);
+  sli_pack(&q, f->F->kernels, v.y, f->R, at, lanes, columns);
   sli_sweep_forward(f->F, &q, &v, columns);
   sli_sweep_backward(f->F, &q, &v, columns);
-  sli_unpack(&q, f->R, at, v.x, lanes, columns);
+  sli_unpack(&q, f->F->kernels, f->R, at, v.x, lanes, columns);
 }
 
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
@@ -17663,7 +17766,7 @@ typedef struct sli_local_refinement {
 } sli_local_refinement;
 
 static void sli_local_refinement_layout(sli_local_refinement *f, sli_block *b, sl_int nrhs) {
-  const size_t bytes = sli_vectors_bytes(f->q, nrhs);
+  const size_t bytes = sli_vectors_bytes(f->q, nrhs, 8);
   const uint64_t columns = (uint64_t)sli_min(nrhs, 8);
   f->row = SLI_TAKE(b, sl_int, f->room);
   f->in_y = SLI_TAKE(b, sl_int, f->room);
@@ -17708,7 +17811,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
   const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
   const size_t nx = (size_t)f->q->nx;
   sl_int m, c;
-  sli_pack(f->q, v.y, B, at, lanes, columns);
+  sli_pack(f->q, f->F->kernels, v.y, B, at, lanes, columns);
   for (m = 0; m < f->count; m++) {
     for (c = 0; c < columns; c++) {
       v.y[(ptrdiff_t)f->in_y[m] * lanes + c] +=
@@ -17717,7 +17820,8 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
   }
   sli_sweep_forward(f->F, f->q, &v, columns);
   sli_sweep_backward(f->F, f->q, &v, columns);
-  sli_unpack(f->q, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes, columns);
+  sli_unpack(f->q, f->F->kernels, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes,
+         columns);
   for (c = 0; c < columns; c++) {
     double error = 0.0;
     for (m = 0; m < f->count; m++) {
@@ -17750,7 +17854,7 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
     }
     return;
   }
-  sli_pack(f->q, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
+  sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
   for (c = 0; c < columns; c++) {
     norms[c] = 0.0;
   }
@@ -18042,7 +18146,8 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
   for (c = 0; c < nrhs; c += 8) {
     const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(q, block, memory);
-    sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
+    sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
+         lanes, block);
     if (F->null_vectors > 1) {
       sli_defects_known(F, q, Y + (size_t)c * ldy, ldy, v.y, lanes, block);
     }
@@ -18082,7 +18187,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   q = sli_query_all(F->S);
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  b.used = sli_vectors_bytes(&q, nrhs);
+  b.used = sli_vectors_bytes(&q, nrhs, 8);
   status = sli_work_block(W, &b);
   if (status == SL_OK) {
     sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);
@@ -21876,7 +21981,7 @@ typedef struct sli_pins_work {
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
               sl_int nrhs) {
-  w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs), 1);
+  w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
   w->v = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
   w->h = SLI_TAKE(b, double, P->count);
@@ -21969,7 +22074,7 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
   sl_int p, r;
-  sli_pack(q, v.y, B, b_at, lanes, nrhs);
+  sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
   sli_sweep_forward(F, q, &v, nrhs);
   for (p = 0; p < P->count; p++) {
     double sums[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -21994,7 +22099,7 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
   sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
              q->backward.rows + q->backward.n_rows,
              P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
-  sli_unpack(q, X, x_at, v.x, lanes, nrhs);
+  sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
@@ -26451,7 +26556,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
     if (!sli_query_fits(&q, F)) {
       return SL_ERR_STATE;
     }
-    bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
+    bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs, sli_block_most(F)) : 0;
     b->bytes = bytes > b->bytes ? bytes : b->bytes;
     b->checks |= F->checks;
     b->blocks += sli_tiles(r->nrhs);
@@ -27348,6 +27453,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_WORTHWHILE
 #undef SLI_SUM_ENTRIES
 #undef SLI_ROWS_AHEAD
+#undef SLI_BLOCK_MOST
+#undef SLI_PACK_CHUNK
 #undef SLI_TEMPORARY_NAMES
 #undef SLI_TEMPORARY_SUFFIX
 #undef SLI_UNNAMED_FILES
@@ -27915,7 +28022,7 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
      SL_VERSION_PATCH != 0
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
-/* src/impl/kernels/multi_rhs.inl.h: sweeps for 2, 4 or 8 right-hand sides, vectorized over right-hand sides */
+/* src/impl/kernels/multi_rhs.inl.h: sweeps for 2 or more right-hand sides, vectorized over right-hand sides */
 
 #if SLW_ROWS == 8
 #define SLW_EACH SLI_EACH8
@@ -27930,8 +28037,10 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
 #endif
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_NRHS)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_NRHS, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
@@ -27973,6 +28082,12 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
     SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
   }
 
+#if defined(SLW_GROUPS) && SLV_SINGLE
+#define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
+#else
+#define SLI_CLEAR_WIDE
+#endif
+
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
                                sl_int below, const sl_int *rows,
                                const SLV_VALUE *l, double *xs,
@@ -27981,8 +28096,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
   SLV_WIDE(v, SLI_TILE)
+  SLI_CLEAR_WIDE
   SLV_WIDEN(v, l, w, SLI_TILE)
   SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
+#if defined(SLW_GROUPS)
+  SLW_EACH(SLI_ZERO_OWN, 0)
+#endif
   SLW_EACH(SLI_LOAD_OWN, xs)
   SLW_EACH(SLI_COLUMN_OWN, 0)
   SLW_EACH(SLI_STORE_OWN, xs)
@@ -28024,6 +28143,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
   SLV_WIDE(v, SLI_TILE)
+  SLI_CLEAR_WIDE
   SLV_WIDEN(v, l, w, SLI_TILE)
   SLW_EACH(SLI_ZERO_OWN, 0)
   SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
@@ -28052,17 +28172,22 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 
 #define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
 #define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
+#if defined(SLW_GROUPS)
+#define SLI_BY_WIDTH(call) call(w)
+#else
+#define SLI_BY_WIDTH(call) SLI_CASES(call)
+#endif
 
 SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
                           const sl_int *rows, const SLV_VALUE *l,
                           double *xs, double *x) {
-  SLI_CASES(SLI_FORWARD);
+  SLI_BY_WIDTH(SLI_FORWARD);
 }
 
 SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
                            const sl_int *rows, const SLV_VALUE *l,
                            const double *d, double *xs, const double *x) {
-  SLI_CASES(SLI_BACKWARD);
+  SLI_BY_WIDTH(SLI_BACKWARD);
 }
 
 #undef SLI_LOAD_OWN
@@ -28078,6 +28203,8 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
+#undef SLI_CLEAR_WIDE
 #elif defined(SLW_HALF)
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
                             const sl_int *rows, const SLV_VALUE *l,
@@ -28097,16 +28224,28 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 }
 #endif
 
+#if defined(SLW_GROUPS)
+#define SLI_STRIDE_PARAMETER , sl_int stride
+#define SLI_SET_STRIDE
+#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
+#define SLI_IS_DIRECT 1
+#else
+#define SLI_IS_DIRECT 0
+#define SLI_STRIDE_PARAMETER
+#define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
+#define SLI_KERNEL(f) SLW_SWEEP(f)
+#endif
+
 #if !SLV_SINGLE
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
                          const sl_int *rows, const double *own,
-                         const double *x) {
+                         const double *x, sl_int stride) {
   sl_int r;
   SLW_DECLARE(b)
   for (r = 0; r < SLW_ROWS; r++) {
     if (r < inner + below) {
-      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_NRHS
-                  : x + (ptrdiff_t)rows[r - inner] * SLW_NRHS)
+      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
+                  : x + (ptrdiff_t)rows[r - inner] * stride)
     } else {
       SLW_ZERO(b)
     }
@@ -28115,60 +28254,79 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int
 }
 
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-                        const sl_int *rows, double *own, double *x) {
+                        const sl_int *rows, double *own, double *x,
+                        sl_int stride) {
   sl_int r;
   SLW_DECLARE(b)
   for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
     SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_NRHS
-              : x + (ptrdiff_t)rows[r - inner] * SLW_NRHS,
+    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride
+              : x + (ptrdiff_t)rows[r - inner] * stride,
           b)
   }
 }
 
 #endif
 
-SLV_FUNCTION static void SLW_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                      const void *values, double *x, double *buf) {
+SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                       const void *values, double *x,
+                       double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
+  SLI_SET_STRIDE
   SLV_WIDE(v, SLI_TILE)
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-    double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
+    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
-    sl_int j;
+    sl_int group, j;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
     if (w <= SLI_TILE) {
-      SLW_SWEEP(forward_small)(w, SLW_NRHS, s->below, rows, tile, xs, x);
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
+      }
       continue;
     }
 #endif
     for (row = first; row < height; row += SLW_ROWS) {
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+      const sl_int below = height - (sl_int)row - inner;
+      const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
+      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
       const sl_int *below_rows = rows + (row + inner - w);
-      double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-      const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
-      SLW_EACH(SLI_DECLARE, 0)
-      SLW_DECLARE(b)
-      if (inner < SLW_ROWS) {
-        SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, below_rows, own, x);
-      }
-      SLW_EACH(SLI_LOAD, p)
-      for (j = first; j < final; j++, l += SLI_TILE) {
-        SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-        SLV_WIDEN(v, l, 1, SLW_ROWS)
-        SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
-        SLW_EACH(SLI_APPLY, v)
-      }
-      if (inner > 0) {
-        SLV_WIDEN(v, l, inner, SLW_ROWS)
-        SLW_EACH(SLI_COLUMN, 0)
-      }
-      SLW_EACH(SLI_STORE, p)
-      if (inner < SLW_ROWS) {
-        SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, below_rows, own, x);
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+        const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+        const double *xj = xs + (ptrdiff_t)first * stride + group;
+        SLW_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        if (is_below) {
+          SLW_EACH(SLI_LOAD_BELOW, x + group)
+        } else {
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+          }
+          SLW_EACH(SLI_LOAD, p)
+        }
+        for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
+          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+          SLV_WIDEN(v, l, 1, SLW_ROWS)
+          SLW_LOAD(b, xj)
+          SLW_EACH(SLI_APPLY, v)
+        }
+        if (inner > 0) {
+          SLV_WIDEN(v, l, inner, SLW_ROWS)
+          SLW_EACH(SLI_COLUMN, 0)
+        }
+        if (is_below) {
+          SLW_EACH(SLI_STORE_BELOW, x + group)
+          continue;
+        }
+        SLW_EACH(SLI_STORE, p)
+        if (inner < SLW_ROWS) {
+          SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+        }
       }
       if (lane + SLW_ROWS == SLI_TILE) {
         tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
@@ -28177,77 +28335,113 @@ SLV_FUNCTION static void SLW_SWEEP(forward)(sl_int count, const sli_step *s, con
   }
 }
 
-SLV_FUNCTION static void SLW_SWEEP(backward)(sl_int count, const sli_step *s,
-                       const sl_int *rows_end, const void *values,
-                       const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
+                        const sl_int *rows_end, const void *values,
+                        const double *D, double *x,
+                        double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
+  SLI_SET_STRIDE
   SLV_WIDE(v, SLI_TILE)
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int padded = SLI_TILE * sli_tiles(height);
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
     const double *d = D + s->column - first;
-    double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
+    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
-    sl_int i, j;
+    sl_int group, i, j;
     SLW_DECLARE(b)
     SLW_DECLARE(c)
     rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
     if (w <= SLI_TILE) {
-      SLW_SWEEP(backward_small)
-      (w, SLW_NRHS, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_SWEEP(backward_small)
+        (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
+      }
       continue;
     }
 #endif
     for (i = first; i < w; i++) {
-      SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_NRHS)
-      SLW_DIVIDE(b, d[i])
-      SLW_STORE(xs + (ptrdiff_t)i * SLW_NRHS, b)
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
+        SLW_DIVIDE(b, d[i])
+        SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
+      }
     }
     for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-      const SLV_VALUE *l;
-      SLW_EACH(SLI_DECLARE, 0)
+      const sl_int below = height - (sl_int)row - inner;
+      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+      const sl_int *below_rows = rows_end + (row + inner - w);
       if (lane + SLW_ROWS == SLI_TILE) {
         tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
       }
-      if (inner < SLW_ROWS) {
-        SLW_NAME(rows_in)
-        (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
-      }
-      SLW_EACH(SLI_LOAD, p)
-      if (inner > 0) {
-        l = tile + SLI_TILE * row + lane;
-        SLV_WIDEN(v, l, inner, SLW_ROWS)
-        SLW_HIGH(SLI_ROW, 0)
-        SLW_LOW(SLI_ROW, 0)
-        SLW_EACH(SLI_STORE, p)
-        if (inner < SLW_ROWS) {
-          SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+        double *xj = xs + (ptrdiff_t) final * stride + group;
+        const SLV_VALUE *l = tile + SLI_TILE * row + lane;
+        SLW_EACH(SLI_DECLARE, 0)
+        if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
+          SLW_EACH(SLI_LOAD_BELOW, x + group)
+        } else {
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+          }
+          SLW_EACH(SLI_LOAD, p)
         }
-      }
-      l = tile + SLI_TILE * (ptrdiff_t) final + lane;
-      for (j = final - 1; j >= first; j--) {
-        l -= SLI_TILE;
-        SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-        SLV_WIDEN(v, l, 1, SLW_ROWS)
-        SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
-        SLW_ZERO(c)
-        SLW_HIGH(SLI_GATHER, v)
-        SLW_LOW(SLI_GATHER2, v)
-        SLW_ADD(b, c)
-        SLW_STORE(xs + (ptrdiff_t)j * SLW_NRHS, b)
+        if (inner > 0) {
+          SLV_WIDEN(v, l, inner, SLW_ROWS)
+          SLW_HIGH(SLI_ROW, 0)
+          SLW_LOW(SLI_ROW, 0)
+          SLW_EACH(SLI_STORE, p)
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+          }
+        }
+        l = tile + SLI_TILE * (ptrdiff_t) final + lane;
+        for (j = final - 1; j >= first; j--) {
+          l -= SLI_TILE;
+          xj -= stride;
+          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+          SLV_WIDEN(v, l, 1, SLW_ROWS)
+          SLW_LOAD(b, xj)
+          SLW_ZERO(c)
+          SLW_HIGH(SLI_GATHER, v)
+          SLW_LOW(SLI_GATHER2, v)
+          SLW_ADD(b, c)
+          SLW_STORE(xj, b)
+        }
       }
     }
   }
 }
 
+#if defined(SLW_GROUPS)
+#define SLI_GROUPED_KERNELS(lanes) \
+  SLV_FUNCTION static void SLV_SWEEP(forward##lanes)(sl_int count, const sli_step *s, \
+                             const sl_int *rows, const void *values, \
+                             double *x, double *buf) { \
+    SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
+  } \
+  SLV_FUNCTION static void SLV_SWEEP(backward##lanes)( \
+    sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
+    const double *D, double *x, double *buf) { \
+    SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
+  }
+#if SLW_NRHS == 8
+SLI_GROUPED_KERNELS(8)
+#endif
+SLI_GROUPED_KERNELS(16)
+SLI_GROUPED_KERNELS(32)
+#undef SLI_GROUPED_KERNELS
+#endif
+
 #if SLW_NRHS == 8 && !SLV_SINGLE
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                       double *sums) {
+  enum { distance = SLW_NRHS };
   sl_int row, k;
   for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
     const double *l = y + row, *p = z;
@@ -28267,6 +28461,12 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
+#undef SLI_LOAD_BELOW
+#undef SLI_STORE_BELOW
+#undef SLI_STRIDE_PARAMETER
+#undef SLI_SET_STRIDE
+#undef SLI_KERNEL
+#undef SLI_IS_DIRECT
 #undef SLI_APPLY
 #undef SLI_GATHER
 #undef SLI_GATHER2
@@ -28285,6 +28485,7 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLW_NAME
 #undef SLW_NRHS
 #undef SLW_HALF
+#undef SLW_GROUPS
 #else
 #undef SLV_SINGLE
 #define SLV_SINGLE 1
@@ -29691,6 +29892,80 @@ SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int col
 #undef SLI_LOAD
 #undef SLI_STORE
 /* end of change.inl.h */
+/* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
+
+#define SLI_ROWS_BEFORE 32
+#define SLI_BYTES_BEFORE 512
+#define SLI_INTERLEAVE_PREFETCH \
+  if (k + SLI_ROWS_BEFORE + SLI_TILE <= count) { \
+    SLI_UNROLL \
+    for (r = 0; r < SLI_TILE; r++) { \
+      SLI_PREFETCH(v + (ptrdiff_t)index[k + SLI_ROWS_BEFORE + r] * stride, 0); \
+    } \
+  } \
+  SLI_UNROLL \
+  for (r = 0; r < SLI_TILE; r++) { \
+    SLI_PREFETCH(M + (size_t)r * ldm + k, SLI_BYTES_BEFORE); \
+  }
+
+SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl_int *index,
+                        sl_int count, const double *M, size_t ldm) {
+  SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
+  sl_int k, r;
+  SLV_DECLARE(a)
+  for (k = 0; k + SLI_TILE <= count; k += SLI_TILE) {
+    SLI_INTERLEAVE_PREFETCH
+    SLI_UNROLL
+    for (r = 0; r < SLI_TILE; r++) {
+      SLV_LOAD_PART(a, M + (size_t)r * ldm + k, SLI_TILE, 0.0)
+      SLV_STORE(from + SLI_TILE * r, a)
+    }
+    SLV_TRANSPOSE(to, from)
+    SLI_UNROLL
+    for (r = 0; r < SLI_TILE; r++) {
+      SLV_LOAD(a, to + SLI_TILE * r)
+      SLV_STORE(v + (ptrdiff_t)index[k + r] * stride, a)
+    }
+  }
+  for (; k < count; k++) {
+    for (r = 0; r < SLI_TILE; r++) {
+      v[(ptrdiff_t)index[k] * stride + r] = M[(size_t)r * ldm + (size_t)k];
+    }
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double *v, sl_int stride,
+                      const sl_int *index, sl_int count) {
+  SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
+  sl_int k, r;
+  SLV_DECLARE(a)
+  for (k = 0; k + SLI_TILE <= count; k += SLI_TILE) {
+    SLI_INTERLEAVE_PREFETCH
+    SLI_UNROLL
+    for (r = 0; r < SLI_TILE; r++) {
+      SLV_LOAD(a, v + (ptrdiff_t)index[k + r] * stride)
+      SLV_STORE(from + SLI_TILE * r, a)
+    }
+    SLV_TRANSPOSE(to, from)
+    SLI_UNROLL
+    for (r = 0; r < SLI_TILE; r++) {
+      SLV_LOAD(a, to + SLI_TILE * r)
+      SLV_STORE_ANY(M + (size_t)r * ldm + k, a)
+    }
+  }
+  for (; k < count; k++) {
+    for (r = 0; r < SLI_TILE; r++) {
+      M[(size_t)r * ldm + (size_t)k] = v[(ptrdiff_t)index[k] * stride + r];
+    }
+  }
+}
+
+#undef SLI_ROWS_BEFORE
+#undef SLI_BYTES_BEFORE
+#undef SLI_INTERLEAVE_PREFETCH
+/* end of interleave.inl.h */
 
 #if !defined(SLV_NAME_4)
 #define SLV_NAME_4(f) SLV_NAME(f##4)
@@ -29698,21 +29973,25 @@ SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int col
 
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
-  {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
-    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)}},
+  {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
+     SLV_NAME(forward16), SLV_NAME(forward32)},
+    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
+     SLV_NAME(backward16), SLV_NAME(backward32)}},
    {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
-     SLV_NAME(single_forward8)},
+     SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
     {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
-     SLV_NAME(single_backward8)}},
+     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
    {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME(complex_forward4),
-     SLV_NAME(complex_forward8)},
+     SLV_NAME(complex_forward8), NULL, NULL},
     {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME(complex_backward4),
-     SLV_NAME(complex_backward8)}}},
+     SLV_NAME(complex_backward8), NULL, NULL}}},
   SLV_NAME(row),
   {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
    {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
     SLV_NAME(single_assemble)}},
   SLV_NAME(products8),
+  SLV_NAME(interleave),
+  SLV_NAME(separate),
   SLV_NAME(gather),
   SLV_NAME(inverse_phase),
   SLV_NAME(takahashi),

@@ -77,14 +77,15 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_defects(sl_work *W, const sl_fac
  *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A.
  *                May be B itself (then ldx = ldb). On error untouched.
  *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
- *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 8; a block
- *                takes as long as two to three single solves.
+ *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 32, then 16,
+ *                then up to 8, for which a solution has the same bits. 8 take as long as two to
+ *                three single solves, 32 as long as six to eight.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_INCONSISTENT: a column of B
  *           has no solution (SL_NULL_PIVOT_SKIP without mass); SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W
  *           could not grow.
  *  Cost     4 nnz_panels flops per right-hand side; each block reads L twice. W grows to O(n
- *           min(nrhs, 8)). If consistency is checked, right-hand sides beyond the eighth take an
+ *           min(nrhs, 32)). If consistency is checked, right-hand sides beyond the eighth take an
  *           additional forward sweep.
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with

@@ -123,7 +123,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
         if (!sli_query_fits(&q, F)) {
             return SL_ERR_STATE;
         }
-        bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs) : 0;
+        bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs, sli_block_most(F)) : 0;
         b->bytes = bytes > b->bytes ? bytes : b->bytes;
         b->checks |= F->checks;
         b->blocks += sli_tiles(r->nrhs);

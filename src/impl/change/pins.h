@@ -430,7 +430,7 @@ typedef struct sli_pins_work {
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
                             sl_int nrhs) {
-    w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs), 1);
+    w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
     w->v = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
     w->h = SLI_TAKE(b, double, P->count);
@@ -529,7 +529,7 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
     const int kind = sli_lanes_kind(nrhs);
     const sl_int lanes = (sl_int)1 << kind;
     sl_int p, r;
-    sli_pack(q, v.y, B, b_at, lanes, nrhs);
+    sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
     sli_sweep_forward(F, q, &v, nrhs);
     for (p = 0; p < P->count; p++) {
         double sums[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -554,7 +554,7 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
     sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
                        q->backward.rows + q->backward.n_rows,
                        P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
-    sli_unpack(q, X, x_at, v.x, lanes, nrhs);
+    sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,

@@ -5,6 +5,7 @@
 #include "inverse_front.inl.h"
 #include "row.inl.h"
 #include "change.inl.h"
+#include "interleave.inl.h"
 
 #if !defined(SLV_NAME_4)
 #define SLV_NAME_4(f) SLV_NAME(f##4)
@@ -12,21 +13,25 @@
 
 static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
-    {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8)},
-      {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8)}},
+    {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
+       SLV_NAME(forward16), SLV_NAME(forward32)},
+      {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
+       SLV_NAME(backward16), SLV_NAME(backward32)}},
      {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
-       SLV_NAME(single_forward8)},
+       SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
       {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
-       SLV_NAME(single_backward8)}},
+       SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
      {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME(complex_forward4),
-       SLV_NAME(complex_forward8)},
+       SLV_NAME(complex_forward8), NULL, NULL},
       {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME(complex_backward4),
-       SLV_NAME(complex_backward8)}}},
+       SLV_NAME(complex_backward8), NULL, NULL}}},
     SLV_NAME(row),
     {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
      {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
       SLV_NAME(single_assemble)}},
     SLV_NAME(products8),
+    SLV_NAME(interleave),
+    SLV_NAME(separate),
     SLV_NAME(gather),
     SLV_NAME(inverse_phase),
     SLV_NAME(takahashi),

@@ -1,4 +1,8 @@
-/* multi_rhs.inl.h: sweeps for 2, 4 or 8 right-hand sides, vectorized over right-hand sides */
+/* multi_rhs.inl.h: sweeps for 2 or more right-hand sides, vectorized over right-hand sides */
+
+/* A row of x has `stride` right-hand sides. With SLW_GROUPS this is any multiple of SLW_NRHS: each
+ * row tile of L is applied to all groups of SLW_NRHS right-hand sides while it is in the first
+ * cache. Otherwise there is one group. */
 
 /* SLW_EACH(op, k) is op(0, k) op(1, k) .. over the SLW_ROWS rows that are kept in registers,
  * SLW_HIGH and SLW_LOW are its halves in descending order. a0, a1, .. are the accumulators of these
@@ -17,8 +21,11 @@
 #endif
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*SLW_NRHS)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r)*SLW_NRHS, a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+/* Rows below the diagonal block, at their positions in x. */
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)  /* a(r) -= L(r, j) x(j) */
 #define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
 #define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
@@ -38,7 +45,8 @@
 #define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
 #if SLW_ROWS == 8
-/* A supernode of 1 to 8 columns. The width is a compile-time constant, as in small_supernode.inl.h.
+/* A supernode of 1 to 8 columns. The width is a compile-time constant, as in small_supernode.inl.h,
+ * but not with SLW_GROUPS.
  * The rows of its columns stay in registers; the rows below are read one after another. The
  * distance between rows of x is `stride`. */
 #define SLI_LOAD_OWN(k, p) \
@@ -64,6 +72,13 @@
         SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
     }
 
+/* Where the width is not a constant, compilers warn of columns that they think are used. */
+#if defined(SLW_GROUPS) && SLV_SINGLE
+#define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
+#else
+#define SLI_CLEAR_WIDE
+#endif
+
 SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
                                                              sl_int below, const sl_int *rows,
                                                              const SLV_VALUE *l, double *xs,
@@ -72,8 +87,12 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
     SLV_WIDE(v, SLI_TILE)
+    SLI_CLEAR_WIDE
     SLV_WIDEN(v, l, w, SLI_TILE)
     SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
+#if defined(SLW_GROUPS)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+#endif
     SLW_EACH(SLI_LOAD_OWN, xs)
     SLW_EACH(SLI_COLUMN_OWN, 0)
     SLW_EACH(SLI_STORE_OWN, xs)
@@ -116,6 +135,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
     SLV_WIDE(v, SLI_TILE)
+    SLI_CLEAR_WIDE
     SLV_WIDEN(v, l, w, SLI_TILE)
     SLW_EACH(SLI_ZERO_OWN, 0)
     SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
@@ -144,17 +164,22 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
 
 #define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
 #define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
+#if defined(SLW_GROUPS)
+#define SLI_BY_WIDTH(call) call(w) /* as fast by branches, with rows of many right-hand sides */
+#else
+#define SLI_BY_WIDTH(call) SLI_CASES(call)
+#endif
 
 SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
                                                   const sl_int *rows, const SLV_VALUE *l,
                                                   double *xs, double *x) {
-    SLI_CASES(SLI_FORWARD);
+    SLI_BY_WIDTH(SLI_FORWARD);
 }
 
 SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
                                                    const sl_int *rows, const SLV_VALUE *l,
                                                    const double *d, double *xs, const double *x) {
-    SLI_CASES(SLI_BACKWARD);
+    SLI_BY_WIDTH(SLI_BACKWARD);
 }
 
 #undef SLI_LOAD_OWN
@@ -170,6 +195,8 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_DIVIDE_OWN
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
+#undef SLI_CLEAR_WIDE
 #elif defined(SLW_HALF)
 /* 8 rows do not fit in the registers: first one half of the right-hand sides, then the other. */
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
@@ -190,18 +217,30 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 }
 #endif
 
+#if defined(SLW_GROUPS)
+#define SLI_STRIDE_PARAMETER , sl_int stride
+#define SLI_SET_STRIDE
+#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
+#define SLI_IS_DIRECT 1 /* rows below are loaded from x and not from a copy */
+#else
+#define SLI_IS_DIRECT 0
+#define SLI_STRIDE_PARAMETER
+#define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
+#define SLI_KERNEL(f) SLW_SWEEP(f)
+#endif
+
 #if !SLV_SINGLE
-/* Copies SLW_ROWS rows to buf where not all of them are columns of the supernode: `inner` rows of
- * its columns, then `below` rows below, then zeros. */
+/* Copies SLW_ROWS rows to buf where some of them are columns of the supernode and some are not, or
+ * where there are fewer: `inner` rows of its columns, then `below` rows below, then zeros. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
                                                const sl_int *rows, const double *own,
-                                               const double *x) {
+                                               const double *x, sl_int stride) {
     sl_int r;
     SLW_DECLARE(b)
     for (r = 0; r < SLW_ROWS; r++) {
         if (r < inner + below) {
-            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * SLW_NRHS
-                                  : x + (ptrdiff_t)rows[r - inner] * SLW_NRHS)
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
+                                  : x + (ptrdiff_t)rows[r - inner] * stride)
         } else {
             SLW_ZERO(b)
         }
@@ -211,13 +250,14 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int
 
 /* Copies the rows back from buf. */
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-                                                const sl_int *rows, double *own, double *x) {
+                                                const sl_int *rows, double *own, double *x,
+                                                sl_int stride) {
     sl_int r;
     SLW_DECLARE(b)
     for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
         SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-        SLW_STORE(r < inner ? own + (ptrdiff_t)r * SLW_NRHS
-                            : x + (ptrdiff_t)rows[r - inner] * SLW_NRHS,
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride
+                            : x + (ptrdiff_t)rows[r - inner] * stride,
                   b)
     }
 }
@@ -226,47 +266,65 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 
 /* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
  * the triangle of the diagonal tile. Rows below are updated in x in place. */
-SLV_FUNCTION static void SLW_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                                            const void *values, double *x, double *buf) {
+SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                             const void *values, double *x,
+                                             double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
+    SLI_SET_STRIDE
     SLV_WIDE(v, SLI_TILE)
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
-        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
+        double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
-        sl_int j;
+        sl_int group, j;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_SWEEP(forward_small)(w, SLW_NRHS, s->below, rows, tile, xs, x);
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
+            }
             continue;
         }
 #endif
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            const sl_int below = height - (sl_int)row - inner;
+            const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
+            const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
             const sl_int *below_rows = rows + (row + inner - w);
-            double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-            const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
-            SLW_EACH(SLI_DECLARE, 0)
-            SLW_DECLARE(b)
-            if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)(buf, inner, height - (sl_int)row - inner, below_rows, own, x);
-            }
-            SLW_EACH(SLI_LOAD, p)
-            for (j = first; j < final; j++, l += SLI_TILE) {
-                SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-                SLV_WIDEN(v, l, 1, SLW_ROWS)
-                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
-                SLW_EACH(SLI_APPLY, v)
-            }
-            if (inner > 0) {
-                SLV_WIDEN(v, l, inner, SLW_ROWS)
-                SLW_EACH(SLI_COLUMN, 0)
-            }
-            SLW_EACH(SLI_STORE, p)
-            if (inner < SLW_ROWS) {
-                SLW_NAME(rows_out)(buf, inner, height - (sl_int)row - inner, below_rows, own, x);
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+                const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+                const double *xj = xs + (ptrdiff_t)first * stride + group;
+                SLW_EACH(SLI_DECLARE, 0)
+                SLW_DECLARE(b)
+                if (is_below) {
+                    SLW_EACH(SLI_LOAD_BELOW, x + group)
+                } else {
+                    if (inner < SLW_ROWS) {
+                        SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+                    }
+                    SLW_EACH(SLI_LOAD, p)
+                }
+                for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
+                    SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+                    SLV_WIDEN(v, l, 1, SLW_ROWS)
+                    SLW_LOAD(b, xj)
+                    SLW_EACH(SLI_APPLY, v)
+                }
+                if (inner > 0) {
+                    SLV_WIDEN(v, l, inner, SLW_ROWS)
+                    SLW_EACH(SLI_COLUMN, 0)
+                }
+                if (is_below) {
+                    SLW_EACH(SLI_STORE_BELOW, x + group)
+                    continue;
+                }
+                SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+                }
             }
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
@@ -277,78 +335,115 @@ SLV_FUNCTION static void SLW_SWEEP(forward)(sl_int count, const sli_step *s, con
 
 /* Row tiles from the last to the first, SLW_ROWS rows at a time. Once the rows are final,
  * x(j) -= L(rows, j)' x(rows) for the columns j before them. */
-SLV_FUNCTION static void SLW_SWEEP(backward)(sl_int count, const sli_step *s,
-                                             const sl_int *rows_end, const void *values,
-                                             const double *D, double *x, double *buf) {
+SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
+                                              const sl_int *rows_end, const void *values,
+                                              const double *D, double *x,
+                                              double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
+    SLI_SET_STRIDE
     SLV_WIDE(v, SLI_TILE)
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
         const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
         const double *d = D + s->column - first;
-        double *xs = x + ((ptrdiff_t)s->base - first) * SLW_NRHS;
+        double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
-        sl_int i, j;
+        sl_int group, i, j;
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
-            SLW_SWEEP(backward_small)
-            (w, SLW_NRHS, s->below, rows_end, tile - SLI_TILE * w, d, xs, x);
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_SWEEP(backward_small)
+                (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
+            }
             continue;
         }
 #endif
         for (i = first; i < w; i++) {
-            SLW_LOAD(b, xs + (ptrdiff_t)i * SLW_NRHS)
-            SLW_DIVIDE(b, d[i])
-            SLW_STORE(xs + (ptrdiff_t)i * SLW_NRHS, b)
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
+                SLW_DIVIDE(b, d[i])
+                SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
+            }
         }
         for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-            double *own = xs + row * SLW_NRHS, *p = inner == SLW_ROWS ? own : buf;
-            const SLV_VALUE *l;
-            SLW_EACH(SLI_DECLARE, 0)
+            const sl_int below = height - (sl_int)row - inner;
+            const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+            const sl_int *below_rows = rows_end + (row + inner - w);
             if (lane + SLW_ROWS == SLI_TILE) {
                 tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
-            if (inner < SLW_ROWS) {
-                SLW_NAME(rows_in)
-                (buf, inner, height - (sl_int)row - inner, rows_end + (row + inner - w), own, x);
-            }
-            SLW_EACH(SLI_LOAD, p)
-            if (inner > 0) {
-                l = tile + SLI_TILE * row + lane;
-                SLV_WIDEN(v, l, inner, SLW_ROWS)
-                SLW_HIGH(SLI_ROW, 0)
-                SLW_LOW(SLI_ROW, 0)
-                SLW_EACH(SLI_STORE, p)
-                if (inner < SLW_ROWS) {
-                    SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x);
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+                double *xj = xs + (ptrdiff_t) final * stride + group;
+                const SLV_VALUE *l = tile + SLI_TILE * row + lane;
+                SLW_EACH(SLI_DECLARE, 0)
+                if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
+                    SLW_EACH(SLI_LOAD_BELOW, x + group)
+                } else {
+                    if (inner < SLW_ROWS) {
+                        SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+                    }
+                    SLW_EACH(SLI_LOAD, p)
                 }
-            }
-            l = tile + SLI_TILE * (ptrdiff_t) final + lane;
-            for (j = final - 1; j >= first; j--) {
-                l -= SLI_TILE;
-                SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-                SLV_WIDEN(v, l, 1, SLW_ROWS)
-                SLW_LOAD(b, xs + (ptrdiff_t)j * SLW_NRHS)
-                SLW_ZERO(c)
-                SLW_HIGH(SLI_GATHER, v)
-                SLW_LOW(SLI_GATHER2, v)
-                SLW_ADD(b, c)
-                SLW_STORE(xs + (ptrdiff_t)j * SLW_NRHS, b)
+                if (inner > 0) {
+                    SLV_WIDEN(v, l, inner, SLW_ROWS)
+                    SLW_HIGH(SLI_ROW, 0)
+                    SLW_LOW(SLI_ROW, 0)
+                    SLW_EACH(SLI_STORE, p)
+                    if (inner < SLW_ROWS) {
+                        SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+                    }
+                }
+                l = tile + SLI_TILE * (ptrdiff_t) final + lane;
+                for (j = final - 1; j >= first; j--) {
+                    l -= SLI_TILE;
+                    xj -= stride;
+                    SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+                    SLV_WIDEN(v, l, 1, SLW_ROWS)
+                    SLW_LOAD(b, xj)
+                    SLW_ZERO(c)
+                    SLW_HIGH(SLI_GATHER, v)
+                    SLW_LOW(SLI_GATHER2, v)
+                    SLW_ADD(b, c)
+                    SLW_STORE(xj, b)
+                }
             }
         }
     }
 }
 
+#if defined(SLW_GROUPS)
+/* The kernels of wide blocks; see sli_forward_kernel. */
+#define SLI_GROUPED_KERNELS(lanes) \
+    SLV_FUNCTION static void SLV_SWEEP(forward##lanes)(sl_int count, const sli_step *s, \
+                                                       const sl_int *rows, const void *values, \
+                                                       double *x, double *buf) { \
+        SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
+    } \
+    SLV_FUNCTION static void SLV_SWEEP(backward##lanes)( \
+        sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
+        const double *D, double *x, double *buf) { \
+        SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
+    }
+#if SLW_NRHS == 8
+SLI_GROUPED_KERNELS(8)
+#endif
+SLI_GROUPED_KERNELS(16)
+SLI_GROUPED_KERNELS(32)
+#undef SLI_GROUPED_KERNELS
+#endif
+
 #if SLW_NRHS == 8 && !SLV_SINGLE
 /* Computes SLW_ROWS rows of sums at a time; see sli_products_kernel. */
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                                             double *sums) {
+    enum { distance = SLW_NRHS };
     sl_int row, k;
     for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
         const double *l = y + row, *p = z;
@@ -368,6 +463,12 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
+#undef SLI_LOAD_BELOW
+#undef SLI_STORE_BELOW
+#undef SLI_STRIDE_PARAMETER
+#undef SLI_SET_STRIDE
+#undef SLI_KERNEL
+#undef SLI_IS_DIRECT
 #undef SLI_APPLY
 #undef SLI_GATHER
 #undef SLI_GATHER2
@@ -386,6 +487,7 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLW_NAME
 #undef SLW_NRHS
 #undef SLW_HALF
+#undef SLW_GROUPS
 #else
 #undef SLV_SINGLE
 #define SLV_SINGLE 1

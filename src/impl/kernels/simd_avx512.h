@@ -113,7 +113,43 @@
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
 #include "multi_rhs.inl.h"
+#define SLW_GROUPS /* of L in float only */
 #include "multi_rhs.inl.h"
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+/* 16 right-hand sides: two registers. An entry of L that is broadcast serves two FMAs, so that
+ * loads no longer limit the rate. Not for L in float, to keep the object small. */
+#define SLW_NAME(f) sli_##f##16_avx512
+#define SLW_GROUPS
+#define SLW_NRHS 16
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m512d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm512_loadu_pd(p), a##_1 = _mm512_loadu_pd((p) + 8);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
+#define SLW_FNMA(a, s, b) \
+    { \
+        const __m512d s_ = _mm512_set1_pd(s); \
+        a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
+        a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
+    }
+#define SLW_ADD(a, b) a##_0 = _mm512_add_pd(a##_0, b##_0), a##_1 = _mm512_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+    a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
+    a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#include "multi_rhs.inl.h"
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#undef SLW_NAME
+#undef SLW_NRHS
+#undef SLW_GROUPS
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
 #include "front.inl.h"

@@ -110,6 +110,7 @@
 #include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
+#define SLW_GROUPS
 #define SLW_NRHS 8
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"

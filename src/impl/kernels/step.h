@@ -24,8 +24,18 @@ SLI_INLINE sl_int sli_step_columns(const sli_step *s) {
 }
 
 /* Right-hand sides are interleaved: row i of x is x[i nrhs] .. x[i nrhs + nrhs - 1], with nrhs = 1,
- * 2, 4 or 8. A table of kernels has one kernel for each. */
-enum { SLI_NRHS_1, SLI_NRHS_2, SLI_NRHS_4, SLI_NRHS_8, SLI_NRHS_KINDS };
+ * 2, 4 or 8, and for sweeps also 16 or 32. A table of kernels has one kernel for each; nrhs is
+ * 1 << kind. A right-hand side has the same bits in sweeps of 8, 16 and 32. */
+enum {
+    SLI_NRHS_1,
+    SLI_NRHS_2,
+    SLI_NRHS_4,
+    SLI_NRHS_8,
+    SLI_NRHS_16,
+    SLI_NRHS_32,
+    SLI_SWEEP_KINDS,
+    SLI_NRHS_KINDS = SLI_NRHS_16
+};
 
 /* x := L^-1 x over the steps in ascending order. rows: positions in x of the rows below, step after
  * step. L: as it is stored, 64-byte aligned. scratch: sli_sweep_scratch doubles for the tallest
@@ -40,8 +50,8 @@ typedef void (*sli_backward_kernel)(sl_int count, const sli_step *steps, const s
 
 /* All sweeps over L of one type. */
 typedef struct sli_sweeps {
-    sli_forward_kernel forward[SLI_NRHS_KINDS];
-    sli_backward_kernel backward[SLI_NRHS_KINDS];
+    sli_forward_kernel forward[SLI_SWEEP_KINDS];
+    sli_backward_kernel backward[SLI_SWEEP_KINDS];
 } sli_sweeps;
 
 /* Row q of a panel in the up-looking factorization. On entry the panel holds the row of A, and

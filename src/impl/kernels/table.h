@@ -19,12 +19,21 @@ typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, do
 typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
                                         double *w);
 
+/* Copies rows 0 .. count-1 of 8 columns of M, ldm apart, to v + index[k] stride, and back. v is
+ * 64-byte aligned, stride is a multiple of 8. */
+typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
+                                const double *M, size_t ldm);
+typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
+                                  const sl_int *index, sl_int count);
+
 typedef struct sli_kernels {
     sl_isa isa;
     sli_sweeps sweeps[3]; /* of sl_storage */
     sli_row_kernel row;
     sli_front_kernels fronts[2]; /* in double, in float */
     sli_products_kernel products;
+    sli_interleave_kernel interleave;
+    sli_separate_kernel separate;
     sli_gather_kernel gather;
     sli_inverse_phase_kernel inverse_phase;
     sli_takahashi_kernel takahashi;

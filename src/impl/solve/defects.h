@@ -32,7 +32,8 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
     for (c = 0; c < nrhs; c += 8) {
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
-        sli_pack(q, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, block);
+        sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
+                 lanes, block);
         if (F->null_vectors > 1) {
             sli_defects_known(F, q, Y + (size_t)c * ldy, ldy, v.y, lanes, block);
         }
@@ -73,7 +74,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     q = sli_query_all(F->S);
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    b.used = sli_vectors_bytes(&q, nrhs);
+    b.used = sli_vectors_bytes(&q, nrhs, 8);
     status = sli_work_block(W, &b);
     if (status == SL_OK) {
         sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);

@@ -51,7 +51,9 @@ static void sli_local_compile(void *data) {
 static void sli_local_layout_vectors(void *data, sli_block *b) {
     sli_local *l = (sli_local *)data;
     const size_t bytes =
-        l->status == SL_OK && l->nrhs > 0 ? sli_vectors_bytes(&l->query, l->nrhs) : 0;
+        l->status == SL_OK && l->nrhs > 0
+            ? sli_vectors_bytes(&l->query, l->nrhs, SLI_BLOCK_MOST)
+            : 0;
     l->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 

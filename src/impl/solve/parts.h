@@ -34,7 +34,7 @@ static sli_query sli_parts_query(const sli_query *from, const sli_reach *R, int 
 }
 
 static void sli_parts_layout(sli_parts *p, sli_block *b, sl_int nrhs) {
-    p->memory = SLI_TAKE(b, unsigned char, sli_vectors_bytes(&p->q, nrhs));
+    p->memory = SLI_TAKE(b, unsigned char, sli_vectors_bytes(&p->q, nrhs, 8));
     p->steps = SLI_TAKE(b, sli_step, p->q.backward.count);
     p->ones = SLI_TAKE(b, double, p->q.backward.widest);
     p->identity = SLI_TAKE(b, sl_int, p->q.forward.columns);
@@ -195,9 +195,11 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
         const sl_int block = sli_min(8, nrhs - r);
         const int kind = sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);
-        sli_pack(&p->q, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind, block);
+        sli_pack(&p->q, p->F->kernels, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind,
+                 block);
         sli_parts_apply(p, &v, kind);
-        sli_unpack(&p->q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind, block);
+        sli_unpack(&p->q, p->F->kernels, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind,
+                   block);
     }
     sli_free(&own.allocator, own.block);
     return status;

@@ -44,12 +44,30 @@ SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
                                   sli_region_fits(q->region, F)));
 }
 
-/* The sweep kernel for the next block of nrhs right-hand sides. It takes 1 << kind of them. */
+/* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
-    return nrhs <= 1   ? SLI_NRHS_1
-           : nrhs == 2 ? SLI_NRHS_2
-           : nrhs <= 4 ? SLI_NRHS_4
-                       : SLI_NRHS_8;
+    return nrhs <= 1    ? SLI_NRHS_1
+           : nrhs == 2  ? SLI_NRHS_2
+           : nrhs <= 4  ? SLI_NRHS_4
+           : nrhs <= 8  ? SLI_NRHS_8
+           : nrhs <= 16 ? SLI_NRHS_16
+                        : SLI_NRHS_32;
+}
+
+/* The size of the next block of at most `most` of nrhs right-hand sides: 32, 16 or up to 8. Blocks
+ * of 16 and 32 are always full, so that the bits of a right-hand side are those of blocks of 8. */
+SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
+    return sli_min(nrhs, most) >= 32 ? 32 : sli_min(nrhs, most) >= 16 ? 16 : sli_min(nrhs, 8);
+}
+
+/* The largest blocks: a sweep over L is shared by all right-hand sides of a block, which takes as
+ * many vectors. What else a call does with a block, for singular matrices, is written for 8; so are
+ * the sweeps over L of complex matrices. */
+#define SLI_BLOCK_MOST 32
+SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
+    return F->n_nulls > 0 || F->checks || F->is_centered || F->storage == SL_STORAGE_COMPLEX
+               ? 8
+               : SLI_BLOCK_MOST;
 }
 
 /* Vectors and scratch of one block, cut from a workspace. */
@@ -70,14 +88,14 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     v->scratch = SLI_TAKE(b, double, most > across ? most : across);
 }
 
-/* Bytes for any block of up to nrhs right-hand sides; SIZE_MAX if that overflows. Kernels of one
- * and two right-hand sides keep partial sums that wider ones do not need, so both ends are
- * measured. */
-static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs) {
+/* Bytes for the blocks of up to nrhs right-hand sides, at most `most` in a block; SIZE_MAX if that
+ * overflows. Kernels of one and two right-hand sides keep partial sums that wider ones do not need,
+ * so both ends are measured. */
+static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
     sli_block few = {NULL, 0, 0}, many = {NULL, 0, 0};
     sli_vectors v;
     sli_vectors_layout(&v, &few, q, sli_min(nrhs, 2));
-    sli_vectors_layout(&v, &many, q, sli_min(nrhs, 8));
+    sli_vectors_layout(&v, &many, q, sli_block_size(nrhs, most));
     return few.used > many.used ? few.used : many.used;
 }
 
@@ -165,20 +183,35 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
     }
 }
 
+/* Rows of a wide block that are moved at a time, 8 columns after 8 columns: their rows of the
+ * vector stay in the second cache. */
+#define SLI_PACK_CHUNK 1024
+
 /* Moves b into the forward vector. Rows that are not given, and unused columns of the block, are
  * 0. */
-static void sli_pack(const sli_query *q, double *y, const double *B, sli_dense at, sl_int lanes,
-                     sl_int nrhs) {
+static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, const double *B,
+                     sli_dense at, sl_int lanes, sl_int nrhs) {
     const sl_int *index = q->b_index, count = q->nb;
     if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
         memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
     }
     if (q->b_repeats) {
         sli_pack_sums(y, lanes, index, count, B, at, nrhs);
-    } else if (nrhs == 8 && at.row == 1) {
-        sli_pack_rows(y, 8, index, count, B, sli_dense_of(SLI_COLUMN_MAJOR, at.column), 8);
-    } else if (nrhs == 8) {
-        sli_pack_rows(y, 8, index, count, B, sli_dense_of(SLI_INTERLEAVED, at.row), 8);
+    } else if (nrhs % 8 == 0 && at.row == 1) {
+        sl_int first, r;
+        for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+            for (r = 0; r < nrhs; r += 8) {
+                kernels->interleave(y + r, lanes, index + first,
+                                    sli_min(SLI_PACK_CHUNK, count - first),
+                                    B + (size_t)first + (size_t)r * at.column, at.column);
+            }
+        }
+    } else if (nrhs % 8 == 0) {
+        sl_int r;
+        for (r = 0; r < nrhs; r += 8) {
+            sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_of(SLI_INTERLEAVED, at.row),
+                          8);
+        }
     } else if (nrhs == 3) {
         sli_pack_rows(y, 4, index, count, B, at, 3);
     } else if (nrhs == 1) {
@@ -189,13 +222,23 @@ static void sli_pack(const sli_query *q, double *y, const double *B, sli_dense a
 }
 
 /* Moves the wanted rows out of the backward vector. */
-static void sli_unpack(const sli_query *q, double *X, sli_dense at, const double *x, sl_int lanes,
-                       sl_int nrhs) {
+static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X, sli_dense at,
+                       const double *x, sl_int lanes, sl_int nrhs) {
     const sl_int *index = q->x_index, count = q->nx;
-    if (nrhs == 8 && at.row == 1) {
-        sli_unpack_rows(X, sli_dense_of(SLI_COLUMN_MAJOR, at.column), x, 8, index, count, 8);
-    } else if (nrhs == 8) {
-        sli_unpack_rows(X, sli_dense_of(SLI_INTERLEAVED, at.row), x, 8, index, count, 8);
+    if (nrhs % 8 == 0 && at.row == 1) {
+        sl_int first, r;
+        for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+            for (r = 0; r < nrhs; r += 8) {
+                kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
+                                  lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+            }
+        }
+    } else if (nrhs % 8 == 0) {
+        sl_int r;
+        for (r = 0; r < nrhs; r += 8) {
+            sli_unpack_rows(X + r, sli_dense_of(SLI_INTERLEAVED, at.row), x + r, lanes, index,
+                            count, 8);
+        }
     } else if (nrhs == 3) {
         sli_unpack_rows(X, at, x, 4, index, count, 3);
     } else if (nrhs == 1) {

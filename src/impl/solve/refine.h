@@ -24,7 +24,7 @@ typedef struct sli_refinement {
 static void sli_refinement_layout(sli_refinement *f, sli_block *b, sl_int columns) {
     const sli_query q = sli_query_all(f->F->S);
     const uint64_t n = (uint64_t)f->F->S->n;
-    const size_t bytes = sli_vectors_bytes(&q, columns);
+    const size_t bytes = sli_vectors_bytes(&q, columns, 8);
     f->R = SLI_TAKE(b, double, n *(uint64_t)columns);
     f->T = SLI_TAKE(b, double, n *(uint64_t)columns);
     f->size = SLI_TAKE(b, double, n);
@@ -67,10 +67,10 @@ static void sli_correct(const sli_refinement *f, sl_int columns) {
     const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
     const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
-    sli_pack(&q, v.y, f->R, at, lanes, columns);
+    sli_pack(&q, f->F->kernels, v.y, f->R, at, lanes, columns);
     sli_sweep_forward(f->F, &q, &v, columns);
     sli_sweep_backward(f->F, &q, &v, columns);
-    sli_unpack(&q, f->R, at, v.x, lanes, columns);
+    sli_unpack(&q, f->F->kernels, f->R, at, v.x, lanes, columns);
 }
 
 /* Applies the correction of column c, already in R. The column is done once a correction does not

@@ -24,7 +24,7 @@ typedef struct sli_local_refinement {
 } sli_local_refinement;
 
 static void sli_local_refinement_layout(sli_local_refinement *f, sli_block *b, sl_int nrhs) {
-    const size_t bytes = sli_vectors_bytes(f->q, nrhs);
+    const size_t bytes = sli_vectors_bytes(f->q, nrhs, 8);
     const uint64_t columns = (uint64_t)sli_min(nrhs, 8);
     f->row = SLI_TAKE(b, sl_int, f->room);
     f->in_y = SLI_TAKE(b, sl_int, f->room);
@@ -73,7 +73,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
     const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
     const size_t nx = (size_t)f->q->nx;
     sl_int m, c;
-    sli_pack(f->q, v.y, B, at, lanes, columns);
+    sli_pack(f->q, f->F->kernels, v.y, B, at, lanes, columns);
     for (m = 0; m < f->count; m++) {
         for (c = 0; c < columns; c++) {
             v.y[(ptrdiff_t)f->in_y[m] * lanes + c] +=
@@ -82,7 +82,8 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
     }
     sli_sweep_forward(f->F, f->q, &v, columns);
     sli_sweep_backward(f->F, f->q, &v, columns);
-    sli_unpack(f->q, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes, columns);
+    sli_unpack(f->q, f->F->kernels, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes,
+               columns);
     for (c = 0; c < columns; c++) {
         double error = 0.0;
         for (m = 0; m < f->count; m++) {
@@ -117,7 +118,7 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
         }
         return;
     }
-    sli_pack(f->q, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
+    sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
     for (c = 0; c < columns; c++) {
         norms[c] = 0.0;
     }

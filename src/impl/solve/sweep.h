@@ -1,4 +1,4 @@
-/* sweep.h: full solves, and the sweeps of any query, in blocks of 8 right-hand sides */
+/* sweep.h: full solves, and the sweeps of any query, in blocks of right-hand sides */
 #ifndef SLI_SOLVE_SWEEP_H
 #define SLI_SOLVE_SWEEP_H
 
@@ -59,13 +59,13 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
     }
 }
 
-/* y := L^-1 P b for up to 8 right-hand sides. Returns 0 if F checks consistency and one is
+/* y := L^-1 P b for a block of right-hand sides. Returns 0 if F checks consistency and one is
  * inconsistent. */
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                           const double *B, sli_dense at, sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     double norms[SLI_TILE];
-    sli_pack(q, v->y, B, at, lanes, nrhs);
+    sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
     if (F->checks) {
         sli_norms(&q->forward, v->y, lanes, norms);
         if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
@@ -115,16 +115,17 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const d
  * valid and memory is large enough. Stops at the first block that is inconsistent. */
 static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                                   const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
-    sl_int r;
-    for (r = 0; r < nrhs; r += 8) {
-        const sl_int block = sli_min(8, nrhs - r);
-        const sli_vectors v = sli_vectors_of(q, block, memory);
+    sl_int r, block;
+    for (r = 0; r < nrhs; r += block) {
+        sli_vectors v;
+        block = sli_block_size(nrhs - r, sli_block_most(F));
+        v = sli_vectors_of(q, block, memory);
         if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
             return SL_ERR_INCONSISTENT;
         }
         sli_sweep_backward(F, q, &v, block);
-        sli_unpack(q, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << sli_lanes_kind(block),
-                   block);
+        sli_unpack(q, F->kernels, X + (size_t)r * x_at.column, x_at, v.x,
+                   (sl_int)1 << sli_lanes_kind(block), block);
     }
     return SL_OK;
 }
@@ -139,13 +140,13 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
     return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
-/* Block m of 8 right-hand sides of a solve by several workers. */
+/* Item m of a solve by several workers: t->share right-hand sides. */
 static void sli_sweep_tasks_block(void *data, sl_int phase, sl_int m, sl_int worker) {
     const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-    const sl_int block = sli_min(8, t->nrhs - 8 * m);
+    const sl_int first = m * t->share, count = sli_min(t->share, t->nrhs - first);
     (void)phase;
-    (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)m * 8 * t->x_at.column, t->x_at,
-                           t->B + (size_t)m * 8 * t->b_at.column, t->b_at, block,
+    (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)first * t->x_at.column, t->x_at,
+                           t->B + (size_t)first * t->b_at.column, t->b_at, count,
                            (unsigned char *)t->memory + (size_t)worker * t->bytes);
 }
 
@@ -161,7 +162,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
-    status = sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs));
+    status = sli_work_grow(W, t.workers > 1 ? t.total
+                                            : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
     if (status == SL_OK && t.workers > 1) {
         t.X = X;
         t.x_at = x_at;
@@ -212,7 +214,7 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
 
 /* Grows W to what solves of a query need. */
 static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-    return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs) : 0);
+    return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs, SLI_BLOCK_MOST) : 0);
 }
 
 SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {

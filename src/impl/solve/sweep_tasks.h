@@ -27,11 +27,12 @@ typedef struct sli_sweep_task {
  * behind the vector. Kernels for one right-hand side add the whole contribution of a supernode to
  * a row at once; a slot that begins as -0 then holds just that. Those for more do not.
  *
- * More than 8 right-hand sides are distributed by blocks of 8. */
+ * More than 8 right-hand sides are distributed by blocks of 8, 16 or 32. */
 typedef struct sli_sweep_tasks {
     const sl_factor *F;
     const sli_query *q;
     sl_int nrhs, workers;
+    sl_int share; /* right-hand sides of a block that is distributed */
     sl_int n_tasks, n_tops, n_slots;
     sli_sweep_task tasks[SLI_SOLVE_TASKS]; /* ascending */
     sl_int order[SLI_SOLVE_TASKS];         /* the largest first */
@@ -209,7 +210,11 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     t->q = q;
     t->nrhs = nrhs;
     if (nrhs > 8) {
-        t->bytes = sli_vectors_bytes(q, 8);
+        t->share = 8;
+        while (2 * t->share * workers <= nrhs && t->share < sli_block_most(F)) {
+            t->share *= 2;
+        }
+        t->bytes = sli_vectors_bytes(q, t->share, sli_block_most(F));
         t->total = t->bytes > SIZE_MAX / (size_t)workers ? SIZE_MAX : t->bytes * (size_t)workers;
         t->workers = workers;
         return;
@@ -328,7 +333,7 @@ static void sli_sweep_tasks_item(void *data, sl_int phase, sl_int item, sl_int w
     }
 }
 
-/* Runs a planned solve in memory of t->total bytes; run_block solves a block of 8. */
+/* Runs a planned solve in memory of t->total bytes; run_block solves t->share right-hand sides. */
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
                                 void (*run_block)(void *data, sl_int phase, sl_int item,
                                                   sl_int worker)) {
@@ -339,7 +344,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
     t->memory = memory;
     if (t->nrhs > 8) {
         phases.run = run_block;
-        phases.count[0] = sli_tiles(t->nrhs);
+        phases.count[0] = (t->nrhs - 1) / t->share + 1;
     } else {
         b.base = (unsigned char *)memory;
         sli_sweep_tasks_layout(t, &b);
