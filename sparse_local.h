@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7ad00c5c255e8e9d
+ * FNV-1a of the lines after this comment, without the license: a531e5907e257f31
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -20,68 +20,68 @@
  *   1854 batch.h      many independent solves by one call, distributed over threads
  *   1904 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
  *   2082 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2201 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2305 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2444 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2562 change.h     a factor that follows small changes of its matrix
- *   2649 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2739 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2871 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2920 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *   2202 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2306 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2445 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2563 change.h     a factor that follows small changes of its matrix
+ *   2650 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2740 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2872 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2921 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2972 base.h   3251 status.h   3312 options.h   3370 alloc.h   3480 hash.h   3610 file_map.h
- *   3707 sort.h   3771 parallel.h
+ *   2973 base.h   3252 status.h   3313 options.h   3371 alloc.h   3481 hash.h   3611 file_map.h
+ *   3708 sort.h   3772 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3898 panel.h   3920 step.h   3971 pivot_rule.h   4045 front.h   4104 pairs.h
- *   4311 inverse_front.h   4383 table.h   4411 simd.h   4500 simd_scalar_single.h
- *   4546 simd_scalar.h   4673 simd_avx2_single.h   4727 simd_avx2.h   4939 simd_avx512_single.h
- *   4990 simd_avx512.h   5143 simd_neon_single.h   5185 simd_neon.h   5393 dispatch.h
+ *   3899 panel.h   3921 step.h   3972 pivot_rule.h   4046 front.h   4105 pairs.h
+ *   4312 inverse_front.h   4384 table.h   4412 simd.h   4501 simd_scalar_single.h
+ *   4547 simd_scalar.h   4674 simd_avx2_single.h   4728 simd_avx2.h   4940 simd_avx512_single.h
+ *   4991 simd_avx512.h   5144 simd_neon_single.h   5186 simd_neon.h   5394 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5473 csc.h   5587 csc_build.h   5721 csc64.h   5792 csc_triangle.h   5858 csc_products.h
- *   5975 permute.h   6041 sum.h   6123 output_file.h   6332 matrix_market.h
+ *   5474 csc.h   5588 csc_build.h   5722 csc64.h   5793 csc_triangle.h   5859 csc_products.h
+ *   5976 permute.h   6042 sum.h   6124 output_file.h   6333 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6778 graph.h   6927 coarsen.h   7239 labels.h   7435 subgraph.h   7630 heap.h   7690 bisect.h
- *   7920 separator.h   8182 mindeg.h   8365 dissect.h   8697 levelset.h   8817 geometric.h
- *   8992 cells.h   9172 septree.h   9232 metis.h   9381 metis_refined.h   9495 nd.h
- *   9688 compress.h   9809 quotient.h  10223 order.h
+ *   6779 graph.h   6928 coarsen.h   7240 labels.h   7436 subgraph.h   7631 heap.h   7691 bisect.h
+ *   7921 separator.h   8183 mindeg.h   8366 dissect.h   8698 levelset.h   8818 geometric.h
+ *   8993 cells.h   9173 septree.h   9233 metis.h   9382 metis_refined.h   9496 nd.h
+ *   9689 compress.h   9810 quotient.h  10224 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10505 symbolic_types.h  10542 etree.h  10615 counts.h  10672 supernodes.h  10894 structure.h
- *  11015 schedule.h  11295 symbolic.h  11705 reach.h
+ *  10506 symbolic_types.h  10543 etree.h  10616 counts.h  10673 supernodes.h  10895 structure.h
+ *  11016 schedule.h  11296 symbolic.h  11706 reach.h
  * (factor: the numbers of L and D)
- *  11976 factor_types.h  12355 storage.h  12510 pivot_search.h  12856 pivoted.h  12924 scatter.h
- *  13082 uplooking.h  13154 null_product.h  13358 null_dense.h  13435 null_basis.h
- *  13743 null_vectors.h  13885 multifrontal.h  14061 front_tasks.h  14403 nullspace.h
- *  14606 growth.h  14682 factor_setup.h  14990 factor.h  15200 leftlooking.h  15384 factor_query.h
- *  15519 combination.h
+ *  11977 factor_types.h  12356 storage.h  12515 pivot_search.h  12861 pivoted.h  12929 scatter.h
+ *  13087 uplooking.h  13159 null_product.h  13363 null_dense.h  13440 null_basis.h
+ *  13748 null_vectors.h  13890 multifrontal.h  14066 front_tasks.h  14408 nullspace.h
+ *  14611 growth.h  14687 factor_setup.h  14995 factor.h  15205 leftlooking.h  15389 factor_query.h
+ *  15524 combination.h
  * (solve: full and local solves)
- *  15580 region_types.h  15684 work.h  15784 query.h  15994 singular.h  16261 backward.h
- *  16291 sweep_tasks.h  16618 sweep.h  16830 compile.h  17023 plan.h  17130 local.h  17282 parts.h
- *  17571 refine.h  17750 refine_local.h  17966 rcond.h  18122 defects.h
+ *  15585 region_types.h  15689 work.h  15789 query.h  15999 singular.h  16266 backward.h
+ *  16296 sweep_tasks.h  16623 sweep.h  16835 compile.h  17028 plan.h  17135 local.h  17287 parts.h
+ *  17576 refine.h  17755 refine_local.h  17971 rcond.h  18127 defects.h
  * (inverse: entries of the inverse, regions)
- *  18200 traversal.h  18445 traversal_run.h  18628 row_sets.h  18655 unit_vectors.h
- *  18882 bilinear.h  19059 entries.h  19340 block.h  19580 reserve.h  19772 selected.h
- *  19982 selected_query.h  20084 region_choose.h  20311 region.h
+ *  18205 traversal.h  18450 traversal_run.h  18633 row_sets.h  18660 unit_vectors.h
+ *  18887 bilinear.h  19064 entries.h  19345 block.h  19585 reserve.h  19777 selected.h
+ *  19987 selected_query.h  20089 region_choose.h  20316 region.h
  * (change: a factor that follows changes of its matrix)
- *  20559 update.h  20909 rank.h  21238 edges.h  21392 choose.h  21586 pins.h  22150 subset.h
- *  22257 restrict_analysis.h  22554 restrict_anew.h  22608 restrict_symbolic.h  22789 restrict.h
- *  23137 edit_match.h  23323 edit_place.h  23572 edit_separate.h  23885 edit_order.h
- *  24037 edit_graph.h  24132 edit_join.h  24408 edit.h
+ *  20564 update.h  20914 rank.h  21243 edges.h  21397 choose.h  21591 pins.h  22155 subset.h
+ *  22262 restrict_analysis.h  22559 restrict_anew.h  22613 restrict_symbolic.h  22794 restrict.h
+ *  23142 edit_match.h  23328 edit_place.h  23577 edit_separate.h  23890 edit_order.h
+ *  24042 edit_graph.h  24137 edit_join.h  24413 edit.h
  * (save: factors in files)
- *  24572 format.h  24868 decode.h  25016 check.h  25348 write.h  25653 load.h  25921 load_inverse.h
- *  26253 load_calls.h
+ *  24577 format.h  24873 decode.h  25021 check.h  25353 write.h  25658 load.h  25926 load_inverse.h
+ *  26258 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26452 batch_solve.h  26661 batch_factor.h  26862 batch_diagonal.h
+ *  26457 batch_solve.h  26666 batch_factor.h  26867 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27002 hermitian.h  27164 complex_rows.h
+ *  27007 hermitian.h  27169 complex_rows.h
  * (last: undefine every internal macro)
- *  27332 undef.h
+ *  27337 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27542 front.inl.h  27544 product.inl.h  27945 words_undef.inl.h  28025 multi_rhs.inl.h
- *  28502 sweeps.inl.h  28504 unit_triangle.inl.h  28541 two_rhs.inl.h  28710 small_supernode.inl.h
- *  28869 single_rhs.inl.h  29113 kernel_set.inl.h  29115 complex_small.inl.h
- *  29275 complex_rows.inl.h  29516 inverse_front.inl.h  29801 row.inl.h  29831 change.inl.h
- *  29895 interleave.inl.h
+ *  27547 front.inl.h  27549 product.inl.h  27950 words_undef.inl.h  28030 multi_rhs.inl.h
+ *  28507 sweeps.inl.h  28509 unit_triangle.inl.h  28546 two_rhs.inl.h  28715 small_supernode.inl.h
+ *  28874 single_rhs.inl.h  29118 kernel_set.inl.h  29120 complex_small.inl.h
+ *  29280 complex_rows.inl.h  29521 inverse_front.inl.h  29806 row.inl.h  29836 change.inl.h
+ *  29900 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1048,7 +1048,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  - Local solves cannot be refined, as the residual needs all of x.
  *  - The method is supernodal. sl_factor_update and _update_entries return SL_ERR_UNSUPPORTED: each
  *    change would round L again. sl_factor_change and sl_factor_refactor_changed refactor
- *    completely. Files of such factors are not supported.
+ *    completely.
  *  - An entry of L beyond the range of float is refused with SL_ERR_INACCURATE, as growth is; so is
  *    one that underflows where that loses more than rounding does. Scaling A to a unit diagonal
  *    avoids both.
@@ -2187,7 +2187,8 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *  sl_selected_refactor. */
 SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 
-/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing.
+/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing, if F
+ *  stores L as the factor that Z is of does (options.storage).
  *
  *  W      [in,out]  the workspace.
  *  Z      [in]      the selected inverse.
@@ -12386,13 +12387,17 @@ SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
   }
 }
 
-SLI_INLINE int sli_rounding_harms(const sli_front *f, sl_int r, sl_int j, double l) {
+SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
+                  double l) {
   const double d =
     f->E != NULL && f->E[j] != 0.0 ? fmax(fabs(f->D[j]), fabs(f->E[j])) : fabs(f->D[j]);
   if (fabs(l) > (double)FLT_MAX || d == SLI_NULL_PIVOT) {
     return d != SLI_NULL_PIVOT;
   }
-  return l != 0.0 && fabs(l) < (double)FLT_MIN && ldexp(d, -252) > f->magnitude[r];
+  if (l == 0.0 || fabs(l) >= (double)FLT_MIN || ldexp(d, -252) <= f->magnitude[r]) {
+    return 0;
+  }
+  return F->null_vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
 }
 
 static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int s,
@@ -12410,7 +12415,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int 
         odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
       }
       for (r = 0; r < SLI_TILE && odd; r++) {
-        if (sli_rounding_harms(f, SLI_TILE * t + r, j, from[r])) {
+        if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
           return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
                   f->D[j]);
         }

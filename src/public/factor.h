@@ -50,7 +50,7 @@
  *  - Local solves cannot be refined, as the residual needs all of x.
  *  - The method is supernodal. sl_factor_update and _update_entries return SL_ERR_UNSUPPORTED: each
  *    change would round L again. sl_factor_change and sl_factor_refactor_changed refactor
- *    completely. Files of such factors are not supported.
+ *    completely.
  *  - An entry of L beyond the range of float is refused with SL_ERR_INACCURATE, as growth is; so is
  *    one that underflows where that loses more than rounding does. Scaling A to a unit diagonal
  *    avoids both.

@@ -111,7 +111,8 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *  sl_selected_refactor. */
 SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 
-/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing.
+/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing, if F
+ *  stores L as the factor that Z is of does (options.storage).
  *
  *  W      [in,out]  the workspace.
  *  Z      [in]      the selected inverse.

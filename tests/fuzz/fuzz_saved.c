@@ -1,5 +1,6 @@
 /* fuzz_saved.c: loads, maps and uses saved factors, some with regions and a selected inverse, that
- * are arbitrary bytes, or damaged in a few words with checksums that agree */
+ * are arbitrary bytes, or damaged in a few words with checksums that agree; what is not damaged has
+ * to give the answers of what was saved */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,40 +39,68 @@ static void release(void *context, void *block) {
 enum { REGULAR, SKIPPED, WEIGHTED, REGULARIZED, SIGNED, PIVOTED };
 
 typedef struct matrix_t {
-    sl_int n, p[MOST + 1], i[4 * MOST];
-    double x[4 * MOST];
+    sl_int n, p[MOST + 1], i[MOST * MOST];
+    double x[MOST * MOST];
 } matrix_t;
 
-static matrix_t matrix_make(int base) {
+/* Flags of a file: with regions and selected inverse; with L in float; with several null vectors,
+ * which second differences have. */
+enum { HAS_INVERSE = 1, HAS_FLOATS = 2, HAS_SEVERAL = 4, FLAGS = 8 };
+
+/* Adds c c' for the first or second difference c of the rows from j on in steps of `step`. */
+static void add_difference(double *a, sl_int j, sl_int step, int is_second) {
+    static const double first[2] = {1, -1}, second[3] = {1, -2, 1};
+    const double *c = is_second ? second : first;
+    const int count = is_second ? 3 : 2;
+    for (int k = 0; k < count * count; k++) {
+        a[j + step * (k / count) + MOST * (j + step * (k % count))] += c[k / count] * c[k % count];
+    }
+}
+
+/* The path is cut after row 4. */
+static matrix_t matrix_make(int base, int flags) {
     matrix_t A;
-    const int way = base % WAYS, is_path = base >= WAYS;
+    const int way = base % WAYS, is_path = base >= WAYS, is_second = (flags & HAS_SEVERAL) != 0;
     const int is_singular = way == SKIPPED || way == WEIGHTED;
+    const sl_int reach = is_second ? 2 : 1;
+    double a[MOST * MOST] = {0};
     memset(&A, 0, sizeof A);
     A.n = is_path ? 11 : MOST;
-    for (sl_int j = 0, at = 0; j < A.n; j++) {
-        const sl_int right = is_path || j % SIDE < SIDE - 1 ? j + 1 : A.n,
-                     below = is_path ? A.n : j + SIDE;
-        A.i[at++] = j; /* the diagonal, filled in below */
-        if (right < A.n && !(is_path && j == 4)) {
-            A.i[at++] = right;
+    for (sl_int j = 0; j < A.n; j++) {
+        a[j + MOST * j] += is_singular ? 0 : 1;
+        if (is_path ? j + reach < A.n && (j > 4 || j + reach <= 4) : j % SIDE + reach < SIDE) {
+            add_difference(a, j, 1, is_second);
         }
-        if (below < A.n) {
-            A.i[at++] = below;
+        if (!is_path && j + reach * SIDE < A.n) {
+            add_difference(a, j, SIDE, is_second);
+        }
+    }
+    for (sl_int j = 0, at = 0; j < A.n; j++) {
+        for (sl_int i = j; i < A.n; i++) {
+            if (i == j || a[i + MOST * j] != 0) {
+                A.i[at] = i;
+                A.x[at++] = a[i + MOST * j];
+            }
         }
         A.p[j + 1] = at;
-    }
-    for (sl_int j = 0; j < A.n; j++) {
-        A.x[A.p[j]] += is_singular ? 0 : 1;
-        for (sl_int p = A.p[j] + 1; p < A.p[j + 1]; p++) {
-            A.x[p] = -1;
-            A.x[A.p[j]] += 1;
-            A.x[A.p[A.i[p]]] += 1;
-        }
     }
     for (sl_int j = 0; j < A.n && way == PIVOTED; j++) { /* needs 2x2 pivots */
         A.x[A.p[j]] *= j % 3 == 0 ? 1e-3 : -0.125;
     }
     return A;
+}
+
+/* The null vectors of second differences, with room for two components: 1, x, y, x y. */
+enum { COLUMNS = 4 };
+
+static void fill_null_vectors(double *z, sl_int n, int is_path) {
+    for (sl_int i = 0; i < n; i++) {
+        const double x = is_path ? i : i % SIDE, y = is_path ? 0 : i / SIDE;
+        z[i] = 1;
+        z[i + n] = x;
+        z[i + 2 * n] = y;
+        z[i + 3 * n] = x * y;
+    }
 }
 
 static sl_csc view_of(const matrix_t *A) {
@@ -111,26 +140,48 @@ static unsigned char *save(sl_symbolic *S, sl_factor *F, int has_inverse, size_t
     return bytes;
 }
 
-/* Flags of a file: with regions and selected inverse; with L in float. */
-enum { HAS_INVERSE = 1, HAS_FLOATS = 2, FLAGS = 4 };
+/* A file, and what its factor answers. */
+typedef struct base_t {
+    unsigned char *bytes;
+    size_t size;
+    sl_status status;
+    double x[MOST];
+} base_t;
+
+/* Solves for 1, 2, ... */
+static sl_status ask(const sl_factor *F, sl_int n, double *x) {
+    double b[MOST];
+    for (sl_int i = 0; i < n; i++) {
+        b[i] = 1.0 + i;
+    }
+    return sl_factor_solve(F, x, MOST, b, MOST, 1, NULL);
+}
 
 /* Saves base k in new memory. */
-static unsigned char *base_make(int base, int flags, size_t *size) {
-    const matrix_t A = matrix_make(base);
+static base_t base_make(int base, int flags) {
+    const matrix_t A = matrix_make(base, flags);
+    base_t found;
     const int way = base % WAYS;
     const sl_csc view = view_of(&A);
-    double mass[MOST];
+    double mass[MOST], z[COLUMNS * MOST];
     sl_int signs[MOST];
     sl_options opt;
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     memset(&opt, 0, sizeof opt);
+    memset(&found, 0, sizeof found);
     for (int k = 0; k < MOST; k++) {
         mass[k] = 1 + k;
         signs[k] = k % 4 == 3 ? -1 : 1;
     }
     opt.null_pivots = way == SKIPPED || way == WEIGHTED ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
-    opt.mass = way == WEIGHTED ? mass : NULL;
+    if (flags & HAS_SEVERAL && opt.null_pivots == SL_NULL_PIVOT_SKIP) { /* no weights then */
+        fill_null_vectors(z, A.n, base >= WAYS);
+        opt.null_vector = z;
+        opt.null_vector_count = COLUMNS;
+    } else {
+        opt.mass = way == WEIGHTED ? mass : NULL;
+    }
     opt.regularization = way >= REGULARIZED ? 1e-8 : 0.0;
     opt.signs = way == SIGNED ? signs : NULL;
     opt.storage = flags & HAS_FLOATS ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
@@ -140,10 +191,11 @@ static unsigned char *base_make(int base, int flags, size_t *size) {
         PROMISE(sl_symbolic_create(&S, &view, NULL, NULL) == SL_OK);
     }
     PROMISE(sl_factor_create(&F, S, &view, &opt, NULL) == SL_OK);
-    unsigned char *bytes = save(S, F, flags & HAS_INVERSE, size);
+    found.bytes = save(S, F, flags & HAS_INVERSE, &found.size);
+    found.status = ask(F, A.n, found.x);
     sl_factor_free(F);
     sl_symbolic_free(S);
-    return bytes;
+    return found;
 }
 
 /* ---- use ---- */
@@ -153,7 +205,7 @@ static void use(const sl_symbolic *S, sl_factor *F) {
     const sl_int n = sl_symbolic_view(S).n, set[3] = {0, n / 2, n - 1};
     const sl_int count = n > 0 ? 3 : 0;
     const size_t ld = (size_t)n + 3;
-    const matrix_t M = matrix_make(0);
+    const matrix_t M = matrix_make(0, 0);
     const sl_csc A = view_of(&M);
     double *b = (double *)calloc(9 * ld, sizeof(double)),
            *x = (double *)calloc(9 * ld, sizeof(double));
@@ -237,7 +289,7 @@ static void use_region(const sl_saved_set *set, const sl_region *R) {
 /* Every kind of call on what comes with a factor, before and after a refactorization. */
 static void use_set(const sl_saved_set *set) {
     const sl_int n = sl_symbolic_view(set->symbolic).n, row = n / 2;
-    const matrix_t M = matrix_make(0);
+    const matrix_t M = matrix_make(0, 0);
     const sl_csc A = view_of(&M);
     double *x = (double *)calloc((size_t)n + 1, sizeof *x);
     sl_region *R = NULL;
@@ -354,9 +406,23 @@ static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t c
     }
 }
 
+/* An undamaged file answers as what was saved, in either byte order. */
+static void check_answers(const base_t *base, const unsigned char *bytes) {
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    double x[MOST];
+    PROMISE(sl_load_memory(&S, &F, bytes, base->size, SL_LOAD_VERIFIED, NULL) == SL_OK);
+    const sl_int n = sl_symbolic_view(S).n;
+    PROMISE(ask(F, n, x) == base->status);
+    for (sl_int i = 0; base->status == SL_OK && i < n; i++) {
+        PROMISE(x[i] == base->x[i]);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static unsigned char *bases[FLAGS * BASES];
-    static size_t sizes[FLAGS * BASES];
+    static base_t bases[FLAGS * BASES];
     if (size >= 8 && data[0] == 0x89) { /* a file */
         try_bytes(data, size);
         unsigned char *copy = (unsigned char *)malloc(size);
@@ -367,21 +433,24 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         free(copy);
     } else if (size >= 2) { /* a base, flags and edits */
         const int kind = data[0] % BASES, flags = (data[1] >> 1) % FLAGS;
-        const int base = kind + flags * BASES;
-        if (bases[base] == NULL) {
-            bases[base] = base_make(kind, flags, &sizes[base]);
+        base_t *base = &bases[kind + flags * BASES];
+        if (base->bytes == NULL) {
+            *base = base_make(kind, flags);
         }
-        unsigned char *copy = (unsigned char *)malloc(sizes[base]);
+        unsigned char *copy = (unsigned char *)malloc(base->size);
         PROMISE(copy != NULL);
-        memcpy(copy, bases[base], sizes[base]);
+        memcpy(copy, base->bytes, base->size);
         if (data[1] & 1) {
             saved_change_order(copy);
         }
-        edit(copy, sizes[base], data + 2, size - 2);
-        if (!(data[1] & 1)) {
-            saved_repair(copy, sizes[base]);
+        if (size < 6) {
+            check_answers(base, copy);
         }
-        try_bytes(copy, sizes[base]);
+        edit(copy, base->size, data + 2, size - 2);
+        if (!(data[1] & 1)) {
+            saved_repair(copy, base->size);
+        }
+        try_bytes(copy, base->size);
         free(copy);
     }
     return 0;

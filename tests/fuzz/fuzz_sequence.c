@@ -1,6 +1,6 @@
 /* fuzz_sequence.c: takes a sequence of calls on a pool of objects from any bytes, with allocations
  * that fail in between; compares every answer with dense matrices */
-#include "sequence_objects.h"
+#include "sequence_saved.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -48,16 +48,35 @@ static void note_numbers(factor_t *f, sl_status status, const values_t *v) {
     f->v = *v;
 }
 
+/* The null vectors of LAPLACIAN and RIGID matrices, one that is none, and zeros: they make room for
+ * two null vectors in each of four components. */
+static const double *null_columns(const analysis_t *s) {
+    static double z[MOST * COLUMNS];
+    memset(z, 0, sizeof z);
+    for (sl_int i = 0; i < s->n; i++) {
+        z[i] = 1.0;
+        z[i + s->n] = i;
+        z[i + 2 * s->n] = (i * i) % 7;
+    }
+    return z;
+}
+
 static sl_options factor_options(input_t *in, factor_t *f, kind_t kind) {
+    const analysis_t *s = &analyses[f->analysis];
     const int choices = take(in);
     sl_options opt = threaded(choices % 4);
     opt.isa = choices / 4 % 2 ? SL_ISA_SCALAR : SL_ISA_AUTO;
     opt.method = (sl_method)(choices / 8 % 3);
-    f->has_mass = 0;
+    f->is_float = choices / 64 % 2;
+    opt.storage = f->is_float ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
+    f->has_mass = f->has_columns = 0;
     if (kind == LAPLACIAN) {
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
-        f->has_mass = choices / 32 % 2;
+        f->has_columns = choices / 128 % 2;
+        f->has_mass = choices / 32 % 2 && !f->has_columns; /* weights need one null vector */
         opt.mass = f->has_mass ? f->mass : NULL;
+        opt.null_vector = f->has_columns ? null_columns(s) : NULL;
+        opt.null_vector_count = f->has_columns ? COLUMNS : 0;
     }
     for (sl_int k = 0; k < MOST; k++) {
         f->mass[k] = 1.0 + k % 3;
@@ -77,7 +96,7 @@ static void create_factor(input_t *in) {
         return;
     }
     const sl_options opt = factor_options(in, f, kind);
-    take_values(in, s, kind, &v);
+    take_values(in, s, f->has_columns ? RIGID : kind, &v);
     const sl_csc A = view(s, v.x);
     const sl_status status = sl_factor_create(&f->F, s->S, &A, &opt, NULL);
     PROMISE((f->F != NULL) == (status == SL_OK));
@@ -205,11 +224,33 @@ static void create_plan(input_t *in) {
     p->region = p->P && stats.plan.in_region ? region : -1;
 }
 
+/* Right-hand sides that are consistent for RIGID matrices where three rows of b in turn are of one
+ * component: orthogonal to 1 and to the numbers of the rows. */
+static void take_rigid_sides(input_t *in, const set_t *b, sl_int nrhs, double *B, double *full) {
+    for (sl_int r = 0; r < nrhs; r++) {
+        for (sl_int k = 0; k < b->count; k++) {
+            B[k + SET * r] = 0.0;
+        }
+        for (sl_int k = 0; k + 2 < b->count; k += 3) {
+            const sl_int *i = b->rows + k;
+            const double w = r == 0 ? take_eighths(in) : 1.0 + r;
+            for (int e = 0; e < 3; e++) {
+                B[k + e + SET * r] = w * (i[(e + 2) % 3] - i[(e + 1) % 3]);
+                full[i[e] + MOST * r] += B[k + e + SET * r];
+            }
+        }
+    }
+}
+
 /* Fills B with eighths and adds it to the right-hand sides of the full solve. */
 static void take_right_hand_sides(input_t *in, const set_t *b, sl_int nrhs, double *B,
                                   double *full) {
     memset(full, 0, MOST * RHS * sizeof *full);
-    const int is_balanced = take(in) % 2;
+    const int form = take(in), is_balanced = form % 2;
+    if (form % 8 == 7) {
+        take_rigid_sides(in, b, nrhs, B, full);
+        return;
+    }
     for (sl_int r = 0; r < nrhs; r++) {
         double sum = 0.0;
         for (sl_int k = 0; k < b->count; k++) {
@@ -255,7 +296,7 @@ static void compare(const plan_t *p, const factor_t *f, sl_int nrhs, const doubl
             if (p->region < 0) {
                 check_same(local, value);
             } else if (f->v.kind == DOMINANT) {
-                PROMISE(fabs(local - value) <= 1e-11 * largest(full + MOST * r, MOST));
+                PROMISE(fabs(local - value) <= tolerance(f) * largest(full + MOST * r, MOST));
             }
         }
     }
@@ -295,9 +336,9 @@ static void solve(input_t *in) {
     int all_consistent = 1;
     for (sl_int r = 0; r < nrhs && f->v.kind != WILD; r++) {
         all_consistent &=
-            f->v.kind != LAPLACIAN || f->has_mass || is_consistent(f, full_b + MOST * r);
+            !is_singular(f->v.kind) || f->has_mass || is_consistent(f, full_b + MOST * r);
         if (reference == SL_OK) {
-            check_solution(f, full + MOST * r, full_b + MOST * r);
+            check_solution(f, full + MOST * r, full_b + MOST * r, tolerance(f));
         }
     }
     if (f->v.kind != WILD) {
@@ -320,7 +361,7 @@ static void check_diagonal(const factor_t *f, const set_t *set, const double *d)
         dense_inverse(f, inverse);
         for (sl_int k = 0; k < set->count; k++) {
             const double expected = inverse[set->rows[k] + MOST * set->rows[k]];
-            PROMISE(fabs(d[k] - expected) <= 1e-11 * fabs(expected));
+            PROMISE(fabs(d[k] - expected) <= tolerance(f) * fabs(expected));
         }
     }
 }
@@ -354,6 +395,7 @@ static void create_selected(input_t *in) {
         return;
     }
     z->analysis = f->analysis;
+    z->is_float = f->is_float;
     memcpy(z->a, f->v.a, sizeof z->a);
     status = sl_selected_diagonal(z->Z, d, rows_of(&set), set.count, NULL);
     PROMISE(status == SL_OK || (form % 2 && status == SL_ERR_PATTERN));
@@ -436,7 +478,7 @@ static void invert(input_t *in) {
     PROMISE(status == expected || no_memory(status));
     for (sl_int k = 0; status == SL_OK && is_known && k < pairs; k++) {
         const sl_int i = rows.rows[k], j = columns.rows[k];
-        PROMISE(fabs(out[k] - inverse[i + MOST * j]) <= 1e-11 * entry_size(inverse, i, j));
+        PROMISE(fabs(out[k] - inverse[i + MOST * j]) <= tolerance(f) * entry_size(inverse, i, j));
     }
     status = sl_inverse_block(f->F, block, SET, rows.rows, rows.count, columns.rows, columns.count,
                               W, NULL);
@@ -450,7 +492,7 @@ static void invert(input_t *in) {
         for (sl_int k = 0; k < rows.count; k++) {
             const sl_int i = rows.rows[k], j = columns.rows[l];
             const double value = inverse[i + MOST * j], most = entry_size(inverse, i, j);
-            PROMISE(status != SL_OK || fabs(block[k + SET * l] - value) <= 1e-11 * most);
+            PROMISE(status != SL_OK || fabs(block[k + SET * l] - value) <= tolerance(f) * most);
             exact += b[k] * c[l] * value;
             size += fabs(b[k] * c[l]) * most;
         }
@@ -458,13 +500,13 @@ static void invert(input_t *in) {
     status = sl_inverse_bilinear(f->F, &form_value, rows_of(&rows), b, rows.count,
                                  rows_of(&columns), c, columns.count, W, NULL);
     PROMISE(status == expected || no_memory(status));
-    PROMISE(status != SL_OK || !is_known || fabs(form_value - exact) <= 1e-11 * size);
+    PROMISE(status != SL_OK || !is_known || fabs(form_value - exact) <= tolerance(f) * size);
 }
 
 static void query(input_t *in) {
     const factor_t *f = &factors[take(in) % FACTORS];
     double log_abs_det = 0.0, sign = 0.0, rcond = -1.0, B[MOST * RHS], X[MOST * RHS], b[MOST];
-    sl_int count = -1, rows[MOST], component[MOST], roots = 0;
+    sl_int count = -1, rows[MOST];
     sl_stats stats;
     if (!f->F) {
         return;
@@ -487,12 +529,8 @@ static void query(input_t *in) {
     } else {
         PROMISE(refined == expected || no_memory(refined));
     }
-    if (f->is_valid && f->v.kind == LAPLACIAN) {
-        find_components(f->v.a, s->n, component);
-        for (sl_int k = 0; k < s->n; k++) {
-            roots += component[k] == k;
-        }
-        PROMISE(count == roots);
+    if (f->is_valid && is_singular(f->v.kind)) {
+        PROMISE(count == nullity_of(&f->v, s->n));
         PROMISE(status != SL_OK || (s->n == 0 ? rcond == 1.0 : rcond == 0.0));
     } else if (f->is_valid && f->v.kind == DOMINANT) {
         memset(b, 0, sizeof b);
@@ -502,7 +540,7 @@ static void query(input_t *in) {
         PROMISE(status != SL_OK || (rcond > 0.0 && rcond <= 1.0 + 1e-9));
         PROMISE(refined != SL_OK || stats.refine.backward_error <= 4e-15);
         for (sl_int r = 0; refined == SL_OK && r < nrhs; r++) {
-            check_solution(f, X + MOST * r, B + MOST * r);
+            check_solution(f, X + MOST * r, B + MOST * r, 1e-11);
         }
     }
     status = sl_factor_defects(f->F, X, MOST, B, MOST, nrhs, work);
@@ -660,9 +698,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         create_analysis, create_factor, create_factor, combine, refactor,    refactor_changed,
         create_plan,     create_plan,   solve,         solve,   solve,       create_selected,
         create_region,   invert,        query,         reserve, solve_batch, release_one};
-    static void (*const more[])(input_t * in) = {
-        solve_rows,   multiply, build_matrices, look_into, batch_diagonal,
-        select_pairs, copy,     reserve_others};
+    static void (*const more[])(input_t * in) = {solve_rows, multiply,       build_matrices,
+                                                 look_into,  batch_diagonal, select_pairs,
+                                                 copy,       reserve_others, copy_set};
     enum { CALLS = (int)(sizeof calls / sizeof calls[0]) };
     enum { MORE = (int)(sizeof more / sizeof more[0]) };
     if (size == 0) {

@@ -26,8 +26,12 @@ static int take(input_t *in) {
 /* ---- the pool: objects, and what the dense model knows of each ---- */
 
 /* DOMINANT: strictly diagonally dominant, pivots of both signs. LAPLACIAN: null pivots are skipped.
- * WILD: anything, also values that are not finite; only equalities of bits are checked. */
-typedef enum kind_t { DOMINANT = 0, LAPLACIAN, WILD } kind_t;
+ * WILD: anything, also values that are not finite; only equalities of bits are checked. RIGID: of
+ * triangles, with the null vectors 1 and i in each component, of which there are two unless the
+ * component is a single row; null pivots are skipped. */
+typedef enum kind_t { DOMINANT = 0, LAPLACIAN, WILD, RIGID } kind_t;
+
+enum { COLUMNS = 8 }; /* of null vectors: two for each component of 3 rows and more */
 
 typedef struct analysis_t {
     sl_symbolic *S;
@@ -45,6 +49,8 @@ typedef struct factor_t {
     int analysis;
     int is_valid; /* it has numbers, those of v */
     int has_mass;
+    int has_columns; /* it was given COLUMNS null vectors */
+    int is_float;
     double mass[MOST];
     values_t v;
 } factor_t;
@@ -65,6 +71,7 @@ typedef struct plan_t {
 typedef struct selected_t {
     sl_selected *Z;
     int analysis;
+    int is_float; /* its factor */
     double a[ENTRIES]; /* the matrix that it is of; it may outlive its factor */
 } selected_t;
 
@@ -202,6 +209,15 @@ static sl_csc view(const analysis_t *s, const double *x) {
     return A;
 }
 
+/* Relative error of a solution. */
+static double tolerance(const factor_t *f) {
+    return f->is_float ? 1e-4 : 1e-11;
+}
+
+static int is_singular(kind_t kind) {
+    return kind == LAPLACIAN || kind == RIGID;
+}
+
 static void set_dense(const analysis_t *s, values_t *v) {
     memset(v->a, 0, sizeof v->a);
     for (sl_int j = 0; j < s->n; j++) {
@@ -273,20 +289,36 @@ static void find_components(const double *a, sl_int n, sl_int *component) {
     }
 }
 
-/* Sums of b over the components, at their smallest rows. The values are eighths: sums are exact. */
+/* Products of b with the null vectors of the components, at their smallest rows. The values are
+ * eighths: sums are exact. */
 static int is_consistent(const factor_t *f, const double *b) {
     const sl_int n = order_of(f);
     sl_int component[MOST];
-    double sum[MOST] = {0.0};
+    double sum[MOST] = {0.0}, moment[MOST] = {0.0};
     find_components(f->v.a, n, component);
     for (sl_int i = 0; i < n; i++) {
         sum[component[i]] += b[i];
+        moment[component[i]] += f->v.kind == RIGID ? i * b[i] : 0.0;
     }
-    return largest(sum, n) == 0.0;
+    return largest(sum, n) == 0.0 && largest(moment, n) == 0.0;
+}
+
+/* The null vectors of a LAPLACIAN or RIGID matrix: one or two for each component. */
+static sl_int nullity_of(const values_t *v, sl_int n) {
+    sl_int component[MOST], count = 0;
+    find_components(v->a, n, component);
+    for (sl_int k = 0; k < n; k++) {
+        sl_int rows = 0;
+        for (sl_int i = 0; i < n; i++) {
+            rows += component[i] == k;
+        }
+        count += rows == 0 ? 0 : rows > 2 && v->kind == RIGID ? 2 : 1;
+    }
+    return count;
 }
 
 /* Checks A x = b, or for a Laplacian with mass m: A x = b - c m with sum m x = 0 per component. */
-static void check_laplacian(const factor_t *f, const double *x, const double *b) {
+static void check_laplacian(const factor_t *f, const double *x, const double *b, double bound) {
     const sl_int n = order_of(f);
     sl_int component[MOST];
     double sum_b[MOST] = {0.0}, sum_m[MOST] = {0.0}, sum_mx[MOST] = {0.0}, size = largest(b, n);
@@ -306,20 +338,20 @@ static void check_laplacian(const factor_t *f, const double *x, const double *b)
         for (sl_int j = 0; j < n; j++) {
             residual -= f->v.a[i + MOST * j] * x[j];
         }
-        PROMISE(fabs(residual) <= 1e-11 * size);
-        PROMISE(!f->has_mass || fabs(sum_mx[c]) <= 1e-11 * size * MOST);
+        PROMISE(fabs(residual) <= bound * size);
+        PROMISE(!f->has_mass || fabs(sum_mx[c]) <= bound * size * MOST);
     }
 }
 
-static void check_solution(const factor_t *f, const double *x, const double *b) {
+static void check_solution(const factor_t *f, const double *x, const double *b, double bound) {
     const sl_int n = order_of(f);
     double y[MOST];
-    if (f->v.kind == LAPLACIAN) {
-        check_laplacian(f, x, b);
+    if (is_singular(f->v.kind)) {
+        check_laplacian(f, x, b, bound);
     } else if (f->v.kind == DOMINANT) {
         (void)dense_solve(f->v.a, n, b, y);
         for (sl_int i = 0; i < n; i++) {
-            PROMISE(fabs(x[i] - y[i]) <= 1e-11 * largest(y, n));
+            PROMISE(fabs(x[i] - y[i]) <= bound * largest(y, n));
         }
     }
 }
@@ -340,9 +372,84 @@ static double take_wild(input_t *in) {
     return byte >= 248 ? odd[byte - 248] : (byte - 124) / 8.0;
 }
 
+/* The number of zero pivots, with complete pivoting; a is destroyed. */
+static sl_int dense_nullity(double *a, sl_int n) {
+    const double least = 1e-9 * largest(a, ENTRIES);
+    sl_int rank = 0;
+    for (; rank < n; rank++) {
+        sl_int row = rank, column = rank;
+        for (sl_int i = rank; i < n; i++) {
+            for (sl_int j = rank; j < n; j++) {
+                if (fabs(a[i + MOST * j]) > fabs(a[row + MOST * column])) {
+                    row = i;
+                    column = j;
+                }
+            }
+        }
+        if (!(fabs(a[row + MOST * column]) > least)) {
+            break;
+        }
+        for (sl_int k = 0; k < n; k++) {
+            const double keep = a[rank + MOST * k];
+            a[rank + MOST * k] = a[row + MOST * k];
+            a[row + MOST * k] = keep;
+        }
+        for (sl_int k = 0; k < n; k++) {
+            const double keep = a[k + MOST * rank];
+            a[k + MOST * rank] = a[k + MOST * column];
+            a[k + MOST * column] = keep;
+        }
+        for (sl_int i = rank + 1; i < n; i++) {
+            const double l = a[i + MOST * rank] / a[rank + MOST * rank];
+            for (sl_int j = rank; j < n; j++) {
+                a[i + MOST * j] -= l * a[rank + MOST * j];
+            }
+        }
+    }
+    return n - rank;
+}
+
+/* Adds w c c' for each triangle i, j, k of the pattern; c is orthogonal to 1 and to (i, j, k).
+ * Returns whether the null vectors are those of a RIGID matrix: where triangles share a row only,
+ * there are more. */
+static int take_rigid(input_t *in, const analysis_t *s, values_t *v) {
+    int is_stored[ENTRIES] = {0};
+    double a[ENTRIES] = {0.0};
+    for (sl_int j = 0; j < s->n; j++) {
+        for (sl_int q = s->p[j]; q < s->p[j + 1]; q++) {
+            is_stored[s->i[q] + MOST * j] = is_stored[j + MOST * s->i[q]] = 1;
+        }
+    }
+    for (sl_int i = 0; i < s->n; i++) {
+        for (sl_int j = i + 1; j < s->n; j++) {
+            for (sl_int k = j + 1; k < s->n && is_stored[i + MOST * j]; k++) {
+                if (is_stored[i + MOST * k] && is_stored[j + MOST * k]) {
+                    const sl_int rows[3] = {i, j, k};
+                    const double c[3] = {k - j, i - k, j - i}, w = 1.0 + take(in) % 16 / 8.0;
+                    for (int e = 0; e < 9; e++) {
+                        a[rows[e / 3] + MOST * rows[e % 3]] += w * c[e / 3] * c[e % 3];
+                    }
+                }
+            }
+        }
+    }
+    for (sl_int j = 0; j < s->n; j++) {
+        for (sl_int q = s->p[j]; q < s->p[j + 1]; q++) {
+            v->x[q] = a[s->i[q] + MOST * j];
+        }
+    }
+    v->kind = RIGID;
+    set_dense(s, v);
+    return dense_nullity(a, s->n) == nullity_of(v, s->n);
+}
+
 static void take_values(input_t *in, const analysis_t *s, kind_t kind, values_t *v) {
     double sum[MOST] = {0.0};
     memset(v->x, 0, sizeof v->x);
+    if (kind == RIGID && take_rigid(in, s, v)) {
+        return;
+    }
+    kind = kind == RIGID ? LAPLACIAN : kind;
     v->kind = kind;
     for (sl_int j = 0; j < s->n; j++) {
         for (sl_int q = s->p[j]; q < s->p[j + 1]; q++) {

@@ -58,14 +58,19 @@ SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
 /* Does rounding harm the entry l of column j in local row r? An entry that underflows loses more
  * than the share u of itself. This changes A by up to 2^-150 |d_j l_kj| in that row and row k, and
  * |l_kj| <= sqrt(magnitude_k / |d_j|). It is within the bound, u sqrt(magnitude_r magnitude_k), if
- * 2^-150 sqrt(|d_j|) <= 2^-24 sqrt(magnitude_r). The column of a null pivot is never used. */
-SLI_INLINE int sli_rounding_harms(const sli_front *f, sl_int r, sl_int j, double l) {
+ * 2^-150 sqrt(|d_j|) <= 2^-24 sqrt(magnitude_r). The column of a null pivot is never used. With
+ * several null vectors it may have entries a, which leave a a' / SLI_NULL_PIVOT in other rows. */
+SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
+                                  double l) {
     const double d =
         f->E != NULL && f->E[j] != 0.0 ? fmax(fabs(f->D[j]), fabs(f->E[j])) : fabs(f->D[j]);
     if (fabs(l) > (double)FLT_MAX || d == SLI_NULL_PIVOT) {
         return d != SLI_NULL_PIVOT;
     }
-    return l != 0.0 && fabs(l) < (double)FLT_MIN && ldexp(d, -252) > f->magnitude[r];
+    if (l == 0.0 || fabs(l) >= (double)FLT_MIN || ldexp(d, -252) <= f->magnitude[r]) {
+        return 0;
+    }
+    return F->null_vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
 }
 
 /* Rounds the panel of a front to float. Refuses what float cannot hold. */
@@ -84,7 +89,7 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int 
                 odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
             }
             for (r = 0; r < SLI_TILE && odd; r++) {
-                if (sli_rounding_harms(f, SLI_TILE * t + r, j, from[r])) {
+                if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
                     return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
                                     f->D[j]);
                 }
