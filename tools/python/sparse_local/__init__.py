@@ -15,8 +15,10 @@ from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, 
                       UnsupportedError)
 from ._factor import Factor, Plan, Region
 from ._library import library_path, version
+from ._saved_set import Selected, load_set, save_set
 
 __version__ = version()
-__all__ = ["Factor", "Plan", "Region", "Error", "ArgumentError", "PatternError", "PivotError",
-           "NotFiniteError", "InconsistentError", "InaccurateError", "StateError",
-           "TooLargeError", "UnsupportedError", "OutOfMemoryError", "library_path", "version"]
+__all__ = ["Factor", "Plan", "Region", "Selected", "save_set", "load_set", "Error",
+           "ArgumentError", "PatternError", "PivotError", "NotFiniteError", "InconsistentError",
+           "InaccurateError", "StateError", "TooLargeError", "UnsupportedError",
+           "OutOfMemoryError", "library_path", "version"]

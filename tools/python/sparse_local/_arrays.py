@@ -128,6 +128,11 @@ class Matrix:
                                "one of them", row)
 
 
+def check_triangle(name):
+    if name not in TRIANGLES:
+        raise ArgumentError("triangle is 'lower', 'upper' or None, not %r" % (name,))
+
+
 def rows(chosen):
     """A set of rows as (keeper, address, count); None is every row: address NULL."""
     if chosen is None:

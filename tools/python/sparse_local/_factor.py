@@ -7,12 +7,13 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._errors import ArgumentError
-from ._library import Handle, Stats, check, lib, new_options
+from ._library import Handle, Stats, as_dict, check, lib, new_options
 
 _ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4,
               "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
-_CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
+_STORAGES = {"double": 0, "float": 1}
+CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
 _PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
 
 
@@ -34,6 +35,8 @@ class Factor:
     null_vector     n numbers, if the null vector is not constant; n x k: several null vectors a
                     component, such as the 3 or 6 rigid motions of an elastic body.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
+    storage         'double', or 'float': half the bytes for L; solutions have the accuracy of
+                    float until refine.
 
     Threads   any number of threads may call all methods but refactor and update at once. Calls
               release the global interpreter lock.
@@ -41,15 +44,17 @@ class Factor:
 
     def __init__(self, A, *, triangle=None, ordering="nd", perm=None, coordinates=None,
                  block_size=0, null_pivots="refuse", null_tolerance=0.0, mass=None,
-                 null_vector=None, consistency_tolerance=0.0, regularization=0.0, signs=None):
+                 null_vector=None, consistency_tolerance=0.0, regularization=0.0, signs=None,
+                 storage="double"):
         matrix = arrays.Matrix(A)
         options = new_options()
         self._triangle = triangle
         options.triangle = matrix.triangle(triangle)
         if perm is not None:
             ordering = "given"
-        options.ordering = _choice(_ORDERINGS, ordering, "ordering")
-        options.null_pivots = _choice(_NULL_PIVOTS, null_pivots, "null_pivots")
+        options.ordering = choice(_ORDERINGS, ordering, "ordering")
+        options.null_pivots = choice(_NULL_PIVOTS, null_pivots, "null_pivots")
+        options.storage = choice(_STORAGES, storage, "storage")
         options.null_tolerance = null_tolerance
         options.consistency_tolerance = consistency_tolerance
         options.regularization = regularization
@@ -139,7 +144,7 @@ class Factor:
 
     def save(self, path):
         """Writes the analysis and the factor to a file, which load reads."""
-        check(lib.sl_save_file(_path(path), self._symbolic.pointer, self._factor.pointer, None))
+        check(lib.sl_save_file(encoded(path), self._symbolic.pointer, self._factor.pointer, None))
 
     @classmethod
     def load(cls, path, *, map=False, checks="checked", triangle=None):
@@ -150,7 +155,7 @@ class Factor:
         triangle  as for Factor, for later refactors.
         """
         call = lib.sl_map_file if map else lib.sl_load_file
-        return cls._loaded(call, (_path(path),), checks, triangle)
+        return cls._loaded(call, (encoded(path),), checks, triangle)
 
     def to_bytes(self):
         """The analysis and the factor as bytes, as save writes them; pickle uses this."""
@@ -173,15 +178,19 @@ class Factor:
 
     @classmethod
     def _loaded(cls, call, source, checks, triangle):
-        if triangle not in arrays.TRIANGLES:
-            raise ArgumentError("triangle is 'lower', 'upper' or None, not %r" % (triangle,))
+        arrays.check_triangle(triangle)
         symbolic, factor = ctypes.c_void_p(), ctypes.c_void_p()
         check(call(ctypes.byref(symbolic), ctypes.byref(factor), *source,
-                   _choice(_CHECKS, checks, "checks"), None))
+                   choice(CHECKS, checks, "checks"), None))
+        return cls._of(symbolic.value, factor.value, triangle)
+
+    @classmethod
+    def _of(cls, symbolic, factor, triangle):
+        """The owner of an analysis and a factor that were loaded."""
         self = cls.__new__(cls)
         self._triangle = triangle
-        self._symbolic = Handle("symbolic", symbolic.value)
-        self._factor = Handle("factor", factor.value, self._symbolic)
+        self._symbolic = Handle("symbolic", symbolic)
+        self._factor = Handle("factor", factor, self._symbolic)
         self.n = lib.sl_symbolic_view(self._symbolic.pointer).n
         self._works = threading.local()
         return self
@@ -320,7 +329,7 @@ class Factor:
         stats = Stats()
         lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
         lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
-        return {"symbolic": _as_dict(stats.symbolic), "factor": _as_dict(stats.factor),
+        return {"symbolic": as_dict(stats.symbolic), "factor": as_dict(stats.factor),
                 "storage": stats.storage}
 
     def __repr__(self):
@@ -341,8 +350,11 @@ class Region:
         pointer, stats = ctypes.c_void_p(), Stats()
         check(lib.sl_region_create(ctypes.byref(pointer), factor._factor.pointer, address, count,
                                    None, None, ctypes.byref(stats)), stats)
+        self._own(factor, pointer.value)
+
+    def _own(self, factor, pointer):
         self._factor = factor
-        self._region = Handle("region", pointer.value, factor._factor, factor._symbolic)
+        self._region = Handle("region", pointer, factor._factor, factor._symbolic)
 
     def update(self):
         """Computes the region again from the present numbers of the factor."""
@@ -354,7 +366,7 @@ class Region:
         """Rows, boundary and bytes, by their C names."""
         stats = Stats()
         lib.sl_region_stats(self._region.pointer, ctypes.byref(stats))
-        return _as_dict(stats.region)
+        return as_dict(stats.region)
 
 
 class Plan:
@@ -403,7 +415,7 @@ class Plan:
         info = self.stats
         out = np.empty(info["b_columns"] if part == "L" else info["x_columns"], dtype=np.int32)
         count = ctypes.c_int32()
-        check(lib.sl_plan_columns(self._plan.pointer, _choice(_PARTS, part, "part"),
+        check(lib.sl_plan_columns(self._plan.pointer, choice(_PARTS, part, "part"),
                                   arrays.address(out), out.size, ctypes.byref(count)))
         return out
 
@@ -412,18 +424,18 @@ class Plan:
         """Columns and entries of L that a solve visits, by their C names."""
         stats = Stats()
         lib.sl_plan_stats(self._plan.pointer, ctypes.byref(stats))
-        return _as_dict(stats.plan)
+        return as_dict(stats.plan)
 
 
 def _parts(parts):
     """The bits of parts: a string of names, or the names."""
     bits = 0
     for name in parts.split() if isinstance(parts, str) else parts:
-        bits |= _choice(_PARTS, name, "a part")
+        bits |= choice(_PARTS, name, "a part")
     return bits
 
 
-def _path(path):
+def encoded(path):
     """A path as the bytes that the library opens."""
     name = os.fsencode(path)
     if b"\0" in name:
@@ -435,11 +447,8 @@ def _unpickle(data, triangle):
     return Factor.from_bytes(data, triangle=triangle)
 
 
-def _choice(names, name, what):
+def choice(names, name, what):
     if name not in names:
         raise ArgumentError("%s is one of %s, not %r" % (what, ", ".join(names), name))
     return names[name]
 
-
-def _as_dict(struct):
-    return {name: getattr(struct, name) for name, *_ in struct._fields_}

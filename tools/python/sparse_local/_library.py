@@ -89,6 +89,13 @@ class Stats(ctypes.Structure):
                 ("edit", _EditInfo), ("storage", _OFF), ("reserved", _OFF * 9)]
 
 
+class SavedSet(ctypes.Structure):
+    """sl_saved_set"""
+    _fields_ = [("symbolic", _PTR), ("factor", _PTR), ("selected", _PTR),
+                ("regions", ctypes.POINTER(_PTR)), ("n_regions", _INT), ("allocate", _PTR),
+                ("release", _PTR), ("allocator_context", _PTR)]
+
+
 class SymbolicArrays(ctypes.Structure):
     """sl_symbolic_arrays"""
     _fields_ = [("n", _INT), ("n_supers", _INT)] + [(name, _PTR) for name in (
@@ -127,6 +134,13 @@ _CALLS = {
     "inverse_block": [_PTR, _PTR, _SIZE, _PTR, _INT, _PTR, _INT, _PTR, _STATS],
     "region_create": [_OUT, _PTR, _PTR, _INT, _PTR, _OPT, _STATS],
     "region_refactor": [_PTR, _PTR, _PTR, _PTR],
+    "selected_create": [_OUT, _PTR, _PTR, _INT, _OPT, _STATS],
+    "selected_refactor": [_PTR, _PTR, _PTR],
+    "selected_diagonal": [_PTR, _PTR, _PTR, _INT, _STATS],
+    "selected_entries": [_PTR, _PTR, _PTR, _PTR, _INT, _STATS],
+    "save_set_file": [ctypes.c_char_p, ctypes.POINTER(SavedSet), _OPT],
+    "load_set_file": [ctypes.POINTER(SavedSet), ctypes.c_char_p, _ENUM, _OPT],
+    "map_set_file": [ctypes.POINTER(SavedSet), ctypes.c_char_p, _ENUM, _OPT],
     "save_bytes": [ctypes.POINTER(_SIZE), _PTR, _PTR],
     "save_memory": [_PTR, _SIZE, _PTR, _PTR],
     "save_file": [ctypes.c_char_p, _PTR, _PTR, _OPT],
@@ -134,7 +148,8 @@ _CALLS = {
     "load_file": [_OUT, _OUT, ctypes.c_char_p, _ENUM, _OPT],
     "map_file": [_OUT, _OUT, ctypes.c_char_p, _ENUM, _OPT],
 }
-_FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free")
+_FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free",
+          "selected_free", "saved_set_free")
 
 
 def library_path():
@@ -168,7 +183,8 @@ def _load():
     lib.sl_matrix_view.restype = Csc
     lib.sl_symbolic_view.argtypes = [_PTR]
     lib.sl_symbolic_view.restype = SymbolicArrays
-    for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats"):
+    for name in ("symbolic_stats", "factor_stats", "plan_stats", "region_stats",
+                 "selected_stats"):
         call = getattr(lib, "sl_" + name)
         call.argtypes = [_PTR, _STATS]
         call.restype = None
@@ -187,6 +203,11 @@ def version():
     """The version of the library, as 0.1.0."""
     number = lib.sl_version()
     return "%d.%d.%d" % (number // 10000, number // 100 % 100, number % 100)
+
+
+def as_dict(struct):
+    """The members of a struct of counts, by their C names."""
+    return {name: getattr(struct, name) for name, *_ in struct._fields_}
 
 
 def new_options():

@@ -174,6 +174,88 @@ def test_regions(A, F):
     assert np.allclose(plan.solve(b), F.local(rows, b, rows), rtol=1e-12)
 
 
+def test_a_selected_inverse_has_entries_of_the_inverse(A, F):
+    inverse = np.linalg.inv(A.toarray())
+    Z = sl.Selected(F)
+    i, j = A.nonzero()
+    assert np.allclose(Z.diagonal(), inverse.diagonal()) and Z.stats["columns"] == 400
+    assert np.allclose(Z.entries(i, j), inverse[i, j])
+    few = sl.Selected(F, [7])
+    assert few.stats["columns"] < 400 and np.allclose(few.diagonal([7]), inverse[7, 7])
+    absent = set(range(400)) - {int(r) for r in F.perm[-200:]}
+    with pytest.raises(sl.PatternError):
+        few.diagonal(sorted(absent))
+    with pytest.raises(sl.ArgumentError):
+        Z.entries([1, 2], [1])
+    with pytest.raises(sl.ArgumentError):
+        Z.diagonal([400])
+    F.refactor(2 * A)
+    assert np.allclose(Z.diagonal(), inverse.diagonal())  # of the old numbers
+    Z.update()
+    assert np.allclose(Z.diagonal(), inverse.diagonal() / 2)
+
+
+@pytest.mark.parametrize("mapped", [False, True])
+@pytest.mark.parametrize("storage", ["double", "float"])
+def test_saved_sets_have_the_same_bits(A, tmp_path, mapped, storage):
+    F = sl.Factor(A, storage=storage)
+    rows, b = [205, 206, 225, 226], right_hand_sides(4)
+    Z, R = sl.Selected(F), F.region(rows)
+    path = tmp_path / "set.slf"
+    sl.save_set(path, F, Z, [R, F.region([3])])
+    G, Y, regions = sl.load_set(path, map=mapped, checks="verified")
+    x = F.plan(rows, rows, region=R).solve(b)
+    assert np.array_equal(G.plan(rows, rows, region=regions[0]).solve(b), x)
+    assert len(regions) == 2 and regions[0].stats["boundary"] == R.stats["boundary"]
+    assert np.array_equal(Y.diagonal(), Z.diagonal())
+    whole = right_hand_sides(400)
+    assert np.array_equal(G.solve(whole), F.solve(whole))
+    assert np.array_equal(sl.Factor.load(path).solve(whole), F.solve(whole))
+    if mapped:
+        for change in (Y.update, regions[0].update, lambda: G.refactor(A)):
+            with pytest.raises(sl.StateError):
+                change()
+    else:
+        G.refactor(2 * A)
+        Y.update()
+        regions[0].update()
+        assert np.allclose(Y.diagonal(), Z.diagonal() / 2)
+        assert np.allclose(G.plan(rows, rows, region=regions[0]).solve(b), x / 2)
+    del G
+    gc.collect()
+    assert Y.diagonal([5]).shape == (1,)  # it keeps what it borrows
+
+
+def test_sets_are_of_one_factor(A, F, tmp_path):
+    Z, R = sl.Selected(F), F.region([3])
+    other = sl.Factor(2 * A)
+    for selected, regions in ((Z, ()), (None, [R])):
+        with pytest.raises(sl.StateError):
+            sl.save_set(tmp_path / "x.slf", other, selected, regions)
+    assert not (tmp_path / "x.slf").exists()
+    F.save(tmp_path / "f.slf")
+    G, selected, regions = sl.load_set(tmp_path / "f.slf")
+    assert selected is None and regions == [] and G.n == 400
+    with pytest.raises(sl.ArgumentError):
+        sl.load_set(tmp_path / "f.slf", triangle="left")
+    with pytest.raises(sl.Error):
+        sl.load_set(tmp_path / "none.slf")
+
+
+def test_l_in_float(A):
+    b = right_hand_sides(400)
+    exact = splu(A).solve(b)
+    F = sl.Factor(A, storage="float")
+    x = F.solve(b)
+    error = np.abs(x - exact).max() / np.abs(exact).max()
+    assert 1e-10 < error < 1e-5
+    assert F.stats["factor"]["bytes"] < 0.8 * sl.Factor(A).stats["factor"]["bytes"]
+    x, backward = F.refine(A, x, b, steps=3)
+    assert backward < 1e-14 and np.allclose(x, exact, rtol=1e-12, atol=1e-13)
+    with pytest.raises(sl.ArgumentError):
+        sl.Factor(A, storage="half")
+
+
 def test_inverse_and_determinant(A, F):
     inverse = np.linalg.inv(A.toarray())
     assert np.allclose(F.diagonal(), inverse.diagonal())
@@ -297,11 +379,11 @@ HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
 
 
 @pytest.mark.skipif(not os.path.exists(HEADER), reason="no header beside the package")
-@pytest.mark.parametrize("name", ["Options", "Stats", "Csc", "Csc64", "SymbolicArrays"])
+@pytest.mark.parametrize("name", ["Options", "Stats", "Csc", "Csc64", "SavedSet", "SymbolicArrays"])
 def test_structs_are_those_of_the_header(tmp_path, name):
     """Every member of the C struct, in order, at the same offset, and nothing after the last."""
     struct = {"Options": "sl_options", "Stats": "sl_stats", "Csc": "sl_csc", "Csc64": "sl_csc64",
-              "SymbolicArrays": "sl_symbolic_arrays"}[name]
+              "SavedSet": "sl_saved_set", "SymbolicArrays": "sl_symbolic_arrays"}[name]
     ours = dict(leaves(getattr(_library, name)))
     with open(os.path.join(HEADER, "sparse_local.h")) as file:
         theirs = c_members(file.read(), struct)

@@ -1,0 +1,105 @@
+"""Selected: kept entries of the inverse. save_set, load_set: a factor with what is made over it."""
+import ctypes
+from collections import namedtuple
+
+import numpy as np
+
+from . import _arrays as arrays
+from ._errors import ArgumentError
+from ._factor import CHECKS, Factor, Region, choice, encoded
+from ._library import Handle, SavedSet, Stats, as_dict, check, lib
+
+
+class Selected:
+    """The entries of the inverse in the pattern of the factor: all, or those that rows need.
+
+    They are those of the numbers that the factor had; update() computes them again. Reading an
+    entry takes less than a microsecond, whatever the size of the matrix.
+    """
+
+    def __init__(self, factor, rows=None):
+        keep, address, count = arrays.rows(rows)
+        pointer, stats = ctypes.c_void_p(), Stats()
+        check(lib.sl_selected_create(ctypes.byref(pointer), factor._factor.pointer, address, count,
+                                     None, ctypes.byref(stats)), stats)
+        self._own(factor, pointer.value)
+
+    def _own(self, factor, pointer):
+        self._factor = factor
+        self._selected = Handle("selected", pointer, factor._factor, factor._symbolic)
+
+    def update(self):
+        """Computes the entries from the present numbers of the factor; StateError: mapped."""
+        check(lib.sl_selected_refactor(self._selected.pointer, self._factor._factor.pointer,
+                                       self._factor._work()))
+
+    def diagonal(self, rows=None):
+        """(A^-1)[r, r] for r in rows; None: all. PatternError: a row that is not kept."""
+        keep, address, count = arrays.rows(rows)
+        out, stats = np.empty(self._factor.n if rows is None else count), Stats()
+        check(lib.sl_selected_diagonal(self._selected.pointer, arrays.address(out), address, count,
+                                       ctypes.byref(stats)), stats)
+        return out
+
+    def entries(self, rows, columns):
+        """(A^-1)[r, c] for the pairs of rows and columns. PatternError: one is not kept."""
+        keep_r, r_rows, count = arrays.rows(rows)
+        keep_c, c_rows, n_columns = arrays.rows(columns)
+        if r_rows is None or c_rows is None or count != n_columns:
+            raise ArgumentError("entries need as many rows as columns")
+        out, stats = np.empty(count), Stats()
+        check(lib.sl_selected_entries(self._selected.pointer, arrays.address(out), r_rows, c_rows,
+                                      count, ctypes.byref(stats)), stats)
+        return out
+
+    @property
+    def stats(self):
+        """Supernodes, columns, entries and bytes, by their C names."""
+        stats = Stats()
+        lib.sl_selected_stats(self._selected.pointer, ctypes.byref(stats))
+        return as_dict(stats.selected)
+
+
+Loaded = namedtuple("Loaded", "factor selected regions")
+
+
+def save_set(path, factor, selected=None, regions=()):
+    """Writes a factor with a Selected and Regions of its present numbers to a file.
+
+    load_set reads all of it; Factor.load, and every other program, the factor alone. StateError:
+    one of them is not of these numbers.
+    """
+    regions = list(regions)
+    pointers = (ctypes.c_void_p * max(len(regions), 1))(*(R._region.pointer for R in regions))
+    stored = SavedSet(factor._symbolic.pointer, factor._factor.pointer,
+                      selected._selected.pointer if selected is not None else None, pointers,
+                      len(regions))
+    check(lib.sl_save_set_file(encoded(path), ctypes.byref(stored), None))
+
+
+def load_set(path, *, map=False, checks="checked", triangle=None):
+    """(factor, selected, regions) of a file; selected is None if it has none, regions is a list.
+
+    The arguments are those of Factor.load. Plans in the regions solve with the factor at once.
+    With map=True all of them are immutable, and processes share one copy in memory.
+    """
+    arrays.check_triangle(triangle)
+    call = lib.sl_map_set_file if map else lib.sl_load_set_file
+    loaded = SavedSet()
+    check(call(ctypes.byref(loaded), encoded(path), choice(CHECKS, checks, "checks"), None))
+    if not loaded.factor:
+        lib.sl_saved_set_free(ctypes.byref(loaded))
+        raise ArgumentError("the file has no factor")
+    factor = Factor._of(loaded.symbolic, loaded.factor, triangle)
+    selected, regions = None, []
+    if loaded.selected:
+        selected = Selected.__new__(Selected)
+        selected._own(factor, loaded.selected)
+    for k in range(loaded.n_regions):
+        region = Region.__new__(Region)
+        region._own(factor, loaded.regions[k])
+        regions.append(region)
+        loaded.regions[k] = None
+    loaded.symbolic = loaded.factor = loaded.selected = None  # they have other owners now
+    lib.sl_saved_set_free(ctypes.byref(loaded))
+    return Loaded(factor, selected, regions)
