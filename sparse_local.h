@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a531e5907e257f31
+ * FNV-1a of the lines after this comment, without the license: 901e97680be2ac42
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -80,8 +80,8 @@
  *  27547 front.inl.h  27549 product.inl.h  27950 words_undef.inl.h  28030 multi_rhs.inl.h
  *  28507 sweeps.inl.h  28509 unit_triangle.inl.h  28546 two_rhs.inl.h  28715 small_supernode.inl.h
  *  28874 single_rhs.inl.h  29118 kernel_set.inl.h  29120 complex_small.inl.h
- *  29280 complex_rows.inl.h  29521 inverse_front.inl.h  29806 row.inl.h  29836 change.inl.h
- *  29900 interleave.inl.h
+ *  29280 complex_rows.inl.h  29527 inverse_front.inl.h  29812 row.inl.h  29842 change.inl.h
+ *  29906 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -29280,6 +29280,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int b
 /* src/impl/kernels/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
 
 #define SLI_HALF (SLI_TILE / 2)
+#if defined(SLV_PAIR)
+#define SLI_SMALL 1
+#else
+#define SLI_SMALL 0
+#endif
 #define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_ROW_AT(k) rows[at + (k)] * lanes
 
@@ -29294,7 +29299,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int b
     SLV_ADD(a0, b0) \
   }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const double *L, double *x,
                  const ptrdiff_t lanes, double *buf) {
   const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -29415,7 +29420,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
   }
 }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
                 const double *D, double *x, const ptrdiff_t lanes, double *buf) {
   const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -29459,7 +29464,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
                            double *x, double *buf) {
   const double *L = (const double *)values;
   for (; count > 0; count--, s++) {
-    if (s->width <= SLI_TILE) {
+    if (SLI_SMALL && s->width <= SLI_TILE) {
       SLV_NAME(complex_forward_small)
       (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
     } else {
@@ -29475,7 +29480,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
   const double *L = (const double *)values;
   for (s += count; count > 0; count--) {
     rows -= (--s)->below;
-    if (s->width <= SLI_TILE) {
+    if (SLI_SMALL && s->width <= SLI_TILE) {
       const double *end = L + (s->panel + sli_panel_size(s->width, s->below)) / 2;
       SLV_NAME(complex_backward_small)
       (s->width, s->below, rows, end, D + s->column, x + s->base, x);
@@ -29517,6 +29522,7 @@ SLI_COMPLEX_SWEEPS(complex_forward8, complex_backward8, 8)
 #undef SLI_ROW_AT
 #undef SLI_DECLARE
 #undef SLI_HALF
+#undef SLI_SMALL
 /* end of complex_rows.inl.h */
 /* src/impl/kernels/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
 

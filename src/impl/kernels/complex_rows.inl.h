@@ -6,6 +6,11 @@
  * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. Right-hand sides
  * are `lanes` apart and are swept one by one; a step's panel stays in the cache meanwhile. */
 #define SLI_HALF (SLI_TILE / 2)
+#if defined(SLV_PAIR)
+#define SLI_SMALL 1
+#else /* arrays gain nothing from copies for small supernodes */
+#define SLI_SMALL 0
+#endif
 #define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_ROW_AT(k) rows[at + (k)] * lanes
 
@@ -21,7 +26,7 @@
         SLV_ADD(a0, b0) \
     }
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const double *L, double *x,
                                const ptrdiff_t lanes, double *buf) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -147,7 +152,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
 }
 
 /* buf: the rows of a tile, then the sums. */
-SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
                                 const double *D, double *x, const ptrdiff_t lanes, double *buf) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -191,7 +196,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
                                                    double *x, double *buf) {
     const double *L = (const double *)values;
     for (; count > 0; count--, s++) {
-        if (s->width <= SLI_TILE) {
+        if (SLI_SMALL && s->width <= SLI_TILE) {
             SLV_NAME(complex_forward_small)
             (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
         } else {
@@ -207,7 +212,7 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
     const double *L = (const double *)values;
     for (s += count; count > 0; count--) {
         rows -= (--s)->below;
-        if (s->width <= SLI_TILE) {
+        if (SLI_SMALL && s->width <= SLI_TILE) {
             const double *end = L + (s->panel + sli_panel_size(s->width, s->below)) / 2;
             SLV_NAME(complex_backward_small)
             (s->width, s->below, rows, end, D + s->column, x + s->base, x);
@@ -250,3 +255,4 @@ SLI_COMPLEX_SWEEPS(complex_forward8, complex_backward8, 8)
 #undef SLI_ROW_AT
 #undef SLI_DECLARE
 #undef SLI_HALF
+#undef SLI_SMALL
