@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 901e97680be2ac42
+ * FNV-1a of the lines after this comment, without the license: 51fb165b49e5c6b4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -77,11 +77,11 @@
  * (last: undefine every internal macro)
  *  27337 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27547 front.inl.h  27549 product.inl.h  27950 words_undef.inl.h  28030 multi_rhs.inl.h
- *  28507 sweeps.inl.h  28509 unit_triangle.inl.h  28546 two_rhs.inl.h  28715 small_supernode.inl.h
- *  28874 single_rhs.inl.h  29118 kernel_set.inl.h  29120 complex_small.inl.h
- *  29280 complex_rows.inl.h  29527 inverse_front.inl.h  29812 row.inl.h  29842 change.inl.h
- *  29906 interleave.inl.h
+ *  27557 front.inl.h  27559 product.inl.h  27960 words_undef.inl.h  28040 multi_rhs.inl.h
+ *  28517 sweeps.inl.h  28519 unit_triangle.inl.h  28556 two_rhs.inl.h  28725 small_supernode.inl.h
+ *  28884 single_rhs.inl.h  29128 kernel_set.inl.h  29130 complex_small.inl.h
+ *  29290 complex_rows.inl.h  29537 inverse_front.inl.h  29822 row.inl.h  29852 change.inl.h
+ *  29916 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -27458,6 +27458,16 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_WORTHWHILE
 #undef SLI_SUM_ENTRIES
 #undef SLI_ROWS_AHEAD
+#undef SLI_EDIT_AHEAD
+#undef SLI_EDIT_MOST_ACTIVE
+#undef SLI_EDIT_LAST
+#undef SLI_EDIT_LAYERS
+#undef SLI_EDIT_LEAST
+#undef SLI_EDIT_SHARE
+#undef SLI_EDIT_DUE
+#undef SLI_NEIGHBORHOOD_SHRINK
+#undef SLI_NEIGHBORHOOD_PAIRS
+#undef SLI_WIDE_DEGREE
 #undef SLI_BLOCK_MOST
 #undef SLI_PACK_CHUNK
 #undef SLI_TEMPORARY_NAMES
