@@ -48,6 +48,7 @@ void bench_eigenpairs(bench_run *run);
 void bench_change_patch(bench_run *run);
 void bench_storage(bench_run *run);
 void bench_restrict(bench_run *run);
+void bench_edit(bench_run *run);
 #ifdef SL_BENCH_PEERS
 void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);

@@ -64,6 +64,8 @@ static const question questions[] = {
      bench_storage},
     {"restrict", "the factor of a patch from the whole one against its own analysis and factor",
      bench_restrict},
+    {"edit", "an analysis that follows a remeshed mesh against a new order and analysis",
+     bench_edit},
 #ifdef SL_BENCH_ARPACK
     {"eigenpairs",
      "auto-diffusion and heat kernel signatures by ARPACK's eigenpairs: digits and time",
