@@ -28,6 +28,7 @@ typedef enum part_t {
     DEFECTS,
     CONVERT,
     TRANSPOSE,
+    EDIT,
     PARTS
 } part_t;
 
@@ -135,11 +136,19 @@ static void take_null_pivots(case_t *c, input_t *in, int which) {
     c->for_factor.growth_limit = c->nrhs % 2 ? -1.0 : 0.0;
 }
 
+/* How L is kept, which the last byte says: mostly in double. */
+static sl_storage storage_of(int last) {
+    static const sl_storage storages[7] = {
+        SL_STORAGE_DOUBLE,       SL_STORAGE_FLOAT,  SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_COMPLEX,
+        SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_DOUBLE, SL_STORAGE_DOUBLE};
+    return storages[last / (STAGES * PARTS) % 7];
+}
+
 static void take_options(case_t *c, input_t *in) {
     /* CPUID takes as long as a run, so most runs do without. Unsupported ones end early */
-    static const sl_isa isas[10] = {
-        SL_ISA_SCALAR, SL_ISA_SCALAR, SL_ISA_AVX2, SL_ISA_AVX512, SL_ISA_SCALAR,
-        SL_ISA_AUTO,   SL_ISA_AUTO,   SL_ISA_NEON, SL_ISA_NEON,   SL_ISA_AUTO};
+    static const sl_isa isas[10] = {SL_ISA_SCALAR, SL_ISA_SCALAR, SL_ISA_AVX2, SL_ISA_AVX512,
+                                    SL_ISA_SCALAR, SL_ISA_AUTO,   SL_ISA_AUTO, SL_ISA_NEON,
+                                    SL_ISA_NEON,   SL_ISA_AUTO};
     const int choices = take(in), more = take(in);
     const sl_int n = c->A.n_cols;
     memset(&c->for_analysis, 0, sizeof c->for_analysis);
@@ -309,6 +318,34 @@ static void solve_parts(case_t *c, const sl_symbolic *S, sl_factor *F) {
     sl_plan_free(P);
 }
 
+/* The analysis follows an edit: another matrix, in which some of the rows are new. */
+static void edit(const case_t *c, const sl_symbolic *S, input_t *in) {
+    static case_t only;
+    case_t *next = &only;
+    sl_symbolic *T = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    sl_int new_of[MOST + 1];
+    memset(next, 0, sizeof *next);
+    take_matrix(next, in);
+    take_options(next, in);
+    for (sl_int k = 0; k <= MOST; k++) {
+        const int byte = take(in);
+        new_of[k] = byte < 128 && k < next->A.n_cols ? k : byte == 200 ? take_row(in, MOST) : -1;
+    }
+    const sl_status status = sl_symbolic_edit(&T, S, &c->A, &next->A, new_of, NULL, &stats);
+    PROMISE((T != NULL) == (status == SL_OK));
+    if (T != NULL) {
+        PROMISE(sl_csc_check(&next->A, NULL) == SL_OK && stats.symbolic.n == next->A.n_cols);
+        if (sl_factor_create(&F, T, &next->A, &next->for_factor, NULL) == SL_OK) {
+            next->part = SHOT;
+            solve_parts(next, T, F);
+        }
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(T);
+}
+
 /* Changes the first half of the columns and refactors only their reach. */
 static void change_half(case_t *c, const sl_symbolic *S, sl_factor *F, input_t *in) {
     sl_int columns[MOST];
@@ -356,6 +393,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     c->part = (part_t)(data[size - 1] / STAGES % PARTS);
     take_matrix(c, &in);
     take_options(c, &in);
+    c->for_factor.storage = storage_of(data[size - 1]);
     const sl_status good = sl_csc_check(&c->A, NULL);
     if (c->part == TRANSPOSE) {
         PROMISE((sl_matrix_transpose(&T, &c->A, NULL) == SL_OK) == (good == SL_OK));
@@ -364,6 +402,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     PROMISE((S != NULL) == (status == SL_OK));
     if (S) {
         PROMISE(good == SL_OK && c->A.n_rows == c->A.n_cols);
+        if (c->part == EDIT) {
+            edit(c, S, &in);
+        }
         const sl_status made = sl_factor_create(&F, S, &c->A, &c->for_factor, NULL);
         PROMISE((F != NULL) == (made == SL_OK));
         if (F && c->stage == FIRST) {
