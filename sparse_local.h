@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 51fb165b49e5c6b4
+ * FNV-1a of the lines after this comment, without the license: 41b623d510b0ebdf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2953,7 +2953,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
- *  Example  tests/core/test_edit.c
+ *  Example  tests/core/test_symbolic_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
                                                  const sl_csc *A, const sl_csc *B,

@@ -38,7 +38,7 @@
  *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
- *  Example  tests/core/test_edit.c
+ *  Example  tests/core/test_symbolic_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
                                                  const sl_csc *A, const sl_csc *B,

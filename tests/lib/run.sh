@@ -60,6 +60,8 @@ fi
 
 logs=$1
 shift
+twice=$(printf '%s\n' "$@" | sed 's|.*/||' | sort | uniq -d)
+[ -z "$twice" ] || { echo "run.sh: two programs have one name and one log: $twice" && exit 1; }
 rm -rf "$logs"
 mkdir -p "$logs/tmp" || exit 1
 export TMPDIR="$logs/tmp" SL_TMP="$logs/tmp"

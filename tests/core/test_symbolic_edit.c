@@ -1,4 +1,4 @@
-/* test_edit.c: sl_symbolic_edit: analyses that follow random edits of the pattern */
+/* test_symbolic_edit.c: sl_symbolic_edit: analyses that follow random edits of the pattern */
 #include "tests/lib/edited.h"
 
 /* Edits a matrix `edits` times, each time in another way, and checks every analysis. Returns how
