@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 41b623d510b0ebdf
+ * FNV-1a of the lines after this comment, without the license: ba52096d668b6abb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,52 +36,52 @@
  *   3899 panel.h   3921 step.h   3972 pivot_rule.h   4046 front.h   4105 pairs.h
  *   4312 inverse_front.h   4384 table.h   4412 simd.h   4501 simd_scalar_single.h
  *   4547 simd_scalar.h   4674 simd_avx2_single.h   4728 simd_avx2.h   4940 simd_avx512_single.h
- *   4991 simd_avx512.h   5144 simd_neon_single.h   5186 simd_neon.h   5394 dispatch.h
+ *   4995 simd_avx512.h   5148 simd_neon_single.h   5190 simd_neon.h   5398 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5474 csc.h   5588 csc_build.h   5722 csc64.h   5793 csc_triangle.h   5859 csc_products.h
- *   5976 permute.h   6042 sum.h   6124 output_file.h   6333 matrix_market.h
+ *   5478 csc.h   5592 csc_build.h   5726 csc64.h   5797 csc_triangle.h   5863 csc_products.h
+ *   5980 permute.h   6046 sum.h   6128 output_file.h   6337 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6779 graph.h   6928 coarsen.h   7240 labels.h   7436 subgraph.h   7631 heap.h   7691 bisect.h
- *   7921 separator.h   8183 mindeg.h   8366 dissect.h   8698 levelset.h   8818 geometric.h
- *   8993 cells.h   9173 septree.h   9233 metis.h   9382 metis_refined.h   9496 nd.h
- *   9689 compress.h   9810 quotient.h  10224 order.h
+ *   6783 graph.h   6932 coarsen.h   7244 labels.h   7440 subgraph.h   7635 heap.h   7695 bisect.h
+ *   7925 separator.h   8187 mindeg.h   8370 dissect.h   8702 levelset.h   8822 geometric.h
+ *   8997 cells.h   9177 septree.h   9237 metis.h   9386 metis_refined.h   9500 nd.h
+ *   9693 compress.h   9814 quotient.h  10228 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10506 symbolic_types.h  10543 etree.h  10616 counts.h  10673 supernodes.h  10895 structure.h
- *  11016 schedule.h  11296 symbolic.h  11706 reach.h
+ *  10510 symbolic_types.h  10547 etree.h  10620 counts.h  10677 supernodes.h  10899 structure.h
+ *  11020 schedule.h  11300 symbolic.h  11710 reach.h
  * (factor: the numbers of L and D)
- *  11977 factor_types.h  12356 storage.h  12515 pivot_search.h  12861 pivoted.h  12929 scatter.h
- *  13087 uplooking.h  13159 null_product.h  13363 null_dense.h  13440 null_basis.h
- *  13748 null_vectors.h  13890 multifrontal.h  14066 front_tasks.h  14408 nullspace.h
- *  14611 growth.h  14687 factor_setup.h  14995 factor.h  15205 leftlooking.h  15389 factor_query.h
- *  15524 combination.h
+ *  11981 factor_types.h  12360 storage.h  12519 pivot_search.h  12865 pivoted.h  12933 scatter.h
+ *  13091 uplooking.h  13163 null_product.h  13367 null_dense.h  13444 null_basis.h
+ *  13752 null_vectors.h  13894 multifrontal.h  14070 front_tasks.h  14412 nullspace.h
+ *  14615 growth.h  14691 factor_setup.h  14999 factor.h  15209 leftlooking.h  15393 factor_query.h
+ *  15528 combination.h
  * (solve: full and local solves)
- *  15585 region_types.h  15689 work.h  15789 query.h  15999 singular.h  16266 backward.h
- *  16296 sweep_tasks.h  16623 sweep.h  16835 compile.h  17028 plan.h  17135 local.h  17287 parts.h
- *  17576 refine.h  17755 refine_local.h  17971 rcond.h  18127 defects.h
+ *  15589 region_types.h  15693 work.h  15793 query.h  16003 singular.h  16270 backward.h
+ *  16300 sweep_tasks.h  16627 sweep.h  16839 compile.h  17032 plan.h  17139 local.h  17291 parts.h
+ *  17580 refine.h  17759 refine_local.h  17975 rcond.h  18131 defects.h
  * (inverse: entries of the inverse, regions)
- *  18205 traversal.h  18450 traversal_run.h  18633 row_sets.h  18660 unit_vectors.h
- *  18887 bilinear.h  19064 entries.h  19345 block.h  19585 reserve.h  19777 selected.h
- *  19987 selected_query.h  20089 region_choose.h  20316 region.h
+ *  18209 traversal.h  18454 traversal_run.h  18637 row_sets.h  18664 unit_vectors.h
+ *  18891 bilinear.h  19068 entries.h  19349 block.h  19589 reserve.h  19781 selected.h
+ *  19991 selected_query.h  20093 region_choose.h  20320 region.h
  * (change: a factor that follows changes of its matrix)
- *  20564 update.h  20914 rank.h  21243 edges.h  21397 choose.h  21591 pins.h  22155 subset.h
- *  22262 restrict_analysis.h  22559 restrict_anew.h  22613 restrict_symbolic.h  22794 restrict.h
- *  23142 edit_match.h  23328 edit_place.h  23577 edit_separate.h  23890 edit_order.h
- *  24042 edit_graph.h  24137 edit_join.h  24413 edit.h
+ *  20568 update.h  20918 rank.h  21247 edges.h  21401 choose.h  21595 pins.h  22159 subset.h
+ *  22266 restrict_analysis.h  22563 restrict_anew.h  22617 restrict_symbolic.h  22798 restrict.h
+ *  23146 edit_match.h  23332 edit_place.h  23581 edit_separate.h  23894 edit_order.h
+ *  24046 edit_graph.h  24141 edit_join.h  24417 edit.h
  * (save: factors in files)
- *  24577 format.h  24873 decode.h  25021 check.h  25353 write.h  25658 load.h  25926 load_inverse.h
- *  26258 load_calls.h
+ *  24581 format.h  24877 decode.h  25025 check.h  25357 write.h  25662 load.h  25930 load_inverse.h
+ *  26262 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26457 batch_solve.h  26666 batch_factor.h  26867 batch_diagonal.h
+ *  26461 batch_solve.h  26670 batch_factor.h  26871 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27007 hermitian.h  27169 complex_rows.h
+ *  27011 hermitian.h  27173 complex_rows.h
  * (last: undefine every internal macro)
- *  27337 undef.h
+ *  27341 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27557 front.inl.h  27559 product.inl.h  27960 words_undef.inl.h  28040 multi_rhs.inl.h
- *  28517 sweeps.inl.h  28519 unit_triangle.inl.h  28556 two_rhs.inl.h  28725 small_supernode.inl.h
- *  28884 single_rhs.inl.h  29128 kernel_set.inl.h  29130 complex_small.inl.h
- *  29290 complex_rows.inl.h  29537 inverse_front.inl.h  29822 row.inl.h  29852 change.inl.h
- *  29916 interleave.inl.h
+ *  27561 front.inl.h  27563 product.inl.h  27964 words_undef.inl.h  28044 multi_rhs.inl.h
+ *  28521 sweeps.inl.h  28523 unit_triangle.inl.h  28560 two_rhs.inl.h  28729 small_supernode.inl.h
+ *  28888 single_rhs.inl.h  29132 kernel_set.inl.h  29134 complex_small.inl.h
+ *  29294 complex_rows.inl.h  29541 inverse_front.inl.h  29826 row.inl.h  29856 change.inl.h
+ *  29920 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4947,19 +4947,20 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 
 #define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
+#define SLV_HALF_OF(a, k) \
+  _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), k))
 
 #define SLV_DECLARE(a) __m512 a;
 #define SLV_ZERO(a) a = _mm512_setzero_ps();
 #define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
-#define SLV_STORE(p, a) _mm256_store_ps((p), _mm512_castps512_ps256(a));
+#define SLV_STORE(p, a) _mm256_store_ps((p), SLV_HALF_OF(a, 0));
 #define SLV_VECTOR_TILES 2
 #define SLV_LOAD_TILES(a, p, q) \
   a = _mm512_castpd_ps( \
     _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
 #define SLV_STORE_TILES(p, q, a) \
   SLV_STORE(p, a) \
-  _mm256_store_ps((q), \
-          _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), 1)));
+  _mm256_store_ps((q), SLV_HALF_OF(a, 1));
 #define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
 #define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
 #define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
@@ -4976,15 +4977,18 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
   (void)(lanes);
 #define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps((to), _mm256_add_ps(_mm256_load_ps(to), \
-                    _mm512_castps512_ps256(_mm512_maskz_permutexvar_ps( \
-                      expand_, order_, \
-                      _mm512_castps256_ps512(_mm256_loadu_ps(from))))));
+  _mm256_store_ps( \
+    (to), _mm256_add_ps( \
+          _mm256_load_ps(to), \
+          SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
+                  expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
+                0)));
 #define SLI_SECTION_FRONT
 #include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 #undef SLV_HALF
+#undef SLV_HALF_OF
 
 #endif
 

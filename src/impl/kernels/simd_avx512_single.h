@@ -17,19 +17,20 @@
 
 /* Half a register, as the instructions for it take doubles. */
 #define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
+#define SLV_HALF_OF(a, k) \
+    _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), k))
 
 #define SLV_DECLARE(a) __m512 a;
 #define SLV_ZERO(a) a = _mm512_setzero_ps();
 #define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
-#define SLV_STORE(p, a) _mm256_store_ps((p), _mm512_castps512_ps256(a));
+#define SLV_STORE(p, a) _mm256_store_ps((p), SLV_HALF_OF(a, 0));
 #define SLV_VECTOR_TILES 2
 #define SLV_LOAD_TILES(a, p, q) \
     a = _mm512_castpd_ps( \
         _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
 #define SLV_STORE_TILES(p, q, a) \
     SLV_STORE(p, a) \
-    _mm256_store_ps((q), \
-                    _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), 1)));
+    _mm256_store_ps((q), SLV_HALF_OF(a, 1));
 #define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
 #define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
 #define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
@@ -46,13 +47,16 @@
         expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
     (void)(lanes);
 #define SLV_EXPAND_ADD(to, from) \
-    _mm256_store_ps((to), _mm256_add_ps(_mm256_load_ps(to), \
-                                        _mm512_castps512_ps256(_mm512_maskz_permutexvar_ps( \
-                                            expand_, order_, \
-                                            _mm512_castps256_ps512(_mm256_loadu_ps(from))))));
+    _mm256_store_ps( \
+        (to), _mm256_add_ps( \
+                  _mm256_load_ps(to), \
+                  SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
+                                  expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
+                              0)));
 #include "front.inl.h"
 #include "words_undef.inl.h"
 #undef SLV_HALF
+#undef SLV_HALF_OF
 
 #endif
 
