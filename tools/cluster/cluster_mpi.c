@@ -44,6 +44,9 @@ APP_NORETURN APP_PRINTF static void fail(const char *format, ...) {
     (void)vfprintf(stderr, format, list);
     (void)fprintf(stderr, "\n");
     va_end(list);
+    (void)fflush(stderr);
+    /* mpiexec drops what it has not forwarded yet when it ends the ranks */
+    (void)nanosleep(&(struct timespec){0, 200000000}, NULL);
     (void)MPI_Abort(MPI_COMM_WORLD, 1);
     exit(1);
 }
