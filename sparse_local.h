@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ba52096d668b6abb
+ * FNV-1a of the lines after this comment, without the license: f27f25c73e3cd43d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -66,22 +66,22 @@
  *  20568 update.h  20918 rank.h  21247 edges.h  21401 choose.h  21595 pins.h  22159 subset.h
  *  22266 restrict_analysis.h  22563 restrict_anew.h  22617 restrict_symbolic.h  22798 restrict.h
  *  23146 edit_match.h  23332 edit_place.h  23581 edit_separate.h  23894 edit_order.h
- *  24046 edit_graph.h  24141 edit_join.h  24417 edit.h
+ *  24048 edit_graph.h  24143 edit_join.h  24419 edit.h
  * (save: factors in files)
- *  24581 format.h  24877 decode.h  25025 check.h  25357 write.h  25662 load.h  25930 load_inverse.h
- *  26262 load_calls.h
+ *  24583 format.h  24879 decode.h  25027 check.h  25359 write.h  25664 load.h  25932 load_inverse.h
+ *  26264 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26461 batch_solve.h  26670 batch_factor.h  26871 batch_diagonal.h
+ *  26463 batch_solve.h  26672 batch_factor.h  26873 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27011 hermitian.h  27173 complex_rows.h
+ *  27013 hermitian.h  27175 complex_rows.h
  * (last: undefine every internal macro)
- *  27341 undef.h
+ *  27343 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27561 front.inl.h  27563 product.inl.h  27964 words_undef.inl.h  28044 multi_rhs.inl.h
- *  28521 sweeps.inl.h  28523 unit_triangle.inl.h  28560 two_rhs.inl.h  28729 small_supernode.inl.h
- *  28888 single_rhs.inl.h  29132 kernel_set.inl.h  29134 complex_small.inl.h
- *  29294 complex_rows.inl.h  29541 inverse_front.inl.h  29826 row.inl.h  29856 change.inl.h
- *  29920 interleave.inl.h
+ *  27563 front.inl.h  27565 product.inl.h  27966 words_undef.inl.h  28046 multi_rhs.inl.h
+ *  28523 sweeps.inl.h  28525 unit_triangle.inl.h  28562 two_rhs.inl.h  28731 small_supernode.inl.h
+ *  28890 single_rhs.inl.h  29134 kernel_set.inl.h  29136 complex_small.inl.h
+ *  29296 complex_rows.inl.h  29543 inverse_front.inl.h  29828 row.inl.h  29858 change.inl.h
+ *  29922 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24036,7 +24036,9 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     for (k = 0; k < count; k++) {
       scratch[k] = e->fresh[perm[k]];
     }
-    memcpy(e->fresh, scratch, (size_t)count * sizeof(sl_int));
+    for (k = 0; k < count; k++) {
+      e->fresh[k] = scratch[k];
+    }
   }
   sli_free(a, edges.base);
   sli_free(a, b.base);

@@ -155,7 +155,9 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
         for (k = 0; k < count; k++) {
             scratch[k] = e->fresh[perm[k]];
         }
-        memcpy(e->fresh, scratch, (size_t)count * sizeof(sl_int));
+        for (k = 0; k < count; k++) { /* memcpy: gcc 12 for s390x sees a negative count */
+            e->fresh[k] = scratch[k];
+        }
     }
     sli_free(a, edges.base);
     sli_free(a, b.base);
