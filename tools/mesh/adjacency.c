@@ -84,10 +84,8 @@ static bool finish(adjacency *a) {
 bool adjacency_from_mesh(adjacency *out, const mesh *m) {
     memset(out, 0, sizeof *out);
     size_t corners = 3 * (size_t)m->n_faces;
-    for (size_t k = 0; k < corners; k++) {
-        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
-            return false;
-        }
+    if (!mesh_faces_are_in_range(m)) {
+        return false;
     }
     if (!adjacency_allocate(out, m->n_vertices, 2 * (sl_off)corners)) {
         return false;

@@ -16,10 +16,8 @@ void edge_flips_free(edge_flips *a) {
 bool edge_flips_create(edge_flips *out, const mesh *m) {
     const size_t count = 3 * (size_t)m->n_faces;
     memset(out, 0, sizeof *out);
-    for (size_t k = 0; k < count; k++) {
-        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
-            return false;
-        }
+    if (!mesh_faces_are_in_range(m)) {
+        return false;
     }
     out->m = *m;
     out->m.faces = (sl_int *)malloc((count + 1) * sizeof(sl_int));

@@ -32,10 +32,8 @@ double incidence_edge_length(const incidence *a, sl_int f, int k) {
 bool incidence_create_of(incidence *out, const mesh *m, const double *lengths) {
     size_t n = (size_t)m->n_vertices, corners = 3 * (size_t)m->n_faces;
     memset(out, 0, sizeof *out);
-    for (size_t k = 0; k < corners; k++) {
-        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
-            return false;
-        }
+    if (!mesh_faces_are_in_range(m)) {
+        return false;
     }
     out->m = m;
     out->lengths = lengths;

@@ -203,10 +203,8 @@ static void measure_faces(mesh_stats *f, const mesh *m) {
 
 bool mesh_stats_compute(mesh_stats *out, const mesh *m) {
     memset(out, 0, sizeof *out);
-    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
-        if (m->faces[k] < 0 || m->faces[k] >= m->n_vertices) {
-            return false;
-        }
+    if (!mesh_faces_are_in_range(m)) {
+        return false;
     }
     for (int d = 0; d < 3; d++) {
         out->box_min[d] = m->n_faces > 0 ? HUGE_VAL : 0;
