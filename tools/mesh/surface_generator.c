@@ -6,29 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "edge_sides.h"
 #include "grid.h"
 
 static const double pi = 3.14159265358979323846;
 
 enum { MAX_SUBDIVISIONS = 10 };
-
-/* A side of a face. Subdivision finds the sides of an edge by sorting all sides: no hashing is
- * needed, and the vertex numbers are the same on every machine. */
-typedef struct half_edge {
-    sl_int low, high; /* its two vertices, low < high */
-    size_t corner;    /* 3 face + corner: the side from that corner to the next */
-} half_edge;
-
-static int by_ends(const void *a, const void *b) {
-    const half_edge *x = (const half_edge *)a, *y = (const half_edge *)b;
-    if (x->low != y->low) {
-        return x->low < y->low ? -1 : 1;
-    }
-    if (x->high != y->high) {
-        return x->high < y->high ? -1 : 1;
-    }
-    return x->corner < y->corner ? -1 : x->corner > y->corner;
-}
 
 static void to_sphere(double *x) {
     double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
@@ -61,31 +44,27 @@ static bool icosahedron(mesh *m) {
 }
 
 /* Adds the midpoint of each edge, projected to the sphere. middle[3 f + c] is the vertex on the
- * edge of face f from corner c to the next. */
+ * edge of face f from corner c to the next. The sides of an edge are found by sorting: no hashing
+ * is needed, and the vertex numbers are the same on every machine. */
 static bool add_midpoints(mesh *fine, sl_int *middle, const mesh *m) {
-    size_t count = 3 * (size_t)m->n_faces;
-    half_edge *edges = (half_edge *)malloc(count * sizeof *edges);
-    if (edges == NULL) {
+    size_t count = 3 * (size_t)m->n_faces, end;
+    edge_side *sides = sorted_sides(m);
+    if (sides == NULL) {
         return false;
     }
-    for (size_t k = 0; k < count; k++) {
-        sl_int a = m->faces[k], b = m->faces[k % 3 == 2 ? k - 2 : k + 1];
-        edges[k].low = a < b ? a : b;
-        edges[k].high = a < b ? b : a;
-        edges[k].corner = k;
-    }
-    qsort(edges, count, sizeof *edges, by_ends);
-    for (size_t k = 0; k < count; k++) {
-        if (k == 0 || edges[k].low != edges[k - 1].low || edges[k].high != edges[k - 1].high) {
-            double *x = fine->xyz + 3 * (size_t)fine->n_vertices++;
-            for (size_t d = 0; d < 3; d++) {
-                x[d] = m->xyz[3 * (size_t)edges[k].low + d] + m->xyz[3 * (size_t)edges[k].high + d];
-            }
-            to_sphere(x);
+    for (size_t k = 0; k < count; k = end) {
+        double *x = fine->xyz + 3 * (size_t)fine->n_vertices;
+        for (size_t d = 0; d < 3; d++) {
+            x[d] = m->xyz[3 * (size_t)sides[k].low + d] + m->xyz[3 * (size_t)sides[k].high + d];
         }
-        middle[edges[k].corner] = fine->n_vertices - 1;
+        to_sphere(x);
+        end = end_of_edge(sides, k, count);
+        for (size_t s = k; s < end; s++) {
+            middle[side_after(sides[s].side)] = fine->n_vertices;
+        }
+        fine->n_vertices++;
     }
-    free(edges);
+    free(sides);
     return true;
 }
 
