@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f27f25c73e3cd43d
+ * FNV-1a of the lines after this comment, without the license: a52673e871c682b1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -80,7 +80,7 @@
  *  27563 front.inl.h  27565 product.inl.h  27966 words_undef.inl.h  28046 multi_rhs.inl.h
  *  28523 sweeps.inl.h  28525 unit_triangle.inl.h  28562 two_rhs.inl.h  28731 small_supernode.inl.h
  *  28890 single_rhs.inl.h  29134 kernel_set.inl.h  29136 complex_small.inl.h
- *  29296 complex_rows.inl.h  29543 inverse_front.inl.h  29828 row.inl.h  29858 change.inl.h
+ *  29302 complex_rows.inl.h  29543 inverse_front.inl.h  29828 row.inl.h  29858 change.inl.h
  *  29922 interleave.inl.h
  */
 /* ---- what a user reads ---- */
@@ -29135,6 +29135,18 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 
 /* src/impl/kernels/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
 
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_triangle)(const sl_int w, const double *l,
+                                 double *r) {
+  sl_int j, k;
+  for (k = w - 2; k > 0; k -= 2) {
+    for (j = 0; j < k; j += 2) {
+      const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
+      r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
+      r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
+    }
+  }
+}
+
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -29209,7 +29221,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
                                    const double *d, double *xs,
                                    const double *x) {
   const sl_int count = (w + below) % SLI_TILE;
-  sl_int row = w + below - count, at = below, j, k;
+  sl_int row = w + below - count, at = below, k;
   double r[SLI_TILE];
   SLV_DECLARE(u)
   SLV_DECLARE(v)
@@ -29242,13 +29254,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
   SLV_SUMS(v, a)
   SLV_ADD(v, z)
   SLV_STORE_ANY(r, v)
-  for (k = w - 2; k > 0; k -= 2) {
-    for (j = 0; j < k; j += 2) {
-      const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
-      r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
-      r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
-    }
-  }
+  SLV_NAME(complex_triangle)(w, l, r);
   for (k = 0; k < w; k++) {
     xs[k] = r[k];
   }
@@ -29406,11 +29412,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
     SLV_SUM_ZERO(a##k) \
   }
 SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
-                                 const double *sums, const double *d,
-                                 double *xs, const ptrdiff_t lanes,
-                                 double *buf) {
+                            const double *sums, const double *d,
+                            double *xs, const ptrdiff_t lanes,
+                            double *buf) {
   double r[SLI_TILE], b[SLI_TILE];
-  sl_int j, k;
+  sl_int k;
   SLV_DECLARE(v)
   SLV_DECLARE(z)
   SLI_EACH8(SLI_DECLARE, a)
@@ -29424,13 +29430,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
   SLV_SUMS(v, a)
   SLV_ADD(v, z)
   SLV_STORE_ANY(r, v)
-  for (k = inner - 2; k > 0; k -= 2) {
-    for (j = 0; j < k; j += 2) {
-      const double re = l[SLI_HALF * j + k], im = l[SLI_HALF * j + k + 1];
-      r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
-      r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
-    }
-  }
+  SLV_NAME(complex_triangle)(inner, l, r);
   for (k = 0; k < inner; k++) {
     xs[k * lanes] = buf[k] = r[k];
   }

@@ -121,11 +121,11 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
         SLV_SUM_ZERO(a##k) \
     }
 SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
-                                                               const double *sums, const double *d,
-                                                               double *xs, const ptrdiff_t lanes,
-                                                               double *buf) {
+                                                        const double *sums, const double *d,
+                                                        double *xs, const ptrdiff_t lanes,
+                                                        double *buf) {
     double r[SLI_TILE], b[SLI_TILE];
-    sl_int j, k;
+    sl_int k;
     SLV_DECLARE(v)
     SLV_DECLARE(z)
     SLI_EACH8(SLI_DECLARE, a)
@@ -139,13 +139,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
     SLV_STORE_ANY(r, v)
-    for (k = inner - 2; k > 0; k -= 2) { /* x(j) -= conj(L(k, j)) x(k) */
-        for (j = 0; j < k; j += 2) {
-            const double re = l[SLI_HALF * j + k], im = l[SLI_HALF * j + k + 1];
-            r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
-            r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
-        }
-    }
+    SLV_NAME(complex_triangle)(inner, l, r);
     for (k = 0; k < inner; k++) {
         xs[k * lanes] = buf[k] = r[k];
     }

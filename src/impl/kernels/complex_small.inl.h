@@ -2,6 +2,20 @@
 
 /* As small_supernode.inl.h, with the storage of complex_rows.inl.h: the width is a constant in each
  * of 4 copies, and y or the sums of all columns stay in registers. */
+
+/* x(j) -= conj(L(k, j)) x(k) in the w columns of a diagonal tile. r: x */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_triangle)(const sl_int w, const double *l,
+                                                               double *r) {
+    sl_int j, k;
+    for (k = w - 2; k > 0; k -= 2) {
+        for (j = 0; j < k; j += 2) {
+            const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
+            r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
+            r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
+        }
+    }
+}
+
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -80,7 +94,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
                                                                      const double *d, double *xs,
                                                                      const double *x) {
     const sl_int count = (w + below) % SLI_TILE;
-    sl_int row = w + below - count, at = below, j, k;
+    sl_int row = w + below - count, at = below, k;
     double r[SLI_TILE];
     SLV_DECLARE(u)
     SLV_DECLARE(v)
@@ -113,13 +127,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
     SLV_STORE_ANY(r, v)
-    for (k = w - 2; k > 0; k -= 2) { /* x(j) -= conj(L(k, j)) x(k) */
-        for (j = 0; j < k; j += 2) {
-            const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
-            r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
-            r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
-        }
-    }
+    SLV_NAME(complex_triangle)(w, l, r);
     for (k = 0; k < w; k++) {
         xs[k] = r[k];
     }
