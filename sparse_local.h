@@ -1,87 +1,88 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a52673e871c682b1
+ * FNV-1a of the lines after this comment, without the license: e19a5f0293010bd4
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     89 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    158 config.h     macros that a user may define before the include, the version, and the integer types
- *    237 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    393 options.h    options of all calls, threads, and the allocator
- *    533 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    702 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    874 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1004 factor.h     the numerical factorization P A P' = L D L'
- *   1285 solve.h      full solves, and the workspace of all solves
- *   1398 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1492 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1605 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1718 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1854 batch.h      many independent solves by one call, distributed over threads
- *   1904 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2082 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2202 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2306 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2445 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2563 change.h     a factor that follows small changes of its matrix
- *   2650 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2740 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2872 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2921 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *     90 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    159 config.h     macros that a user may define before the include, the version, and the integer types
+ *    238 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    394 options.h    options of all calls, threads, and the allocator
+ *    534 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    703 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    875 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1005 factor.h     the numerical factorization P A P' = L D L'
+ *   1286 solve.h      full solves, and the workspace of all solves
+ *   1399 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1493 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1606 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1719 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1855 batch.h      many independent solves by one call, distributed over threads
+ *   1905 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2083 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2203 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2307 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2446 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2564 change.h     a factor that follows small changes of its matrix
+ *   2651 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2741 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2873 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2922 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2973 base.h   3252 status.h   3313 options.h   3371 alloc.h   3481 hash.h   3611 file_map.h
- *   3708 sort.h   3772 parallel.h
+ *   2974 base.h   3253 status.h   3314 options.h   3372 alloc.h   3482 hash.h   3612 file_map.h
+ *   3709 sort.h   3773 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3899 panel.h   3921 step.h   3972 pivot_rule.h   4046 front.h   4105 pairs.h
- *   4312 inverse_front.h   4384 table.h   4412 simd.h   4501 simd_scalar_single.h
- *   4547 simd_scalar.h   4674 simd_avx2_single.h   4728 simd_avx2.h   4940 simd_avx512_single.h
- *   4995 simd_avx512.h   5148 simd_neon_single.h   5190 simd_neon.h   5398 dispatch.h
+ *   3900 panel.h   3922 step.h   3973 pivot_rule.h   4047 front.h   4106 pairs.h
+ *   4313 inverse_front.h   4385 table.h   4413 simd.h   4502 simd_scalar_single.h
+ *   4548 simd_scalar.h   4675 simd_avx2_single.h   4729 simd_avx2.h   4941 simd_avx512_single.h
+ *   4996 simd_avx512.h   5149 simd_neon_single.h   5191 simd_neon.h   5399 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5478 csc.h   5592 csc_build.h   5726 csc64.h   5797 csc_triangle.h   5863 csc_products.h
- *   5980 permute.h   6046 sum.h   6128 output_file.h   6337 matrix_market.h
+ *   5479 csc.h   5593 csc_build.h   5727 csc64.h   5798 csc_triangle.h   5864 csc_products.h
+ *   5981 permute.h   6047 sum.h   6129 output_file.h   6338 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6783 graph.h   6932 coarsen.h   7244 labels.h   7440 subgraph.h   7635 heap.h   7695 bisect.h
- *   7925 separator.h   8187 mindeg.h   8370 dissect.h   8702 levelset.h   8822 geometric.h
- *   8997 cells.h   9177 septree.h   9237 metis.h   9386 metis_refined.h   9500 nd.h
- *   9693 compress.h   9814 quotient.h  10228 order.h
+ *   6784 graph.h   6933 coarsen.h   7245 labels.h   7441 subgraph.h   7636 heap.h   7696 bisect.h
+ *   7926 separator.h   8188 mindeg.h   8371 dissect.h   8703 levelset.h   8823 geometric.h
+ *   8998 cells.h   9178 septree.h   9238 metis.h   9387 metis_refined.h   9501 nd.h
+ *   9694 compress.h   9815 quotient.h  10229 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10510 symbolic_types.h  10547 etree.h  10620 counts.h  10677 supernodes.h  10899 structure.h
- *  11020 schedule.h  11300 symbolic.h  11710 reach.h
+ *  10511 symbolic_types.h  10548 etree.h  10621 counts.h  10678 supernodes.h  10900 structure.h
+ *  11021 schedule.h  11301 symbolic.h  11711 reach.h
  * (factor: the numbers of L and D)
- *  11981 factor_types.h  12360 storage.h  12519 pivot_search.h  12865 pivoted.h  12933 scatter.h
- *  13091 uplooking.h  13163 null_product.h  13367 null_dense.h  13444 null_basis.h
- *  13752 null_vectors.h  13894 multifrontal.h  14070 front_tasks.h  14412 nullspace.h
- *  14615 growth.h  14691 factor_setup.h  14999 factor.h  15209 leftlooking.h  15393 factor_query.h
- *  15528 combination.h
+ *  11982 factor_types.h  12361 storage.h  12520 pivot_search.h  12866 pivoted.h  12934 scatter.h
+ *  13092 uplooking.h  13164 null_product.h  13368 null_dense.h  13445 null_basis.h
+ *  13753 null_vectors.h  13895 multifrontal.h  14071 front_tasks.h  14413 nullspace.h
+ *  14616 growth.h  14692 factor_setup.h  15000 factor.h  15210 leftlooking.h  15394 factor_query.h
+ *  15529 combination.h
  * (solve: full and local solves)
- *  15589 region_types.h  15693 work.h  15793 query.h  16003 singular.h  16270 backward.h
- *  16300 sweep_tasks.h  16627 sweep.h  16839 compile.h  17032 plan.h  17139 local.h  17291 parts.h
- *  17580 refine.h  17759 refine_local.h  17975 rcond.h  18131 defects.h
+ *  15590 region_types.h  15694 work.h  15794 query.h  16004 singular.h  16271 backward.h
+ *  16301 sweep_tasks.h  16628 sweep.h  16840 compile.h  17033 plan.h  17140 local.h  17292 parts.h
+ *  17581 refine.h  17760 refine_local.h  17976 rcond.h  18132 defects.h
  * (inverse: entries of the inverse, regions)
- *  18209 traversal.h  18454 traversal_run.h  18637 row_sets.h  18664 unit_vectors.h
- *  18891 bilinear.h  19068 entries.h  19349 block.h  19589 reserve.h  19781 selected.h
- *  19991 selected_query.h  20093 region_choose.h  20320 region.h
+ *  18210 traversal.h  18455 traversal_run.h  18638 row_sets.h  18665 unit_vectors.h
+ *  18892 bilinear.h  19069 entries.h  19350 block.h  19590 reserve.h  19782 selected.h
+ *  19992 selected_query.h  20094 region_choose.h  20321 region.h
  * (change: a factor that follows changes of its matrix)
- *  20568 update.h  20918 rank.h  21247 edges.h  21401 choose.h  21595 pins.h  22159 subset.h
- *  22266 restrict_analysis.h  22563 restrict_anew.h  22617 restrict_symbolic.h  22798 restrict.h
- *  23146 edit_match.h  23332 edit_place.h  23581 edit_separate.h  23894 edit_order.h
- *  24048 edit_graph.h  24143 edit_join.h  24419 edit.h
+ *  20569 update.h  20919 rank.h  21248 edges.h  21402 choose.h  21596 pins_types.h
+ *  21626 pins_capacitance.h  21865 pins.h  22011 pins_solve.h  22166 subset.h
+ *  22273 restrict_analysis.h  22570 restrict_anew.h  22624 restrict_symbolic.h  22805 restrict.h
+ *  23153 edit_match.h  23339 edit_place.h  23588 edit_separate.h  23901 edit_order.h
+ *  24055 edit_graph.h  24150 edit_join.h  24426 edit.h
  * (save: factors in files)
- *  24583 format.h  24879 decode.h  25027 check.h  25359 write.h  25664 load.h  25932 load_inverse.h
- *  26264 load_calls.h
+ *  24590 format.h  24886 decode.h  25034 check.h  25366 write.h  25671 load.h  25939 load_inverse.h
+ *  26271 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26463 batch_solve.h  26672 batch_factor.h  26873 batch_diagonal.h
+ *  26470 batch_solve.h  26679 batch_factor.h  26880 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27013 hermitian.h  27175 complex_rows.h
+ *  27020 hermitian.h  27182 complex_rows.h
  * (last: undefine every internal macro)
- *  27343 undef.h
+ *  27350 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27563 front.inl.h  27565 product.inl.h  27966 words_undef.inl.h  28046 multi_rhs.inl.h
- *  28523 sweeps.inl.h  28525 unit_triangle.inl.h  28562 two_rhs.inl.h  28731 small_supernode.inl.h
- *  28890 single_rhs.inl.h  29134 kernel_set.inl.h  29136 complex_small.inl.h
- *  29302 complex_rows.inl.h  29543 inverse_front.inl.h  29828 row.inl.h  29858 change.inl.h
- *  29922 interleave.inl.h
+ *  27570 front.inl.h  27572 product.inl.h  27973 words_undef.inl.h  28053 multi_rhs.inl.h
+ *  28530 sweeps.inl.h  28532 unit_triangle.inl.h  28569 two_rhs.inl.h  28738 small_supernode.inl.h
+ *  28897 single_rhs.inl.h  29141 kernel_set.inl.h  29143 complex_small.inl.h
+ *  29309 complex_rows.inl.h  29550 inverse_front.inl.h  29835 row.inl.h  29865 change.inl.h
+ *  29929 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21592,7 +21593,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   return status;
 }
 
-/* src/impl/change/pins.h: rows held at given values, and other equalities, without a change of the factor */
+/* src/impl/change/pins_types.h: a set of pins: the method, and what it keeps */
 
 typedef struct sli_pin {
   sl_int null;
@@ -21621,6 +21622,8 @@ SLI_INLINE double sli_pins_inverse(const sl_pins *P, sl_int column) {
   const double d = P->F->D[column];
   return 1.0 / (P->divisors != NULL && d == SLI_NULL_PIVOT ? P->delta : d);
 }
+
+/* src/impl/change/pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
 static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *null) {
   const sl_int last = R->count - 1;
@@ -21837,6 +21840,30 @@ static sl_status sli_pins_grow(sl_pins *P) {
   return SL_OK;
 }
 
+static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
+  const size_t ld = (size_t)P->capacity;
+  sl_int i, j, r;
+  for (i = 0; i < P->count; i++) {
+    for (j = 0; j < i; j++) {
+      for (r = 0; r < lanes; r++) {
+        f[i * lanes + r] -= P->K[(size_t)i * ld + (size_t)j] * f[j * lanes + r];
+      }
+    }
+  }
+  for (i = P->count - 1; i >= 0; i--) {
+    for (r = 0; r < lanes; r++) {
+      f[i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
+    }
+    for (j = i + 1; j < P->count; j++) {
+      for (r = 0; r < lanes; r++) {
+        f[i * lanes + r] -= P->K[(size_t)j * ld + (size_t)i] * f[j * lanes + r];
+      }
+    }
+  }
+}
+
+/* src/impl/change/pins.h: sets of pins: created, added, released, refactored */
+
 static sl_status sli_pins_take(sl_pins *P) {
   const sl_factor *F = P->F;
   const sl_factor_info *info = &F->stats.factor;
@@ -21981,6 +22008,8 @@ SL_API sl_status sl_pins_refactor(sl_pins *P) {
   return status;
 }
 
+/* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */
+
 typedef struct sli_pins_work {
   unsigned char *memory;
   double *f;
@@ -21995,28 +22024,6 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
   w->v = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
   w->h = SLI_TAKE(b, double, P->count);
   w->z = SLI_TAKE(b, double, P->count);
-}
-
-static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
-  const size_t ld = (size_t)P->capacity;
-  sl_int i, j, r;
-  for (i = 0; i < P->count; i++) {
-    for (j = 0; j < i; j++) {
-      for (r = 0; r < lanes; r++) {
-        f[i * lanes + r] -= P->K[(size_t)i * ld + (size_t)j] * f[j * lanes + r];
-      }
-    }
-  }
-  for (i = P->count - 1; i >= 0; i--) {
-    for (r = 0; r < lanes; r++) {
-      f[i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
-    }
-    for (j = i + 1; j < P->count; j++) {
-      for (r = 0; r < lanes; r++) {
-        f[i * lanes + r] -= P->K[(size_t)j * ld + (size_t)i] * f[j * lanes + r];
-      }
-    }
-  }
 }
 
 static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w, sl_int p,
