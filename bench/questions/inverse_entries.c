@@ -131,7 +131,7 @@ static int check(bench_run *run, entries *e, const bench_contender *c, const cha
 /* Checks and times the methods; the last one is the baseline. */
 static void race(bench_run *run, bench_report *report, entries *e, const char *what,
                  void (*const *calls)(void *), const char *const *names, int count) {
-    bench_contender contenders[METHODS];
+    bench_contender contenders[METHODS] = {{NULL, NULL, 0, NULL}};
     bench_sample samples[METHODS];
     double read[METHODS];
     const double each = e->is_block ? 1 : e->count;

@@ -102,7 +102,7 @@ typedef struct plots {
 static void plot_point(plots *p, const bench_system *system, sl_int size, const char *method,
                        double seconds, int dash) {
     if (dash > 0) { /* one color for each size */
-        char name[48], style[32];
+        char name[48], style[40];
         snprintf(name, sizeof name, "%s, %d", method, (int)size);
         snprintf(style, sizeof style, "linespoints lc %d dt %d",
                  size <= 2000 ? 1 : 2 + (int)(size / 20000), dash);

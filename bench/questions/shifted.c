@@ -223,7 +223,7 @@ static void variant_ready(void *state) {
  * factorization, or 0. Returns the baseline; 0 means the median of the first variant. */
 static double race(bench_report *report, workload *q, const char *what, const variant *variants,
                    int count, sl_int threads, double flops, double seconds, double baseline) {
-    bench_contender contenders[MAX_VARIANTS];
+    bench_contender contenders[MAX_VARIANTS] = {{NULL, NULL, 0, NULL}};
     bench_sample samples[MAX_VARIANTS];
     variant now[MAX_VARIANTS];
     for (int k = 0; k < count; k++) {
