@@ -1,88 +1,89 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e19a5f0293010bd4
+ * FNV-1a of the lines after this comment, without the license: aeb84dcd13c7cd5f
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     90 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    159 config.h     macros that a user may define before the include, the version, and the integer types
- *    238 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    394 options.h    options of all calls, threads, and the allocator
- *    534 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    703 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    875 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1005 factor.h     the numerical factorization P A P' = L D L'
- *   1286 solve.h      full solves, and the workspace of all solves
- *   1399 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1493 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1606 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1719 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1855 batch.h      many independent solves by one call, distributed over threads
- *   1905 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2083 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2203 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2307 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2446 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2564 change.h     a factor that follows small changes of its matrix
- *   2651 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2741 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2873 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2922 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *     91 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    160 config.h     macros that a user may define before the include, the version, and the integer types
+ *    239 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    395 options.h    options of all calls, threads, and the allocator
+ *    535 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    704 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    876 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1006 factor.h     the numerical factorization P A P' = L D L'
+ *   1287 solve.h      full solves, and the workspace of all solves
+ *   1400 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1494 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1607 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1720 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1856 batch.h      many independent solves by one call, distributed over threads
+ *   1906 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2084 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2204 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2308 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2447 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2565 change.h     a factor that follows small changes of its matrix
+ *   2652 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2742 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2874 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2923 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2974 base.h   3253 status.h   3314 options.h   3372 alloc.h   3482 hash.h   3612 file_map.h
- *   3709 sort.h   3773 parallel.h
+ *   2975 base.h   3254 status.h   3315 options.h   3373 alloc.h   3483 hash.h   3613 file_map.h
+ *   3710 sort.h   3774 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3900 panel.h   3922 step.h   3973 pivot_rule.h   4047 front.h   4106 pairs.h
- *   4313 inverse_front.h   4385 table.h   4413 simd.h   4502 simd_scalar_single.h
- *   4548 simd_scalar.h   4675 simd_avx2_single.h   4729 simd_avx2.h   4941 simd_avx512_single.h
- *   4996 simd_avx512.h   5149 simd_neon_single.h   5191 simd_neon.h   5399 dispatch.h
+ *   3901 panel.h   3923 step.h   3974 pivot_rule.h   4048 front.h   4107 pairs.h
+ *   4314 inverse_front.h   4386 table.h   4414 simd.h   4503 simd_scalar_single.h
+ *   4549 simd_scalar.h   4676 simd_avx2_single.h   4730 simd_avx2.h   4942 simd_avx512_single.h
+ *   4997 simd_avx512.h   5150 simd_neon_single.h   5192 simd_neon.h   5400 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5479 csc.h   5593 csc_build.h   5727 csc64.h   5798 csc_triangle.h   5864 csc_products.h
- *   5981 permute.h   6047 sum.h   6129 output_file.h   6338 matrix_market.h
+ *   5480 csc.h   5594 csc_build.h   5728 csc64.h   5799 csc_triangle.h   5865 csc_products.h
+ *   5982 permute.h   6048 sum.h   6130 output_file.h   6339 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6784 graph.h   6933 coarsen.h   7245 labels.h   7441 subgraph.h   7636 heap.h   7696 bisect.h
- *   7926 separator.h   8188 mindeg.h   8371 dissect.h   8703 levelset.h   8823 geometric.h
- *   8998 cells.h   9178 septree.h   9238 metis.h   9387 metis_refined.h   9501 nd.h
- *   9694 compress.h   9815 quotient.h  10229 order.h
+ *   6785 graph.h   6934 coarsen.h   7246 labels.h   7442 subgraph.h   7637 heap.h   7697 bisect.h
+ *   7927 separator.h   8189 mindeg.h   8372 dissect.h   8704 levelset.h   8824 geometric.h
+ *   8999 cells.h   9179 septree.h   9239 metis.h   9388 metis_refined.h   9502 nd.h
+ *   9695 compress.h   9816 quotient.h  10230 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10511 symbolic_types.h  10548 etree.h  10621 counts.h  10678 supernodes.h  10900 structure.h
- *  11021 schedule.h  11301 symbolic.h  11711 reach.h
+ *  10512 symbolic_types.h  10549 etree.h  10622 counts.h  10679 supernodes.h  10901 structure.h
+ *  11022 schedule.h  11302 symbolic.h  11712 reach.h
  * (factor: the numbers of L and D)
- *  11982 factor_types.h  12361 storage.h  12520 pivot_search.h  12866 pivoted.h  12934 scatter.h
- *  13092 uplooking.h  13164 null_product.h  13368 null_dense.h  13445 null_basis.h
- *  13753 null_vectors.h  13895 multifrontal.h  14071 front_tasks.h  14413 nullspace.h
- *  14616 growth.h  14692 factor_setup.h  15000 factor.h  15210 leftlooking.h  15394 factor_query.h
- *  15529 combination.h
+ *  11983 factor_types.h  12362 storage.h  12521 pivot_search.h  12867 pivoted.h  12935 scatter.h
+ *  13093 uplooking.h  13165 null_product.h  13369 null_dense.h  13446 null_basis.h
+ *  13754 null_vectors.h  13896 multifrontal.h  14072 front_tasks.h  14414 nullspace.h
+ *  14617 growth.h  14693 factor_setup.h  15001 factor.h  15211 leftlooking.h  15395 factor_query.h
+ *  15530 combination.h
  * (solve: full and local solves)
- *  15590 region_types.h  15694 work.h  15794 query.h  16004 singular.h  16271 backward.h
- *  16301 sweep_tasks.h  16628 sweep.h  16840 compile.h  17033 plan.h  17140 local.h  17292 parts.h
- *  17581 refine.h  17760 refine_local.h  17976 rcond.h  18132 defects.h
+ *  15591 region_types.h  15695 work.h  15795 query.h  16005 singular.h  16272 backward.h
+ *  16302 sweep_tasks.h  16629 sweep.h  16841 compile.h  17034 plan.h  17141 local.h  17293 parts.h
+ *  17582 refine.h  17761 refine_local.h  17977 rcond.h  18133 defects.h
  * (inverse: entries of the inverse, regions)
- *  18210 traversal.h  18455 traversal_run.h  18638 row_sets.h  18665 unit_vectors.h
- *  18892 bilinear.h  19069 entries.h  19350 block.h  19590 reserve.h  19782 selected.h
- *  19992 selected_query.h  20094 region_choose.h  20321 region.h
+ *  18211 traversal.h  18456 traversal_run.h  18639 row_sets.h  18666 unit_vectors.h
+ *  18893 bilinear.h  19070 entries.h  19351 block.h  19591 reserve.h  19783 selected.h
+ *  19993 selected_query.h  20095 region_choose.h  20322 region.h
  * (change: a factor that follows changes of its matrix)
- *  20569 update.h  20919 rank.h  21248 edges.h  21402 choose.h  21596 pins_types.h
- *  21626 pins_capacitance.h  21865 pins.h  22011 pins_solve.h  22166 subset.h
- *  22273 restrict_analysis.h  22570 restrict_anew.h  22624 restrict_symbolic.h  22805 restrict.h
- *  23153 edit_match.h  23339 edit_place.h  23588 edit_separate.h  23901 edit_order.h
- *  24055 edit_graph.h  24150 edit_join.h  24426 edit.h
+ *  20570 update.h  20920 rank.h  21249 edges.h  21403 choose.h  21597 pins_types.h
+ *  21627 pins_capacitance.h  21866 pins.h  22012 pins_solve.h  22167 subset.h
+ *  22274 restrict_analysis.h  22571 restrict_anew.h  22625 restrict_symbolic.h  22806 restrict.h
+ *  23154 edit_match.h  23340 edit_place.h  23589 edit_separate.h  23902 edit_order.h
+ *  24056 edit_graph.h  24151 edit_join.h  24427 edit.h
  * (save: factors in files)
- *  24590 format.h  24886 decode.h  25034 check.h  25366 write.h  25671 load.h  25939 load_inverse.h
- *  26271 load_calls.h
+ *  24591 format.h  24887 decode.h  25035 check.h  25367 write.h  25672 load.h  25940 load_inverse.h
+ *  26272 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26470 batch_solve.h  26679 batch_factor.h  26880 batch_diagonal.h
+ *  26471 batch_solve.h  26680 batch_factor.h  26881 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27020 hermitian.h  27182 complex_rows.h
+ *  27021 hermitian.h  27183 complex_rows.h
  * (last: undefine every internal macro)
- *  27350 undef.h
+ *  27351 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27570 front.inl.h  27572 product.inl.h  27973 words_undef.inl.h  28053 multi_rhs.inl.h
- *  28530 sweeps.inl.h  28532 unit_triangle.inl.h  28569 two_rhs.inl.h  28738 small_supernode.inl.h
- *  28897 single_rhs.inl.h  29141 kernel_set.inl.h  29143 complex_small.inl.h
- *  29309 complex_rows.inl.h  29550 inverse_front.inl.h  29835 row.inl.h  29865 change.inl.h
- *  29929 interleave.inl.h
+ *  27571 front.inl.h  27573 product.inl.h  27974 words_undef.inl.h  28054 multi_rhs.inl.h
+ *  28073 multi_rhs_small.inl.h  28241 multi_rhs_tiles.inl.h  28538 sweeps.inl.h
+ *  28540 unit_triangle.inl.h  28577 two_rhs.inl.h  28746 small_supernode.inl.h
+ *  28905 single_rhs.inl.h  29149 kernel_set.inl.h  29151 complex_small.inl.h
+ *  29317 complex_rows.inl.h  29558 inverse_front.inl.h  29843 row.inl.h  29873 change.inl.h
+ *  29937 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -28067,24 +28068,9 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
 #define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
-#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-#define SLI_DOWN(r, k) \
-  if ((r) > (k)) { \
-    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
-  }
-#define SLI_UP(j, k) \
-  if ((j) < (k) && (j) < inner) { \
-    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
-  }
-#define SLI_COLUMN(k, unused) \
-  if ((k) < inner) { \
-    SLW_EACH_AGAIN(SLI_DOWN, k) \
-  }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+/* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
 
 #if SLW_ROWS == 8
 #define SLI_LOAD_OWN(k, p) \
@@ -28251,6 +28237,26 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
   SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
 }
 #endif
+/* end of multi_rhs_small.inl.h */
+/* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
+
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+#define SLI_DOWN(r, k) \
+  if ((r) > (k)) { \
+    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
+  }
+#define SLI_UP(j, k) \
+  if ((j) < (k) && (j) < inner) { \
+    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
+  }
+#define SLI_COLUMN(k, unused) \
+  if ((k) < inner) { \
+    SLW_EACH_AGAIN(SLI_DOWN, k) \
+  }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
@@ -28466,6 +28472,20 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_GROUPED_KERNELS
 #endif
 
+#undef SLI_LOAD_BELOW
+#undef SLI_STORE_BELOW
+#undef SLI_STRIDE_PARAMETER
+#undef SLI_SET_STRIDE
+#undef SLI_KERNEL
+#undef SLI_IS_DIRECT
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+/* end of multi_rhs_tiles.inl.h */
+
 #if SLW_NRHS == 8 && !SLV_SINGLE
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                       double *sums) {
@@ -28489,19 +28509,7 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
-#undef SLI_LOAD_BELOW
-#undef SLI_STORE_BELOW
-#undef SLI_STRIDE_PARAMETER
-#undef SLI_SET_STRIDE
-#undef SLI_KERNEL
-#undef SLI_IS_DIRECT
 #undef SLI_APPLY
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH

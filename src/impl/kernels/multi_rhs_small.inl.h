@@ -1,0 +1,174 @@
+/* multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
+
+#if SLW_ROWS == 8
+/* A supernode of 1 to 8 columns. The width is a compile-time constant, as in small_supernode.inl.h,
+ * but not with SLW_GROUPS.
+ * The rows of its columns stay in registers; the rows below are read one after another. The
+ * distance between rows of x is `stride`. */
+#define SLI_LOAD_OWN(k, p) \
+    if ((k) < w) { \
+        SLW_LOAD(a##k, (p) + (k)*stride) \
+    }
+#define SLI_STORE_OWN(k, p) \
+    if ((k) < w) { \
+        SLW_STORE((p) + (k)*stride, a##k) \
+    }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_PREFETCH_OWN(k, bytes) \
+    if ((k) < w) { \
+        SLV_PREFETCH(l, k, bytes) \
+    }
+#define SLI_DOWN_OWN(r, k) \
+    if ((r) > (k) && (r) < w) { \
+        SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
+    }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused) \
+    if ((k) < w) { \
+        SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
+    }
+
+/* Where the width is not a constant, compilers warn of columns that they think are used. */
+#if defined(SLW_GROUPS) && SLV_SINGLE
+#define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
+#else
+#define SLI_CLEAR_WIDE
+#endif
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
+                                                             sl_int below, const sl_int *rows,
+                                                             const SLV_VALUE *l, double *xs,
+                                                             double *x) {
+    sl_int lane = w, i;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLV_WIDE(v, SLI_TILE)
+    SLI_CLEAR_WIDE
+    SLV_WIDEN(v, l, w, SLI_TILE)
+    SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
+#if defined(SLW_GROUPS)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+#endif
+    SLW_EACH(SLI_LOAD_OWN, xs)
+    SLW_EACH(SLI_COLUMN_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+    for (i = 0; i < below; lane++, i++) { /* x(i) -= L(i, j) x(j) */
+        double *to = x + (ptrdiff_t)rows[i] * stride;
+        if (lane == SLI_TILE) {
+            lane = 0;
+            l += SLI_TILE * w;
+            SLV_WIDEN(v, l, w, SLI_TILE)
+            SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
+        }
+        SLW_LOAD(b, to)
+        SLW_EACH(SLI_BELOW_OWN, 0)
+        SLW_STORE(to, b)
+    }
+}
+
+#define SLI_UP_OWN(j, k) \
+    if ((j) < (k) && (k) < w) { \
+        SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
+    }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused) \
+    if ((k) < w) { \
+        SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
+    }
+#define SLI_DIVIDE_OWN(k, unused) \
+    if ((k) < w) { \
+        SLW_LOAD(b, xs + (k)*stride) \
+        SLW_DIVIDE(b, d[k]) \
+        SLW_ADD(a##k, b) \
+    }
+
+/* l: the last tile of the panel */
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
+                                                              sl_int below, const sl_int *rows,
+                                                              const SLV_VALUE *l, const double *d,
+                                                              double *xs, const double *x) {
+    sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLV_WIDE(v, SLI_TILE)
+    SLI_CLEAR_WIDE
+    SLV_WIDEN(v, l, w, SLI_TILE)
+    SLW_EACH(SLI_ZERO_OWN, 0)
+    SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+    SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+    for (; i >= 0; lane--, i--) { /* x(j) -= L(i, j) x(i) */
+        if (lane < 0) {
+            lane = SLI_TILE - 1;
+            l -= SLI_TILE * w;
+            SLV_WIDEN(v, l, w, SLI_TILE)
+            SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+            SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+        }
+        SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
+        SLW_HIGH(SLI_ABOVE_OWN, 0)
+        SLW_LOW(SLI_ABOVE_OWN, 0)
+    }
+    if (w == SLI_TILE && below > 0) {
+        l -= SLI_TILE * w;
+        SLV_WIDEN(v, l, w, SLI_TILE)
+    }
+    SLW_EACH(SLI_DIVIDE_OWN, 0)
+    SLW_HIGH(SLI_ROW_OWN, 0)
+    SLW_LOW(SLI_ROW_OWN, 0)
+    SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
+#if defined(SLW_GROUPS)
+#define SLI_BY_WIDTH(call) call(w) /* as fast by branches, with rows of many right-hand sides */
+#else
+#define SLI_BY_WIDTH(call) SLI_CASES(call)
+#endif
+
+SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                                                  const sl_int *rows, const SLV_VALUE *l,
+                                                  double *xs, double *x) {
+    SLI_BY_WIDTH(SLI_FORWARD);
+}
+
+SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                                                   const sl_int *rows, const SLV_VALUE *l,
+                                                   const double *d, double *xs, const double *x) {
+    SLI_BY_WIDTH(SLI_BACKWARD);
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_PREFETCH_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
+#undef SLI_CLEAR_WIDE
+#elif defined(SLW_HALF)
+/* 8 rows do not fit in the registers: first one half of the right-hand sides, then the other. */
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                                                      const sl_int *rows, const SLV_VALUE *l,
+                                                      double *xs, double *x) {
+    const sl_int half = SLW_NRHS / 2;
+    SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
+    SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                                                       const sl_int *rows, const SLV_VALUE *l,
+                                                       const double *d, double *xs,
+                                                       const double *x) {
+    const sl_int half = SLW_NRHS / 2;
+    SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
+    SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
+}
+#endif

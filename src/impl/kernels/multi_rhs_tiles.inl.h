@@ -1,0 +1,256 @@
+/* multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
+
+/* Rows below the diagonal block, at their positions in x. */
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+/* Inside the diagonal block: column k updates the rows below it, row k the columns before it. */
+#define SLI_DOWN(r, k) \
+    if ((r) > (k)) { \
+        SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
+    }
+#define SLI_UP(j, k) \
+    if ((j) < (k) && (j) < inner) { \
+        SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
+    }
+#define SLI_COLUMN(k, unused) \
+    if ((k) < inner) { \
+        SLW_EACH_AGAIN(SLI_DOWN, k) \
+    }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+
+#if defined(SLW_GROUPS)
+#define SLI_STRIDE_PARAMETER , sl_int stride
+#define SLI_SET_STRIDE
+#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
+#define SLI_IS_DIRECT 1 /* rows below are loaded from x and not from a copy */
+#else
+#define SLI_IS_DIRECT 0
+#define SLI_STRIDE_PARAMETER
+#define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
+#define SLI_KERNEL(f) SLW_SWEEP(f)
+#endif
+
+#if !SLV_SINGLE
+/* Copies SLW_ROWS rows to buf where some of them are columns of the supernode and some are not, or
+ * where there are fewer: `inner` rows of its columns, then `below` rows below, then zeros. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                                               const sl_int *rows, const double *own,
+                                               const double *x, sl_int stride) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS; r++) {
+        if (r < inner + below) {
+            SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
+                                  : x + (ptrdiff_t)rows[r - inner] * stride)
+        } else {
+            SLW_ZERO(b)
+        }
+        SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
+    }
+}
+
+/* Copies the rows back from buf. */
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                                                const sl_int *rows, double *own, double *x,
+                                                sl_int stride) {
+    sl_int r;
+    SLW_DECLARE(b)
+    for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+        SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
+        SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride
+                            : x + (ptrdiff_t)rows[r - inner] * stride,
+                  b)
+    }
+}
+
+#endif
+
+/* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
+ * the triangle of the diagonal tile. Rows below are updated in x in place. */
+SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                                             const void *values, double *x,
+                                             double *buf SLI_STRIDE_PARAMETER) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
+    SLI_SET_STRIDE
+    SLV_WIDE(v, SLI_TILE)
+    for (; count > 0; rows += s->below, count--, s++) {
+        const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        double *xs = x + ((ptrdiff_t)s->base - first) * stride;
+        ptrdiff_t row;
+        sl_int group, j;
+#if SLW_ROWS == 8 || defined(SLW_HALF)
+        if (w <= SLI_TILE) {
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
+            }
+            continue;
+        }
+#endif
+        for (row = first; row < height; row += SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            const sl_int below = height - (sl_int)row - inner;
+            const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
+            const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+            const sl_int *below_rows = rows + (row + inner - w);
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+                const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+                const double *xj = xs + (ptrdiff_t)first * stride + group;
+                SLW_EACH(SLI_DECLARE, 0)
+                SLW_DECLARE(b)
+                if (is_below) {
+                    SLW_EACH(SLI_LOAD_BELOW, x + group)
+                } else {
+                    if (inner < SLW_ROWS) {
+                        SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+                    }
+                    SLW_EACH(SLI_LOAD, p)
+                }
+                for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
+                    SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+                    SLV_WIDEN(v, l, 1, SLW_ROWS)
+                    SLW_LOAD(b, xj)
+                    SLW_EACH(SLI_APPLY, v)
+                }
+                if (inner > 0) {
+                    SLV_WIDEN(v, l, inner, SLW_ROWS)
+                    SLW_EACH(SLI_COLUMN, 0)
+                }
+                if (is_below) {
+                    SLW_EACH(SLI_STORE_BELOW, x + group)
+                    continue;
+                }
+                SLW_EACH(SLI_STORE, p)
+                if (inner < SLW_ROWS) {
+                    SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+                }
+            }
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+        }
+    }
+}
+
+/* Row tiles from the last to the first, SLW_ROWS rows at a time. Once the rows are final,
+ * x(j) -= L(rows, j)' x(rows) for the columns j before them. */
+SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
+                                              const sl_int *rows_end, const void *values,
+                                              const double *D, double *x,
+                                              double *buf SLI_STRIDE_PARAMETER) {
+    const SLV_VALUE *L = (const SLV_VALUE *)values;
+    SLI_SET_STRIDE
+    SLV_WIDE(v, SLI_TILE)
+    for (s += count; count > 0; count--) {
+        const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+        const sl_int padded = SLI_TILE * sli_tiles(height);
+        const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+        const double *d = D + s->column - first;
+        double *xs = x + ((ptrdiff_t)s->base - first) * stride;
+        ptrdiff_t row;
+        sl_int group, i, j;
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        rows_end -= s->below;
+#if SLW_ROWS == 8 || defined(SLW_HALF)
+        if (w <= SLI_TILE) {
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_SWEEP(backward_small)
+                (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
+            }
+            continue;
+        }
+#endif
+        for (i = first; i < w; i++) {
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
+                SLW_DIVIDE(b, d[i])
+                SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
+            }
+        }
+        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+            const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+            const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+            const sl_int below = height - (sl_int)row - inner;
+            const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+            const sl_int *below_rows = rows_end + (row + inner - w);
+            if (lane + SLW_ROWS == SLI_TILE) {
+                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+            }
+            for (group = 0; group < stride; group += SLW_NRHS) {
+                double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+                double *xj = xs + (ptrdiff_t) final * stride + group;
+                const SLV_VALUE *l = tile + SLI_TILE * row + lane;
+                SLW_EACH(SLI_DECLARE, 0)
+                if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
+                    SLW_EACH(SLI_LOAD_BELOW, x + group)
+                } else {
+                    if (inner < SLW_ROWS) {
+                        SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+                    }
+                    SLW_EACH(SLI_LOAD, p)
+                }
+                if (inner > 0) {
+                    SLV_WIDEN(v, l, inner, SLW_ROWS)
+                    SLW_HIGH(SLI_ROW, 0)
+                    SLW_LOW(SLI_ROW, 0)
+                    SLW_EACH(SLI_STORE, p)
+                    if (inner < SLW_ROWS) {
+                        SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+                    }
+                }
+                l = tile + SLI_TILE * (ptrdiff_t) final + lane;
+                for (j = final - 1; j >= first; j--) {
+                    l -= SLI_TILE;
+                    xj -= stride;
+                    SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+                    SLV_WIDEN(v, l, 1, SLW_ROWS)
+                    SLW_LOAD(b, xj)
+                    SLW_ZERO(c)
+                    SLW_HIGH(SLI_GATHER, v)
+                    SLW_LOW(SLI_GATHER2, v)
+                    SLW_ADD(b, c)
+                    SLW_STORE(xj, b)
+                }
+            }
+        }
+    }
+}
+
+#if defined(SLW_GROUPS)
+/* The kernels of wide blocks; see sli_forward_kernel. */
+#define SLI_GROUPED_KERNELS(lanes) \
+    SLV_FUNCTION static void SLV_SWEEP(forward##lanes)(sl_int count, const sli_step *s, \
+                                                       const sl_int *rows, const void *values, \
+                                                       double *x, double *buf) { \
+        SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
+    } \
+    SLV_FUNCTION static void SLV_SWEEP(backward##lanes)( \
+        sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
+        const double *D, double *x, double *buf) { \
+        SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
+    }
+#if SLW_NRHS == 8
+SLI_GROUPED_KERNELS(8)
+#endif
+SLI_GROUPED_KERNELS(16)
+SLI_GROUPED_KERNELS(32)
+#undef SLI_GROUPED_KERNELS
+#endif
+
+#undef SLI_LOAD_BELOW
+#undef SLI_STORE_BELOW
+#undef SLI_STRIDE_PARAMETER
+#undef SLI_SET_STRIDE
+#undef SLI_KERNEL
+#undef SLI_IS_DIRECT
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
