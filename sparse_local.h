@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: aeb84dcd13c7cd5f
+ * FNV-1a of the lines after this comment, without the license: 97b32b83771633e4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -49,41 +49,41 @@
  *  10512 symbolic_types.h  10549 etree.h  10622 counts.h  10679 supernodes.h  10901 structure.h
  *  11022 schedule.h  11302 symbolic.h  11712 reach.h
  * (factor: the numbers of L and D)
- *  11983 factor_types.h  12362 storage.h  12521 pivot_search.h  12867 pivoted.h  12935 scatter.h
- *  13093 uplooking.h  13165 null_product.h  13369 null_dense.h  13446 null_basis.h
- *  13754 null_vectors.h  13896 multifrontal.h  14072 front_tasks.h  14414 nullspace.h
- *  14617 growth.h  14693 factor_setup.h  15001 factor.h  15211 leftlooking.h  15395 factor_query.h
- *  15530 combination.h
+ *  11983 factor_types.h  12363 storage.h  12522 pivot_search.h  12868 pivoted.h  12936 scatter.h
+ *  13094 uplooking.h  13166 null_product.h  13370 null_dense.h  13447 null_basis.h
+ *  13755 null_vectors.h  13897 multifrontal.h  14073 gather.h  14121 kept.h  14288 front_tasks.h
+ *  14631 nullspace.h  14834 growth.h  14910 factor_setup.h  15218 factor.h  15428 leftlooking.h
+ *  15568 factor_query.h  15703 combination.h
  * (solve: full and local solves)
- *  15591 region_types.h  15695 work.h  15795 query.h  16005 singular.h  16272 backward.h
- *  16302 sweep_tasks.h  16629 sweep.h  16841 compile.h  17034 plan.h  17141 local.h  17293 parts.h
- *  17582 refine.h  17761 refine_local.h  17977 rcond.h  18133 defects.h
+ *  15764 region_types.h  15868 work.h  15968 query.h  16178 singular.h  16445 backward.h
+ *  16475 sweep_tasks.h  16802 sweep.h  17014 compile.h  17207 plan.h  17314 local.h  17466 parts.h
+ *  17755 refine.h  17934 refine_local.h  18150 rcond.h  18306 defects.h
  * (inverse: entries of the inverse, regions)
- *  18211 traversal.h  18456 traversal_run.h  18639 row_sets.h  18666 unit_vectors.h
- *  18893 bilinear.h  19070 entries.h  19351 block.h  19591 reserve.h  19783 selected.h
- *  19993 selected_query.h  20095 region_choose.h  20322 region.h
+ *  18384 traversal.h  18629 traversal_run.h  18812 row_sets.h  18839 unit_vectors.h
+ *  19066 bilinear.h  19243 entries.h  19524 block.h  19764 reserve.h  19956 selected.h
+ *  20166 selected_query.h  20268 region_choose.h  20495 region.h
  * (change: a factor that follows changes of its matrix)
- *  20570 update.h  20920 rank.h  21249 edges.h  21403 choose.h  21597 pins_types.h
- *  21627 pins_capacitance.h  21866 pins.h  22012 pins_solve.h  22167 subset.h
- *  22274 restrict_analysis.h  22571 restrict_anew.h  22625 restrict_symbolic.h  22806 restrict.h
- *  23154 edit_match.h  23340 edit_place.h  23589 edit_separate.h  23902 edit_order.h
- *  24056 edit_graph.h  24151 edit_join.h  24427 edit.h
+ *  20743 update.h  21093 rank.h  21422 edges.h  21576 choose.h  21770 pins_types.h
+ *  21800 pins_capacitance.h  22039 pins.h  22185 pins_solve.h  22340 subset.h
+ *  22447 restrict_analysis.h  22744 restrict_anew.h  22798 restrict_symbolic.h  22979 restrict.h
+ *  23206 edit_match.h  23392 edit_place.h  23641 edit_separate.h  23954 edit_order.h
+ *  24108 edit_graph.h  24203 edit_join.h  24479 edit.h
  * (save: factors in files)
- *  24591 format.h  24887 decode.h  25035 check.h  25367 write.h  25672 load.h  25940 load_inverse.h
- *  26272 load_calls.h
+ *  24643 format.h  24939 decode.h  25087 check.h  25419 write.h  25724 load.h  25992 load_inverse.h
+ *  26324 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26471 batch_solve.h  26680 batch_factor.h  26881 batch_diagonal.h
+ *  26523 batch_solve.h  26732 batch_factor.h  26933 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27021 hermitian.h  27183 complex_rows.h
+ *  27073 hermitian.h  27235 complex_rows.h
  * (last: undefine every internal macro)
- *  27351 undef.h
+ *  27403 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27571 front.inl.h  27573 product.inl.h  27974 words_undef.inl.h  28054 multi_rhs.inl.h
- *  28073 multi_rhs_small.inl.h  28241 multi_rhs_tiles.inl.h  28538 sweeps.inl.h
- *  28540 unit_triangle.inl.h  28577 two_rhs.inl.h  28746 small_supernode.inl.h
- *  28905 single_rhs.inl.h  29149 kernel_set.inl.h  29151 complex_small.inl.h
- *  29317 complex_rows.inl.h  29558 inverse_front.inl.h  29843 row.inl.h  29873 change.inl.h
- *  29937 interleave.inl.h
+ *  27623 front.inl.h  27625 product.inl.h  28026 words_undef.inl.h  28106 multi_rhs.inl.h
+ *  28125 multi_rhs_small.inl.h  28293 multi_rhs_tiles.inl.h  28590 sweeps.inl.h
+ *  28592 unit_triangle.inl.h  28629 two_rhs.inl.h  28798 small_supernode.inl.h
+ *  28957 single_rhs.inl.h  29201 kernel_set.inl.h  29203 complex_small.inl.h
+ *  29369 complex_rows.inl.h  29610 inverse_front.inl.h  29895 row.inl.h  29925 change.inl.h
+ *  29989 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12065,6 +12065,7 @@ struct sl_factor {
   double *divisors;
   double *center_scratch;
   double *buffer;
+  const struct sli_kept *kept;
 
   sl_threads threads;
   sli_schedule schedule;
@@ -14069,6 +14070,221 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
   return sli_front_check(F, &f, s, failure);
 }
 
+/* src/impl/factor/gather.h: adds the updates of descendants, computed from their panels, to a front */
+
+typedef struct sli_left_work {
+  sl_int *local;
+  sl_int *relative;
+  double *buffer;
+} sli_left_work;
+
+static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+              sl_int d, sl_int first, sl_int last, double *update) {
+  const sl_symbolic *S = F->S;
+  const sl_int *rows = S->rows + S->rows_begin[d];
+  sli_front from = sli_front_of(F, d, 0);
+  const sl_int w = from.width, tiles = sli_front_tiles(&from);
+  const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
+  sl_int t, r;
+  from.update = update;
+  for (t = c0; t < tiles; t++) {
+    memset(from.update + sli_triangle_offset(t - c0), 0,
+         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
+  }
+  F->kernels->fronts[0].update(&from, c0, c1, c0, tiles, p->buffer);
+  for (r = first; r < from.below; r++) {
+    p->relative[r - first] = p->local[rows[r]];
+  }
+  F->kernels->fronts[0].assemble(f, from.update, (w + first) % SLI_TILE, p->relative,
+                   last - first, 0, from.below - first);
+}
+
+static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+                sl_int d, sl_int first, sl_int last) {
+  const sli_front from = sli_front_of(F, d, 0);
+  const sl_int w = from.width;
+  sl_int r, j;
+  for (r = first; r < last; r++) {
+    const double *l = from.panel + sli_panel_at(w, w + r, 0);
+    double *magnitude = f->magnitude + p->relative[r - first];
+    for (j = 0; j < w; j++, l += SLI_TILE) {
+      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
+        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
+        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
+      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
+        *magnitude += fabs(*l * *l * from.D[j]);
+      }
+    }
+  }
+}
+
+/* src/impl/factor/kept.h: supernodes whose numbers are those of another factor: copies them, and computes what the */
+
+typedef struct sli_kept {
+  const sl_factor *F;
+  const sl_int *from;
+  const sl_int *columns;
+  int has_one_sign;
+  sl_int *local;
+  sl_int *relative;
+  double *update;
+  sl_off update_room;
+} sli_kept;
+
+SLI_INLINE int sli_is_kept(const sl_factor *F, sl_int s) {
+  return F->kept != NULL && F->kept->from[s] != -1;
+}
+
+static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
+  const sl_symbolic *S = G->S;
+  const uint64_t workers = (uint64_t)G->schedule.workers;
+  sl_status status = SL_OK;
+  sl_int s;
+  int pass;
+  p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_step *step = &S->steps[s];
+    const sl_off size = sli_triangle_offset(sli_update_tiles(step->width, step->below));
+    p->update_room = p->from[s] != -1 && size > p->update_room ? size : p->update_room;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    p->local = SLI_TAKE(b, sl_int, workers *(uint64_t)S->n);
+    p->relative = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+    p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
+    status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
+  }
+  return status;
+}
+
+static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int *keep,
+              sl_int count) {
+  const sl_int tiles = sli_tiles(w + count);
+  sl_int t, j, r;
+  for (t = w / SLI_TILE; t < tiles; t++) {
+    const double *at[SLI_TILE];
+    double *tile = to + sli_tile_offset(w, t);
+    for (r = 0; r < SLI_TILE; r++) {
+      const sl_int local = SLI_TILE * t + r, row = local < w           ? local
+                             : local < w + count ? keep[local - w]
+                                       : -1;
+      at[r] = row == -1 ? NULL : from + sli_panel_at(w, row, 0);
+    }
+    for (j = 0; j < w; j++) {
+      for (r = 0; r < SLI_TILE; r++) {
+        tile[j * SLI_TILE + r] = at[r] == NULL ? 0.0 : at[r][j * SLI_TILE];
+      }
+    }
+  }
+}
+
+static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
+  const sli_kept *p = G->kept;
+  const sl_factor *F = p->F;
+  const sl_int there = p->from[s];
+  const sli_step *step = &F->S->steps[there], *own = &G->S->steps[s];
+  const sl_int w = step->width, *rows = F->S->rows + F->S->rows_begin[there];
+  const double *from = (const double *)F->values + step->panel;
+  double *panel = (double *)G->values + own->panel;
+  int is_whole = own->below == step->below;
+  sl_int k, m;
+  for (k = 0, m = 0; k < own->below; k++, m++) {
+    const sl_int row = p->columns[G->S->rows[G->S->rows_begin[s] + k]];
+    if (m >= step->below || rows[m] != row) {
+      m = sli_lower_bound(rows, step->below, row);
+    }
+    keep[k] = w + m;
+    is_whole &= m == k;
+  }
+  if (is_whole) {
+    memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
+  } else {
+    memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
+    sli_kept_rows(panel, from, w, keep, own->below);
+  }
+  memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
+  if (F->rule.shifts != NULL) {
+    memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
+         (size_t)w * sizeof(double));
+  }
+  G->extents[s] = F->extents[there];
+  if (G->extents[s].pivot != -1) {
+    G->extents[s].pivot += own->column - step->column;
+  }
+}
+
+static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
+                sl_int s, int has_one_sign) {
+  sl_int k;
+  sli_front_update(&G->kernels->fronts[0], f, p->buffer);
+  for (k = 0; k < f->below && !has_one_sign; k++) {
+    p->relative[k] = f->width + k;
+  }
+  if (!has_one_sign) {
+    sli_left_magnitudes(G, p, f, s, 0, f->below);
+  }
+}
+
+static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
+              int has_one_sign, double *update) {
+  const sl_symbolic *S = G->S;
+  const sli_front f = sli_front_of(G, s, worker);
+  const sl_int *rows = S->rows + S->rows_begin[s];
+  const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
+  sl_int k, d;
+  for (k = 0; k < f.below; k++) {
+    p->local[rows[k]] = f.width + k;
+  }
+  for (k = 0; k < SLI_TILE * tiles; k++) {
+    f.magnitude[k] = 0.0;
+  }
+  memset(f.update, 0,
+       (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
+  sli_kept_update_own(G, p, &f, s, has_one_sign);
+  for (d = s - 1; d >= S->first_descendant[s];) {
+    const sl_int below = S->steps[d].below;
+    const sl_int first =
+      sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
+    if (first < below) {
+      sli_left_update(G, p, &f, d, first, below, update);
+      if (!has_one_sign) {
+        sli_left_magnitudes(G, p, &f, d, first, below);
+      }
+      d--;
+    } else {
+      d = S->first_descendant[d] - 1;
+    }
+  }
+  for (k = f.width; k < f.width + f.below && has_one_sign; k++) {
+    const sl_int tile = k / SLI_TILE - whole, column = k - SLI_TILE * whole;
+    f.magnitude[k] =
+      fabs(f.update[sli_triangle_offset(tile) + (sl_off)column * SLI_TILE + k % SLI_TILE]);
+  }
+  sli_front_hand_over(&f);
+}
+
+static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
+  const sli_kept *p = G->kept;
+  const sl_int up = G->S->super_parent[s];
+  sli_left_work work;
+  work.local = p->local + (ptrdiff_t)worker * G->S->n;
+  work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
+  work.buffer = G->buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
+  sli_kept_copy(G, s, work.relative);
+  if (up != -1 && p->from[up] == -1) {
+    sli_kept_update(G, &work, s, worker, p->has_one_sign,
+            p->update + (ptrdiff_t)(p->update_room * worker));
+  }
+}
+
+static sl_status sli_super_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
+                  sli_failure *failure) {
+  if (sli_is_kept(F, s)) {
+    sli_kept_run(F, s, worker);
+    return SL_OK;
+  }
+  return sli_front_factor(F, from, s, worker, failure);
+}
+
 /* src/impl/factor/front_tasks.h: the multifrontal factorization as a list of tasks from which workers draw */
 
 typedef enum sli_task_kind {
@@ -14186,7 +14402,8 @@ static sli_task sli_job_draw(sli_job *job) {
   while (k < job->n_ready) {
     const sl_int at = p->ready[k];
     const sli_top *top = &p->tops[at];
-    const int is_whole = top->pieces == 0, skip = !top->is_begun && p->top[at] > job->failed;
+    const int is_whole = top->pieces == 0 || sli_is_kept(job->F, p->top[at]);
+    const int skip = !top->is_begun && p->top[at] > job->failed;
     if (is_whole || skip) {
       p->ready[k] = p->ready[--job->n_ready];
       if (skip) {
@@ -14302,7 +14519,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
     sli_failure failure;
     sl_status status = SL_OK;
     for (s = p->first[m]; s <= p->last[m] && status == SL_OK; s++) {
-      status = sli_front_factor(F, from, s, worker, &failure);
+      status = sli_super_factor(F, from, s, worker, &failure);
       if (status != SL_OK) {
         sli_keep_first_failure(&F->failures[worker], &failure);
       }
@@ -14321,7 +14538,7 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
     sli_subtrees_run(F, from, task->at, worker);
     break;
   case SLI_TASK_FRONT:
-    (void)sli_front_factor(F, from, s, worker, &failure);
+    (void)sli_super_factor(F, from, s, worker, &failure);
     break;
   case SLI_TASK_LOAD:
     f = sli_large_front(F, s);
@@ -15210,54 +15427,10 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
 
 /* src/impl/factor/leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
 
-typedef struct sli_left_work {
-  sl_int *local;
-  sl_int *relative;
-} sli_left_work;
-
-static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
-  p->local = SLI_TAKE(b, sl_int, S->n);
-  p->relative = SLI_TAKE(b, sl_int, S->tallest);
-}
-
-static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-              sl_int d, sl_int first, sl_int last, double *update) {
-  const sl_symbolic *S = F->S;
-  const sl_int *rows = S->rows + S->rows_begin[d];
-  sli_front from = sli_front_of(F, d, 0);
-  const sl_int w = from.width, tiles = sli_front_tiles(&from);
-  const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
-  sl_int t, r;
-  from.update = update;
-  for (t = c0; t < tiles; t++) {
-    memset(from.update + sli_triangle_offset(t - c0), 0,
-         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
-  }
-  F->kernels->fronts[0].update(&from, c0, c1, c0, tiles, F->buffer);
-  for (r = first; r < from.below; r++) {
-    p->relative[r - first] = p->local[rows[r]];
-  }
-  F->kernels->fronts[0].assemble(f, from.update, (w + first) % SLI_TILE, p->relative,
-                   last - first, 0, from.below - first);
-}
-
-static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-                sl_int d, sl_int first, sl_int last) {
-  const sli_front from = sli_front_of(F, d, 0);
-  const sl_int w = from.width;
-  sl_int r, j;
-  for (r = first; r < last; r++) {
-    const double *l = from.panel + sli_panel_at(w, w + r, 0);
-    double *magnitude = f->magnitude + p->relative[r - first];
-    for (j = 0; j < w; j++, l += SLI_TILE) {
-      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
-        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
-        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
-      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
-        *magnitude += fabs(*l * *l * from.D[j]);
-      }
-    }
-  }
+static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_factor *F) {
+  p->local = SLI_TAKE(b, sl_int, F->S->n);
+  p->relative = SLI_TAKE(b, sl_int, F->S->tallest);
+  p->buffer = F->buffer;
 }
 
 static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
@@ -15361,7 +15534,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     seeds = SLI_TAKE(&b, uint64_t, entries);
     scratch = SLI_TAKE(&b, uint64_t, entries);
-    sli_left_work_layout(&work, &b, F->S);
+    sli_left_work_layout(&work, &b, F);
     status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
   if (status != SL_OK) {
@@ -22805,152 +22978,6 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
 
 /* src/impl/change/restrict.h: sl_factor_restrict: the factor of A[R, R] from that of A */
 
-static void sli_restrict_rows(double *to, const double *from, sl_int w, const sl_int *keep,
-                sl_int count) {
-  const sl_int tiles = sli_tiles(w + count);
-  sl_int t, j, r;
-  for (t = w / SLI_TILE; t < tiles; t++) {
-    const double *at[SLI_TILE];
-    double *tile = to + sli_tile_offset(w, t);
-    for (r = 0; r < SLI_TILE; r++) {
-      const sl_int local = SLI_TILE * t + r, row = local < w           ? local
-                             : local < w + count ? keep[local - w]
-                                       : -1;
-      at[r] = row == -1 ? NULL : from + sli_panel_at(w, row, 0);
-    }
-    for (j = 0; j < w; j++) {
-      for (r = 0; r < SLI_TILE; r++) {
-        tile[j * SLI_TILE + r] = at[r] == NULL ? 0.0 : at[r][j * SLI_TILE];
-      }
-    }
-  }
-}
-
-static void sli_restrict_copy(sl_factor *G, const sl_factor *F, sli_restriction *r, sl_int q,
-                sl_int *keep) {
-  const sl_symbolic *S = F->S, *T = G->S;
-  const sl_int s = r->kept[q], to = r->kept_new[q];
-  const sli_step *step = &S->steps[s], *own = &T->steps[to];
-  const sl_int w = step->width;
-  const double *from = (const double *)F->values + step->panel;
-  double *panel = (double *)G->values + own->panel;
-  sl_int k, m;
-  if (own->below == step->below) {
-    memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
-  } else {
-    for (k = 0, m = 0; k < own->below; k++, m++) {
-      const sl_int rank = r->below[r->below_begin[q] + k];
-      while (S->rows[S->rows_begin[s] + m] != r->R.columns[rank]) {
-        m++;
-      }
-      keep[k] = w + m;
-    }
-    memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
-    sli_restrict_rows(panel, from, w, keep, own->below);
-  }
-  r->copied += sli_panel_size(w, own->below);
-  memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
-  if (F->rule.shifts != NULL) {
-    memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
-         (size_t)w * sizeof(double));
-  }
-  G->extents[to] = F->extents[s];
-  if (G->extents[to].pivot != -1) {
-    G->extents[to].pivot += own->column - step->column;
-  }
-}
-
-static void sli_restrict_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
-                  sl_int s, int has_one_sign) {
-  sl_int k;
-  sli_front_update(&G->kernels->fronts[0], f, G->buffer);
-  for (k = 0; k < f->below && !has_one_sign; k++) {
-    p->relative[k] = f->width + k;
-  }
-  if (!has_one_sign) {
-    sli_left_magnitudes(G, p, f, s, 0, f->below);
-  }
-}
-
-static void sli_restrict_update(const sl_factor *G, const sli_left_work *p, sl_int s,
-                int has_one_sign, double *update) {
-  const sl_symbolic *S = G->S;
-  const sli_front f = sli_front_of(G, s, 0);
-  const sl_int *rows = S->rows + S->rows_begin[s];
-  const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
-  sl_int k, d;
-  for (k = 0; k < f.below; k++) {
-    p->local[rows[k]] = f.width + k;
-  }
-  for (k = 0; k < SLI_TILE * tiles; k++) {
-    f.magnitude[k] = 0.0;
-  }
-  memset(f.update, 0,
-       (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
-  sli_restrict_update_own(G, p, &f, s, has_one_sign);
-  for (d = s - 1; d >= S->first_descendant[s];) {
-    const sl_int below = S->steps[d].below;
-    const sl_int first =
-      sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
-    if (first < below) {
-      sli_left_update(G, p, &f, d, first, below, update);
-      if (!has_one_sign) {
-        sli_left_magnitudes(G, p, &f, d, first, below);
-      }
-      d--;
-    } else {
-      d = S->first_descendant[d] - 1;
-    }
-  }
-  for (k = f.width; k < f.width + f.below && has_one_sign; k++) {
-    const sl_int tile = k / SLI_TILE - whole, column = k - SLI_TILE * whole;
-    f.magnitude[k] =
-      fabs(f.update[sli_triangle_offset(tile) + (sl_off)column * SLI_TILE + k % SLI_TILE]);
-  }
-  sli_front_hand_over(&f);
-}
-
-typedef struct sli_restrict_work {
-  sli_left_work left;
-  double *update;
-  unsigned char *is_kept;
-} sli_restrict_work;
-
-static sl_status sli_restrict_work_make(sli_restrict_work *w, sli_block *b, const sl_symbolic *S,
-                    const sli_restriction *r, const sl_allocator *a) {
-  sl_status status = SL_OK;
-  sl_off most = 0;
-  sl_int q;
-  int pass;
-  for (q = 0; q < r->n_kept; q++) {
-    const sli_step *step = &S->steps[r->kept_new[q]];
-    const sl_off size = sli_triangle_offset(sli_update_tiles(step->width, step->below));
-    most = size > most ? size : most;
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_left_work_layout(&w->left, b, S);
-    w->update = SLI_TAKE(b, double, most);
-    w->is_kept = SLI_TAKE(b, unsigned char, S->n_supers);
-    status = pass == 0 ? sli_block_alloc(b, a) : SL_OK;
-  }
-  return status;
-}
-
-static sl_status sli_restrict_eliminate(sl_factor *G, const sli_restrict_work *w, int has_one_sign,
-                    const sli_source *from, sli_failure *failure) {
-  const sl_symbolic *S = G->S;
-  sl_status status = SL_OK;
-  sl_int s;
-  for (s = 0; s < S->n_supers && status == SL_OK; s++) {
-    if (!w->is_kept[s]) {
-      status = sli_front_factor(G, from, s, 0, failure);
-    } else if (S->super_parent[s] != -1 && !w->is_kept[S->super_parent[s]]) {
-      sli_restrict_update(G, &w->left, s, has_one_sign, w->update);
-    }
-  }
-  return status;
-}
-
 static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
                   sli_failure *failure) {
   sl_int q, k;
@@ -22966,34 +22993,59 @@ static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r
   return SL_OK;
 }
 
+static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *from,
+                sl_int *columns) {
+  sl_int q, k;
+  for (q = 0; q < G->S->n_supers; q++) {
+    from[q] = -1;
+  }
+  for (q = 0; q < r->n_kept; q++) {
+    const sl_int t = r->kept_new[q];
+    from[t] = r->kept[q];
+    r->copied += G->S->panel_begin[t + 1] - G->S->panel_begin[t];
+  }
+  for (k = 0; k < r->R.count; k++) {
+    columns[r->column_of[k]] = r->R.columns[k];
+  }
+}
+
 static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
                     sl_stats *stats) {
   const double started = sli_seconds();
-  const sli_source from = sli_source_matrix(r->A);
-  sli_restrict_work w;
+  const sli_source source = sli_source_matrix(r->A);
+  sli_kept kept;
   sli_failure failure;
-  sli_block b = {NULL, 0, 0};
-  sl_int q;
-  sl_status status = sli_restrict_work_make(&w, &b, G->S, r, &G->allocator);
-  if (status != SL_OK) {
-    return status;
+  sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
+  sl_int *from = NULL, *columns = NULL;
+  sl_status status = SL_OK;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    from = SLI_TAKE(&b, sl_int, G->S->n_supers);
+    columns = SLI_TAKE(&b, sl_int, G->S->n);
+    status = pass == 0 ? sli_block_alloc(&b, &G->allocator) : SL_OK;
   }
-  memset(&failure, 0, sizeof failure);
-  memset(w.is_kept, 0, (size_t)G->S->n_supers);
-  sli_factor_begin(G);
-  G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-  status = sli_restrict_check(F, r, &failure);
-  for (q = 0; q < r->n_kept && status == SL_OK; q++) {
-    w.is_kept[r->kept_new[q]] = 1;
-    sli_restrict_copy(G, F, r, q, w.left.relative);
+  memset(&kept, 0, sizeof kept);
+  if (status == SL_OK) {
+    sli_restrict_keep(G, r, from, columns);
+    kept.F = F;
+    kept.from = from;
+    kept.columns = columns;
+    status = sli_kept_room(&kept, G, &room);
   }
   if (status == SL_OK) {
-    const sl_factor_info *info = &F->stats.factor;
-    (void)sli_restrict_eliminate(G, &w, info->positive == 0 || info->negative == 0, &from,
-                   &failure);
+    memset(&failure, 0, sizeof failure);
+    sli_factor_begin(G);
+    G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
+    G->kept = &kept;
+    if (sli_restrict_check(F, r, &failure) == SL_OK) {
+      (void)sli_multifrontal(G, &source, &failure);
+    }
+    G->kept = NULL;
+    status = sli_factor_done(G, &source, &failure, started, stats);
   }
+  sli_free(&G->allocator, room.base);
   sli_free(&G->allocator, b.base);
-  return sli_factor_done(G, &from, &failure, started, stats);
+  return status;
 }
 
 static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction *r,

@@ -116,6 +116,8 @@ extern "C" {
 #include "impl/factor/null_basis.h"
 #include "impl/factor/null_vectors.h"
 #include "impl/factor/multifrontal.h"
+#include "impl/factor/gather.h"
+#include "impl/factor/kept.h"
 #include "impl/factor/front_tasks.h"
 #include "impl/factor/nullspace.h"
 #include "impl/factor/growth.h"

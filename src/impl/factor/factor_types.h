@@ -110,6 +110,7 @@ struct sl_factor {
     double *divisors;
     double *center_scratch;
     double *buffer; /* kernel scratch, one piece a worker */
+    const struct sli_kept *kept; /* supernodes that are copied in this factorization, or NULL */
 
     /* multifrontal; scratch arrays hold one piece a worker */
     sl_threads threads;

@@ -2,7 +2,7 @@
 #ifndef SLI_FACTOR_FRONT_TASKS_H
 #define SLI_FACTOR_FRONT_TASKS_H
 
-#include "multifrontal.h"
+#include "kept.h"
 
 /* A factorization is one parallel call. Its tasks are bundles of subtrees, and the fronts above
  * them: small fronts as a whole, large ones in pieces. A worker draws a task that waits for nothing
@@ -143,7 +143,8 @@ static sli_task sli_job_draw(sli_job *job) {
     while (k < job->n_ready) {
         const sl_int at = p->ready[k];
         const sli_top *top = &p->tops[at];
-        const int is_whole = top->pieces == 0, skip = !top->is_begun && p->top[at] > job->failed;
+        const int is_whole = top->pieces == 0 || sli_is_kept(job->F, p->top[at]);
+        const int skip = !top->is_begun && p->top[at] > job->failed;
         if (is_whole || skip) {
             p->ready[k] = p->ready[--job->n_ready];
             if (skip) {
@@ -267,7 +268,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
         sli_failure failure;
         sl_status status = SL_OK;
         for (s = p->first[m]; s <= p->last[m] && status == SL_OK; s++) {
-            status = sli_front_factor(F, from, s, worker, &failure);
+            status = sli_super_factor(F, from, s, worker, &failure);
             if (status != SL_OK) {
                 sli_keep_first_failure(&F->failures[worker], &failure);
             }
@@ -286,7 +287,7 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
         sli_subtrees_run(F, from, task->at, worker);
         break;
     case SLI_TASK_FRONT:
-        (void)sli_front_factor(F, from, s, worker, &failure);
+        (void)sli_super_factor(F, from, s, worker, &failure);
         break;
     case SLI_TASK_LOAD:
         f = sli_large_front(F, s);

@@ -4,62 +4,12 @@
 
 #include "../analysis/reach.h"
 #include "factor.h"
+#include "gather.h"
 
-/* Scratch of a left-looking refactorization. */
-typedef struct sli_left_work {
-    /* n: the local row of each row of the current supernode; undefined for other rows */
-    sl_int *local;
-    /* rows of the tallest front: the relative indices of a descendant in the current supernode */
-    sl_int *relative;
-} sli_left_work;
-
-static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
-    p->local = SLI_TAKE(b, sl_int, S->n);
-    p->relative = SLI_TAKE(b, sl_int, S->tallest);
-}
-
-/* Adds the update of descendant d to the front f of a supernode. Rows first, first+1, .. of d are
- * rows of f; the columns of the update are those before `last`. update: room for d's triangle. */
-static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-                            sl_int d, sl_int first, sl_int last, double *update) {
-    const sl_symbolic *S = F->S;
-    const sl_int *rows = S->rows + S->rows_begin[d];
-    sli_front from = sli_front_of(F, d, 0);
-    const sl_int w = from.width, tiles = sli_front_tiles(&from);
-    const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
-    sl_int t, r;
-    from.update = update;
-    for (t = c0; t < tiles; t++) {
-        memset(from.update + sli_triangle_offset(t - c0), 0,
-               (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
-    }
-    F->kernels->fronts[0].update(&from, c0, c1, c0, tiles, F->buffer);
-    for (r = first; r < from.below; r++) {
-        p->relative[r - first] = p->local[rows[r]];
-    }
-    F->kernels->fronts[0].assemble(f, from.update, (w + first) % SLI_TILE, p->relative,
-                                   last - first, 0, from.below - first);
-}
-
-/* Adds |l d l| of rows first .. last-1 of descendant d to the magnitudes of f. The relative indices
- * are those of its update. */
-static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-                                sl_int d, sl_int first, sl_int last) {
-    const sli_front from = sli_front_of(F, d, 0);
-    const sl_int w = from.width;
-    sl_int r, j;
-    for (r = first; r < last; r++) {
-        const double *l = from.panel + sli_panel_at(w, w + r, 0);
-        double *magnitude = f->magnitude + p->relative[r - first];
-        for (j = 0; j < w; j++, l += SLI_TILE) {
-            if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
-                const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
-                *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
-            } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
-                *magnitude += fabs(*l * *l * from.D[j]);
-            }
-        }
-    }
+static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_factor *F) {
+    p->local = SLI_TAKE(b, sl_int, F->S->n);
+    p->relative = SLI_TAKE(b, sl_int, F->S->tallest);
+    p->buffer = F->buffer;
 }
 
 /* Recomputes supernode s from A and its descendants. Descendants are visited parents first, and
@@ -171,7 +121,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
-        sli_left_work_layout(&work, &b, F->S);
+        sli_left_work_layout(&work, &b, F);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
