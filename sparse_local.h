@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 97b32b83771633e4
+ * FNV-1a of the lines after this comment, without the license: 1d63af086d6bad62
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,56 +34,56 @@
  *   3710 sort.h   3774 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   3901 panel.h   3923 step.h   3974 pivot_rule.h   4048 front.h   4107 pairs.h
- *   4314 inverse_front.h   4386 table.h   4414 simd.h   4503 simd_scalar_single.h
- *   4549 simd_scalar.h   4676 simd_avx2_single.h   4730 simd_avx2.h   4942 simd_avx512_single.h
- *   4997 simd_avx512.h   5150 simd_neon_single.h   5192 simd_neon.h   5400 dispatch.h
+ *   4314 inverse_front.h   4386 table.h   4414 simd.h   4504 simd_scalar_single.h
+ *   4550 simd_scalar.h   4672 simd_avx2_single.h   4726 simd_avx2.h   4938 simd_avx512_single.h
+ *   4993 simd_avx512.h   5146 simd_neon_single.h   5188 simd_neon.h   5396 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5480 csc.h   5594 csc_build.h   5728 csc64.h   5799 csc_triangle.h   5865 csc_products.h
- *   5982 permute.h   6048 sum.h   6130 output_file.h   6339 matrix_market.h
+ *   5476 csc.h   5590 csc_build.h   5724 csc64.h   5795 csc_triangle.h   5861 csc_products.h
+ *   5978 permute.h   6044 sum.h   6126 output_file.h   6335 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6785 graph.h   6934 coarsen.h   7246 labels.h   7442 subgraph.h   7637 heap.h   7697 bisect.h
- *   7927 separator.h   8189 mindeg.h   8372 dissect.h   8704 levelset.h   8824 geometric.h
- *   8999 cells.h   9179 septree.h   9239 metis.h   9388 metis_refined.h   9502 nd.h
- *   9695 compress.h   9816 quotient.h  10230 order.h
+ *   6781 graph.h   6930 coarsen.h   7242 labels.h   7438 subgraph.h   7633 heap.h   7693 bisect.h
+ *   7923 separator.h   8185 mindeg.h   8368 dissect.h   8700 levelset.h   8820 geometric.h
+ *   8995 cells.h   9175 septree.h   9235 metis.h   9384 metis_refined.h   9498 nd.h
+ *   9691 compress.h   9812 quotient.h  10226 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10512 symbolic_types.h  10549 etree.h  10622 counts.h  10679 supernodes.h  10901 structure.h
- *  11022 schedule.h  11302 symbolic.h  11712 reach.h
+ *  10508 symbolic_types.h  10545 etree.h  10618 counts.h  10675 supernodes.h  10897 structure.h
+ *  11018 schedule.h  11298 symbolic.h  11708 reach.h
  * (factor: the numbers of L and D)
- *  11983 factor_types.h  12363 storage.h  12522 pivot_search.h  12868 pivoted.h  12936 scatter.h
- *  13094 uplooking.h  13166 null_product.h  13370 null_dense.h  13447 null_basis.h
- *  13755 null_vectors.h  13897 multifrontal.h  14073 gather.h  14121 kept.h  14288 front_tasks.h
- *  14631 nullspace.h  14834 growth.h  14910 factor_setup.h  15218 factor.h  15428 leftlooking.h
- *  15568 factor_query.h  15703 combination.h
+ *  11979 factor_types.h  12359 storage.h  12518 pivot_search.h  12864 pivoted.h  12932 scatter.h
+ *  13090 uplooking.h  13162 null_product.h  13366 null_dense.h  13443 null_basis.h
+ *  13751 null_vectors.h  13893 multifrontal.h  14069 gather.h  14117 kept.h  14284 front_tasks.h
+ *  14627 nullspace.h  14830 growth.h  14906 factor_setup.h  15214 factor.h  15424 leftlooking.h
+ *  15564 factor_query.h  15699 combination.h
  * (solve: full and local solves)
- *  15764 region_types.h  15868 work.h  15968 query.h  16178 singular.h  16445 backward.h
- *  16475 sweep_tasks.h  16802 sweep.h  17014 compile.h  17207 plan.h  17314 local.h  17466 parts.h
- *  17755 refine.h  17934 refine_local.h  18150 rcond.h  18306 defects.h
+ *  15760 region_types.h  15864 work.h  15964 query.h  16174 singular.h  16441 backward.h
+ *  16471 sweep_tasks.h  16798 sweep.h  17010 compile.h  17203 plan.h  17310 local.h  17462 parts.h
+ *  17751 refine.h  17930 refine_local.h  18146 rcond.h  18302 defects.h
  * (inverse: entries of the inverse, regions)
- *  18384 traversal.h  18629 traversal_run.h  18812 row_sets.h  18839 unit_vectors.h
- *  19066 bilinear.h  19243 entries.h  19524 block.h  19764 reserve.h  19956 selected.h
- *  20166 selected_query.h  20268 region_choose.h  20495 region.h
+ *  18380 traversal.h  18625 traversal_run.h  18808 row_sets.h  18835 unit_vectors.h
+ *  19062 bilinear.h  19239 entries.h  19520 block.h  19760 reserve.h  19952 selected.h
+ *  20162 selected_query.h  20264 region_choose.h  20491 region.h
  * (change: a factor that follows changes of its matrix)
- *  20743 update.h  21093 rank.h  21422 edges.h  21576 choose.h  21770 pins_types.h
- *  21800 pins_capacitance.h  22039 pins.h  22185 pins_solve.h  22340 subset.h
- *  22447 restrict_analysis.h  22744 restrict_anew.h  22798 restrict_symbolic.h  22979 restrict.h
- *  23206 edit_match.h  23392 edit_place.h  23641 edit_separate.h  23954 edit_order.h
- *  24108 edit_graph.h  24203 edit_join.h  24479 edit.h
+ *  20739 update.h  21089 rank.h  21418 edges.h  21572 choose.h  21766 pins_types.h
+ *  21796 pins_capacitance.h  22035 pins.h  22181 pins_solve.h  22336 subset.h
+ *  22443 restrict_analysis.h  22740 restrict_anew.h  22794 restrict_symbolic.h  22975 restrict.h
+ *  23202 edit_match.h  23388 edit_place.h  23637 edit_separate.h  23950 edit_order.h
+ *  24104 edit_graph.h  24199 edit_join.h  24475 edit.h
  * (save: factors in files)
- *  24643 format.h  24939 decode.h  25087 check.h  25419 write.h  25724 load.h  25992 load_inverse.h
- *  26324 load_calls.h
+ *  24639 format.h  24935 decode.h  25083 check.h  25415 write.h  25720 load.h  25988 load_inverse.h
+ *  26320 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26523 batch_solve.h  26732 batch_factor.h  26933 batch_diagonal.h
+ *  26519 batch_solve.h  26728 batch_factor.h  26929 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27073 hermitian.h  27235 complex_rows.h
+ *  27069 hermitian.h  27231 complex_rows.h
  * (last: undefine every internal macro)
- *  27403 undef.h
+ *  27399 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27623 front.inl.h  27625 product.inl.h  28026 words_undef.inl.h  28106 multi_rhs.inl.h
- *  28125 multi_rhs_small.inl.h  28293 multi_rhs_tiles.inl.h  28590 sweeps.inl.h
- *  28592 unit_triangle.inl.h  28629 two_rhs.inl.h  28798 small_supernode.inl.h
- *  28957 single_rhs.inl.h  29201 kernel_set.inl.h  29203 complex_small.inl.h
- *  29369 complex_rows.inl.h  29610 inverse_front.inl.h  29895 row.inl.h  29925 change.inl.h
- *  29989 interleave.inl.h
+ *  27620 front.inl.h  27622 product.inl.h  28023 words_undef.inl.h  28103 multi_rhs.inl.h
+ *  28122 multi_rhs_small.inl.h  28290 multi_rhs_tiles.inl.h  28587 sweeps.inl.h
+ *  28589 unit_triangle.inl.h  28626 two_rhs.inl.h  28795 small_supernode.inl.h
+ *  28954 single_rhs.inl.h  29198 kernel_set.inl.h  29200 complex_small.inl.h
+ *  29366 complex_rows.inl.h  29607 inverse_front.inl.h  29892 row.inl.h  29922 change.inl.h
+ *  29986 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4421,6 +4421,7 @@ typedef struct sli_kernels {
 #define SLI_HIGH8(op, k) op(7, k) op(6, k) op(5, k) op(4, k)
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
+#define SLI_IS_IN(k, count) ((k) == 0 || (k) < (count))
 
 #define SLI_CASE(k, call) \
   case k: \
@@ -4579,20 +4580,15 @@ typedef struct sli_kernels {
 #define SLV_LOAD_PART(a, p, count, rest) \
   { \
     double part_[SLI_TILE]; \
-    sl_int i_; \
-    for (i_ = 0; i_ < SLI_TILE; i_++) { \
-      part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
-    } \
+    SLI_LOOP(SLI_TILE, part_[i_] = (rest)) \
+    SLI_LOOP(count, part_[i_] = (p)[i_]) \
     memcpy(a, part_, sizeof part_); \
   }
 #define SLV_FIRST(a, count) \
   { \
     double part_[SLI_TILE]; \
-    sl_int i_; \
-    memcpy(part_, a, sizeof part_); \
-    for (i_ = (count); i_ < SLI_TILE; i_++) { \
-      part_[i_] = 0.0; \
-    } \
+    SLI_LOOP(SLI_TILE, part_[i_] = 0.0) \
+    SLI_LOOP(count, part_[i_] = a[i_]) \
     memcpy(a, part_, sizeof part_); \
   }
 #define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
@@ -27455,6 +27451,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PREFETCH_DISTANCE
 #undef SLI_EACH4
 #undef SLI_EACH8
+#undef SLI_IS_IN
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
 #undef SLI_HIGH4
@@ -27641,7 +27638,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
   SLV_ADD(c##v##k, b)
 #else
 #define SLI_LOAD(k, v) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
   } else { \
     SLV_ZERO(c##v##k) \
@@ -27649,7 +27646,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLI_SUM(k, v) \
     SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
   }
@@ -27806,7 +27803,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
 
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #define SLI_LOAD(k, p) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLV_LOAD_TILES(a##k, (p) + SLI_TILE * (k), q + SLI_TILE * (k)) \
   } else { \
     SLV_ZERO(a##k) \
@@ -27818,7 +27815,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
     SLV_FNMA(a##i, l, b) \
   }
 #define SLI_PIVOT(k, p) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLV_VALUE d; \
     SLV_STORE(x + SLI_TILE * (k), a##k) \
     SLV_STORE(sums, m) \
@@ -27846,7 +27843,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
     SLV_FNMA(a##k, a##j, b) \
   }
 #define SLI_SOLVE(k, unused) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLI_EACH8_AGAIN(SLI_BEFORE, k) \
     SLI_SCALE(l, a##k, k) \
     SLI_GAIN(l, a##k, k) \
@@ -28884,7 +28881,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
   SLV_DECLARE(z)
   SLI_EACH8(SLI_SUM_DECLARE, a)
   SLI_EACH8(SLI_SUM_ZERO, a)
-  if (row > 0 && count > 0) {
+  if ((w == SLI_TILE || row > 0) && count > 0) {
     at -= count;
     l -= SLI_TILE * w;
     SLV_GATHER(v, x, SLI_ROW_AT_PART)
@@ -29061,7 +29058,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
 }
 
 #define SLI_TAKE_SUM(k, unused) \
-  if ((k) < inner) { \
+  if (SLI_IS_IN(k, inner)) { \
     SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
     if (inner < SLI_TILE) { \
       SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
@@ -29618,7 +29615,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
 }
 
 #define SLI_STORE(k, p) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLV_STORE((p) + SLI_TILE * (k), a) \
   }
 
@@ -29664,7 +29661,7 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
     SLV_FNMA(a##k, a##j, b) \
   }
 #define SLI_SOLVE(k, unused) \
-  if ((k) < columns) { \
+  if (SLI_IS_IN(k, columns)) { \
     SLI_EACH8_AGAIN(SLI_BEFORE, k) \
   }
 

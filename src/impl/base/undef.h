@@ -53,6 +53,7 @@
 #undef SLI_PREFETCH_DISTANCE
 #undef SLI_EACH4
 #undef SLI_EACH8
+#undef SLI_IS_IN
 #undef SLI_EACH4_AGAIN
 #undef SLI_EACH8_AGAIN
 #undef SLI_HIGH4

@@ -21,7 +21,7 @@
 
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #define SLI_LOAD(k, p) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLV_LOAD_TILES(a##k, (p) + SLI_TILE * (k), q + SLI_TILE * (k)) \
     } else { \
         SLV_ZERO(a##k) \
@@ -36,7 +36,7 @@
         SLV_FNMA(a##i, l, b) \
     }
 #define SLI_PIVOT(k, p) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLV_VALUE d; \
         SLV_STORE(x + SLI_TILE * (k), a##k) \
         SLV_STORE(sums, m) \
@@ -65,7 +65,7 @@
         SLV_FNMA(a##k, a##j, b) \
     }
 #define SLI_SOLVE(k, unused) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLI_EACH8_AGAIN(SLI_BEFORE, k) \
         SLI_SCALE(l, a##k, k) \
         SLI_GAIN(l, a##k, k) \

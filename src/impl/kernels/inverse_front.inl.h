@@ -10,7 +10,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, s
 }
 
 #define SLI_STORE(k, p) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLV_STORE((p) + SLI_TILE * (k), a) \
     }
 
@@ -61,7 +61,7 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
         SLV_FNMA(a##k, a##j, b) \
     }
 #define SLI_SOLVE(k, unused) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLI_EACH8_AGAIN(SLI_BEFORE, k) \
     }
 

@@ -21,7 +21,7 @@
     SLV_ADD(c##v##k, b)
 #else
 #define SLI_LOAD(k, v) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLV_LOAD_TILES(c##v##k, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
     } else { \
         SLV_ZERO(c##v##k) \
@@ -29,7 +29,7 @@
 #define SLI_SUM(k, v)
 #endif
 #define SLI_STORE(k, v) \
-    if ((k) < columns) { \
+    if (SLI_IS_IN(k, columns)) { \
         SLI_SUM(k, v) \
         SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
     }

@@ -85,6 +85,8 @@
 #define SLI_HIGH8(op, k) op(7, k) op(6, k) op(5, k) op(4, k)
 #define SLI_LOW4(op, k) op(1, k) op(0, k)
 #define SLI_LOW8(op, k) op(3, k) op(2, k) op(1, k) op(0, k)
+/* Is the constant k one of 0 .. count-1? There is at least 0. */
+#define SLI_IS_IN(k, count) ((k) == 0 || (k) < (count))
 
 /* Calls one of 8 copies of a function, compiled for the constant numbers of columns w = 1 .. 8. */
 #define SLI_CASE(k, call) \

@@ -37,20 +37,15 @@
 #define SLV_LOAD_PART(a, p, count, rest) \
     { \
         double part_[SLI_TILE]; \
-        sl_int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
-        } \
+        SLI_LOOP(SLI_TILE, part_[i_] = (rest)) \
+        SLI_LOOP(count, part_[i_] = (p)[i_]) \
         memcpy(a, part_, sizeof part_); \
     }
 #define SLV_FIRST(a, count) \
     { \
         double part_[SLI_TILE]; \
-        sl_int i_; \
-        memcpy(part_, a, sizeof part_); \
-        for (i_ = (count); i_ < SLI_TILE; i_++) { \
-            part_[i_] = 0.0; \
-        } \
+        SLI_LOOP(SLI_TILE, part_[i_] = 0.0) \
+        SLI_LOOP(count, part_[i_] = a[i_]) \
         memcpy(a, part_, sizeof part_); \
     }
 #define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])

@@ -115,7 +115,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
 /* The diagonal tile, which has `inner` columns: adds up the partial sums of the rows below, adds
  * the right-hand side divided by D, and solves with the triangle. l: diagonal part of the tile. */
 #define SLI_TAKE_SUM(k, unused) \
-    if ((k) < inner) { \
+    if (SLI_IS_IN(k, inner)) { \
         SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
         if (inner < SLI_TILE) { \
             SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \

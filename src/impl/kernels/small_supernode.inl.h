@@ -98,7 +98,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
     SLI_EACH8(SLI_SUM_ZERO, a)
-    if (row > 0 && count > 0) {
+    if ((w == SLI_TILE || row > 0) && count > 0) {
         at -= count;
         l -= SLI_TILE * w;
         SLV_GATHER(v, x, SLI_ROW_AT_PART)
