@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1d63af086d6bad62
+ * FNV-1a of the lines after this comment, without the license: 13b3b13f954b712b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -69,21 +69,21 @@
  *  23202 edit_match.h  23388 edit_place.h  23637 edit_separate.h  23950 edit_order.h
  *  24104 edit_graph.h  24199 edit_join.h  24475 edit.h
  * (save: factors in files)
- *  24639 format.h  24935 decode.h  25083 check.h  25415 write.h  25720 load.h  25988 load_inverse.h
- *  26320 load_calls.h
+ *  24639 format.h  24935 decode.h  25083 check.h  25413 write.h  25718 load.h  25986 load_inverse.h
+ *  26315 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26519 batch_solve.h  26728 batch_factor.h  26929 batch_diagonal.h
+ *  26514 batch_solve.h  26723 batch_factor.h  26924 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27069 hermitian.h  27231 complex_rows.h
+ *  27064 hermitian.h  27226 complex_rows.h
  * (last: undefine every internal macro)
- *  27399 undef.h
+ *  27394 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27620 front.inl.h  27622 product.inl.h  28023 words_undef.inl.h  28103 multi_rhs.inl.h
- *  28122 multi_rhs_small.inl.h  28290 multi_rhs_tiles.inl.h  28587 sweeps.inl.h
- *  28589 unit_triangle.inl.h  28626 two_rhs.inl.h  28795 small_supernode.inl.h
- *  28954 single_rhs.inl.h  29198 kernel_set.inl.h  29200 complex_small.inl.h
- *  29366 complex_rows.inl.h  29607 inverse_front.inl.h  29892 row.inl.h  29922 change.inl.h
- *  29986 interleave.inl.h
+ *  27615 front.inl.h  27617 product.inl.h  28018 words_undef.inl.h  28098 multi_rhs.inl.h
+ *  28117 multi_rhs_small.inl.h  28285 multi_rhs_tiles.inl.h  28582 sweeps.inl.h
+ *  28584 unit_triangle.inl.h  28621 two_rhs.inl.h  28790 small_supernode.inl.h
+ *  28949 single_rhs.inl.h  29193 kernel_set.inl.h  29195 complex_small.inl.h
+ *  29361 complex_rows.inl.h  29602 inverse_front.inl.h  29887 row.inl.h  29917 change.inl.h
+ *  29981 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25317,15 +25317,13 @@ static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
 
 static int sli_check_anchors(const sl_factor *F) {
   const sl_symbolic *S = F->S;
-  sl_int k, m = 0, root = -1;
+  sl_int k, m = 0;
   if (!sli_check_columns(F->anchors, F->n_anchors, S->n)) {
     return 0;
   }
   for (k = 0; k < S->n && m < F->n_anchors; k++) {
     if (S->parent[k] == -1) {
-      const sl_int anchor = F->anchors[m];
-      m += anchor > root && anchor <= k;
-      root = k;
+      m += F->anchors[m] <= k;
       if (m < F->n_anchors && F->anchors[m] <= k) {
         return 0;
       }
@@ -26163,7 +26161,7 @@ static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
       left[m] -= bytes[m];
     }
   }
-  return left[0] == 0 && left[1] == 0 && left[2] == 0 && left[3] == 0;
+  return left[1] == 0 && left[2] == 0 && left[3] == 0;
 }
 
 static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *extent) {
@@ -26175,9 +26173,6 @@ static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *exten
   }
   for (k = 0; k < extent->n_roots; k++) {
     const sl_int s = extent->roots[k], *below = S->rows + S->rows_begin[s];
-    if (k > 0 && S->first_descendant[s] <= extent->roots[k - 1]) {
-      return 0;
-    }
     for (i = 0; i < S->steps[s].below; i++) {
       if (sli_extent_boundary(extent, below[i]) == -1) {
         return 0;

@@ -1,4 +1,4 @@
-/* test_file_faults.c: files that the system does not map, measure, flush or create, by faults */
+/* test_file_faults.c: files that the system does not map, read, flush or create, by faults */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <fcntl.h>
@@ -11,8 +11,9 @@
 typedef enum fault_t {
     NO_FAULT,
     FSTAT_FAILS,
-    MMAP_FAILS,    /* errno: fault_number */
+    MMAP_FAILS, /* errno: fault_number */
     FSEEK_FAILS,
+    FREAD_FAILS, /* after fault_number reads */
     FFLUSH_FAILS,
     FSYNC_FAILS, /* errno: fault_number */
     NO_NEW_FILE, /* the same; a file that exists can be opened */
@@ -34,6 +35,10 @@ static void *faulty_mmap(void *at, size_t size, int rights, int flags, int file,
 
 static int faulty_fseek(FILE *file, long offset, int from) {
     return fault == FSEEK_FAILS ? -1 : fseek(file, offset, from);
+}
+
+static size_t faulty_fread(void *to, size_t size, size_t count, FILE *file) {
+    return fault == FREAD_FAILS && fault_number-- <= 0 ? 0 : fread(to, size, count, file);
 }
 
 static int faulty_fflush(FILE *file) {
@@ -66,13 +71,14 @@ int fsync(int file) {
 #define fstat faulty_fstat
 #define mmap faulty_mmap
 #define fseek faulty_fseek
+#define fread faulty_fread
 #define fflush faulty_fflush
 #define fopen faulty_fopen
 #define chmod faulty_chmod
 #define open(...) FAULTY_OPEN(__VA_ARGS__, 0, 0)
 
 #define SPARSE_LOCAL_IMPLEMENTATION
-#include "tests/lib/saved.h"
+#include "tests/lib/saved_set.h"
 #include "tests/lib/temporary_files.h"
 
 static const char old_text[] = "the old content\n";
@@ -124,6 +130,34 @@ static void files_that_are_not_mapped_or_measured(void **state) {
     SL_CHECK(load(0, NO_FAULT, 0));
     SL_EXPECT(SL_ERR_IO, load(0, FSEEK_FAILS, 0));
     factored_free(&y);
+}
+
+/* The k-th read of a file fails, for every k: nothing is created and nothing is lost. */
+static void files_that_are_not_read_to_their_end(void **state) {
+    (void)state;
+    set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 0, NULL);
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    const char *path = files_path("a.slf");
+    sl_status status = SL_ERR_IO;
+    sl_saved_set set;
+    int reads = 0;
+    SL_CHECK(sl_save_set_file(path, set_of(&q), NULL));
+    for (; status != SL_OK; reads++) {
+        fault = FREAD_FAILS;
+        fault_number = reads;
+        status = sl_load_set_file(&set, path, SL_LOAD_VERIFIED, &opt);
+        fault = NO_FAULT;
+        assert_true(status == SL_OK || status == SL_ERR_IO);
+        assert_true((set.symbolic != NULL) == (status == SL_OK));
+        if (status == SL_OK) {
+            assert_same_set(&q.set, &set);
+        }
+        sl_saved_set_free(&set);
+        COUNTER_CLEAN(&counter);
+    }
+    assert_true(reads > 10);
+    set_case_free(&q);
 }
 
 /* A device without a flush to its medium is no error. */
@@ -183,6 +217,7 @@ static void permissions_that_cannot_be_kept(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_that_are_not_mapped_or_measured),
+        cmocka_unit_test(files_that_are_not_read_to_their_end),
         cmocka_unit_test(files_that_are_not_flushed),
         cmocka_unit_test(files_that_cannot_be_created),
         cmocka_unit_test(permissions_that_cannot_be_kept),

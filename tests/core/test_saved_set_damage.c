@@ -217,18 +217,6 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
 
 /* ---- single lies ---- */
 
-static unsigned char *section(const saved_t *m, uint32_t id, uint64_t *bytes) {
-    for (uint32_t s = 0; s < saved_u32(m->bytes + SAVED_SECTIONS); s++) {
-        unsigned char *entry = saved_entry(m->bytes, s);
-        if (saved_u32(entry + SAVED_ID) == id) {
-            *bytes = saved_u64(entry + SAVED_LENGTH);
-            return m->bytes + saved_u64(entry + SAVED_OFFSET);
-        }
-    }
-    fail();
-    return NULL;
-}
-
 /* Where the lower half of an integer of a section begins. */
 static size_t lower_half(uint32_t id) {
     const uint16_t one = 1;
@@ -242,7 +230,7 @@ static void refuse(const target_t *t, uint32_t id, size_t at, uint32_t value) {
     uint64_t bytes = 0;
     memcpy(t->k.bytes, t->m.bytes, t->m.size);
     at += lower_half(id);
-    unsigned char *word = section(&t->k, id, &bytes) + at;
+    unsigned char *word = saved_section(t->k.bytes, id, &bytes) + at;
     assert_true(at + 4 <= bytes && saved_u32(word) != value);
     saved_put32(word, value);
     saved_repair(t->k.bytes, t->m.size);

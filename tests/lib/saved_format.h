@@ -78,6 +78,18 @@ static inline unsigned char *saved_entry(unsigned char *file, uint32_t k) {
     return file + SAVED_HEADER + SAVED_ENTRY * (size_t)k;
 }
 
+/* The section with this id and its length; NULL: there is none. */
+static inline unsigned char *saved_section(unsigned char *file, uint32_t id, uint64_t *bytes) {
+    for (uint32_t k = 0; k < saved_u32(file + SAVED_SECTIONS); k++) {
+        const unsigned char *entry = saved_entry(file, k);
+        if (saved_u32(entry + SAVED_ID) == id) {
+            *bytes = saved_u64(entry + SAVED_LENGTH);
+            return file + saved_u64(entry + SAVED_OFFSET);
+        }
+    }
+    return NULL;
+}
+
 /* Makes all checksums right that can be computed: those of sections that are inside the file. */
 static inline void saved_repair(unsigned char *file, uint64_t size) {
     uint32_t sections;

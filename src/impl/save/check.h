@@ -263,15 +263,13 @@ static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
 /* Are the anchors null pivots, at most one in a tree? */
 static int sli_check_anchors(const sl_factor *F) {
     const sl_symbolic *S = F->S;
-    sl_int k, m = 0, root = -1;
+    sl_int k, m = 0;
     if (!sli_check_columns(F->anchors, F->n_anchors, S->n)) {
         return 0;
     }
     for (k = 0; k < S->n && m < F->n_anchors; k++) {
         if (S->parent[k] == -1) {
-            const sl_int anchor = F->anchors[m];
-            m += anchor > root && anchor <= k;
-            root = k;
+            m += F->anchors[m] <= k; /* it comes after the root before k */
             if (m < F->n_anchors && F->anchors[m] <= k) {
                 return 0;
             }

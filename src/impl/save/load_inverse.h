@@ -197,11 +197,12 @@ static int sli_check_records(const sli_reading *r, const sl_symbolic *S,
             left[m] -= bytes[m];
         }
     }
-    return left[0] == 0 && left[1] == 0 && left[2] == 0 && left[3] == 0;
+    return left[1] == 0 && left[2] == 0 && left[3] == 0; /* the records are q->count */
 }
 
-/* Are the subtrees disjoint, is the boundary outside of them, and does it have every row below
- * them? These are the rows below their roots. Both lists ascend. */
+/* Is the boundary outside of the subtrees, and does it have every row below them? These are the
+ * rows below their roots. So no subtree is inside another: it would have rows below in that one.
+ * Both lists ascend. */
 static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *extent) {
     sl_int k, i;
     for (k = 0; k < extent->n_rows; k++) {
@@ -211,9 +212,6 @@ static int sli_check_extent(const sl_symbolic *S, const sli_region_extent *exten
     }
     for (k = 0; k < extent->n_roots; k++) {
         const sl_int s = extent->roots[k], *below = S->rows + S->rows_begin[s];
-        if (k > 0 && S->first_descendant[s] <= extent->roots[k - 1]) {
-            return 0;
-        }
         for (i = 0; i < S->steps[s].below; i++) {
             if (sli_extent_boundary(extent, below[i]) == -1) {
                 return 0;
