@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 13b3b13f954b712b
+ * FNV-1a of the lines after this comment, without the license: 579cbd67c1d4c435
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,48 +42,48 @@
  *   5978 permute.h   6044 sum.h   6126 output_file.h   6335 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
  *   6781 graph.h   6930 coarsen.h   7242 labels.h   7438 subgraph.h   7633 heap.h   7693 bisect.h
- *   7923 separator.h   8185 mindeg.h   8368 dissect.h   8700 levelset.h   8820 geometric.h
- *   8995 cells.h   9175 septree.h   9235 metis.h   9384 metis_refined.h   9498 nd.h
- *   9691 compress.h   9812 quotient.h  10226 order.h
+ *   7920 separator.h   8182 mindeg.h   8365 dissect.h   8697 levelset.h   8817 geometric.h
+ *   8992 cells.h   9172 septree.h   9232 metis.h   9381 metis_refined.h   9495 nd.h
+ *   9688 compress.h   9809 quotient.h  10222 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10508 symbolic_types.h  10545 etree.h  10618 counts.h  10675 supernodes.h  10897 structure.h
- *  11018 schedule.h  11298 symbolic.h  11708 reach.h
+ *  10504 symbolic_types.h  10541 etree.h  10614 counts.h  10671 supernodes.h  10893 structure.h
+ *  11014 schedule.h  11294 symbolic.h  11704 reach.h
  * (factor: the numbers of L and D)
- *  11979 factor_types.h  12359 storage.h  12518 pivot_search.h  12864 pivoted.h  12932 scatter.h
- *  13090 uplooking.h  13162 null_product.h  13366 null_dense.h  13443 null_basis.h
- *  13751 null_vectors.h  13893 multifrontal.h  14069 gather.h  14117 kept.h  14284 front_tasks.h
- *  14627 nullspace.h  14830 growth.h  14906 factor_setup.h  15214 factor.h  15424 leftlooking.h
- *  15564 factor_query.h  15699 combination.h
+ *  11975 factor_types.h  12355 storage.h  12514 pivot_search.h  12860 pivoted.h  12928 scatter.h
+ *  13086 uplooking.h  13158 null_product.h  13362 null_dense.h  13439 null_basis.h
+ *  13747 null_vectors.h  13889 multifrontal.h  14065 gather.h  14113 kept.h  14280 front_tasks.h
+ *  14623 nullspace.h  14826 growth.h  14902 factor_setup.h  15210 factor.h  15420 leftlooking.h
+ *  15560 factor_query.h  15695 combination.h
  * (solve: full and local solves)
- *  15760 region_types.h  15864 work.h  15964 query.h  16174 singular.h  16441 backward.h
- *  16471 sweep_tasks.h  16798 sweep.h  17010 compile.h  17203 plan.h  17310 local.h  17462 parts.h
- *  17751 refine.h  17930 refine_local.h  18146 rcond.h  18302 defects.h
+ *  15756 region_types.h  15860 work.h  15960 query.h  16170 singular.h  16437 backward.h
+ *  16467 sweep_tasks.h  16794 sweep.h  17006 compile.h  17199 plan.h  17306 local.h  17458 parts.h
+ *  17747 refine.h  17926 refine_local.h  18142 rcond.h  18298 defects.h
  * (inverse: entries of the inverse, regions)
- *  18380 traversal.h  18625 traversal_run.h  18808 row_sets.h  18835 unit_vectors.h
- *  19062 bilinear.h  19239 entries.h  19520 block.h  19760 reserve.h  19952 selected.h
- *  20162 selected_query.h  20264 region_choose.h  20491 region.h
+ *  18376 traversal.h  18621 traversal_run.h  18804 row_sets.h  18831 unit_vectors.h
+ *  19058 bilinear.h  19235 entries.h  19516 block.h  19756 reserve.h  19948 selected.h
+ *  20158 selected_query.h  20260 region_choose.h  20484 region.h
  * (change: a factor that follows changes of its matrix)
- *  20739 update.h  21089 rank.h  21418 edges.h  21572 choose.h  21766 pins_types.h
- *  21796 pins_capacitance.h  22035 pins.h  22181 pins_solve.h  22336 subset.h
- *  22443 restrict_analysis.h  22740 restrict_anew.h  22794 restrict_symbolic.h  22975 restrict.h
- *  23202 edit_match.h  23388 edit_place.h  23637 edit_separate.h  23950 edit_order.h
- *  24104 edit_graph.h  24199 edit_join.h  24475 edit.h
+ *  20732 update.h  21082 rank.h  21411 edges.h  21565 choose.h  21759 pins_types.h
+ *  21789 pins_capacitance.h  22028 pins.h  22174 pins_solve.h  22329 subset.h
+ *  22436 restrict_analysis.h  22733 restrict_anew.h  22787 restrict_symbolic.h  22968 restrict.h
+ *  23195 edit_match.h  23381 edit_place.h  23630 edit_separate.h  23943 edit_order.h
+ *  24097 edit_graph.h  24192 edit_join.h  24468 edit.h
  * (save: factors in files)
- *  24639 format.h  24935 decode.h  25083 check.h  25413 write.h  25718 load.h  25986 load_inverse.h
- *  26315 load_calls.h
+ *  24632 format.h  24928 decode.h  25076 check.h  25406 write.h  25711 load.h  25979 load_inverse.h
+ *  26308 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26514 batch_solve.h  26723 batch_factor.h  26924 batch_diagonal.h
+ *  26507 batch_solve.h  26716 batch_factor.h  26917 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27064 hermitian.h  27226 complex_rows.h
+ *  27057 hermitian.h  27219 complex_rows.h
  * (last: undefine every internal macro)
- *  27394 undef.h
+ *  27387 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27615 front.inl.h  27617 product.inl.h  28018 words_undef.inl.h  28098 multi_rhs.inl.h
- *  28117 multi_rhs_small.inl.h  28285 multi_rhs_tiles.inl.h  28582 sweeps.inl.h
- *  28584 unit_triangle.inl.h  28621 two_rhs.inl.h  28790 small_supernode.inl.h
- *  28949 single_rhs.inl.h  29193 kernel_set.inl.h  29195 complex_small.inl.h
- *  29361 complex_rows.inl.h  29602 inverse_front.inl.h  29887 row.inl.h  29917 change.inl.h
- *  29981 interleave.inl.h
+ *  27608 front.inl.h  27610 product.inl.h  28011 words_undef.inl.h  28091 multi_rhs.inl.h
+ *  28110 multi_rhs_small.inl.h  28278 multi_rhs_tiles.inl.h  28575 sweeps.inl.h
+ *  28577 unit_triangle.inl.h  28614 two_rhs.inl.h  28783 small_supernode.inl.h
+ *  28942 single_rhs.inl.h  29186 kernel_set.inl.h  29188 complex_small.inl.h
+ *  29354 complex_rows.inl.h  29595 inverse_front.inl.h  29880 row.inl.h  29910 change.inl.h
+ *  29974 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7777,9 +7777,8 @@ static void sli_fm_update(sli_fm *m, sl_int v) {
     if (h->position[u] == -1) {
       int on_border;
       h->key[u] = sli_subgraph_gain(sub, u, &on_border);
-      if (on_border) {
-        sli_heap_add(h, u);
-      }
+      SLI_ASSERT(on_border);
+      sli_heap_add(h, u);
     } else {
       h->key[u] += sub->side[u] == sub->side[v] ? -2 * sub->edge[e] : 2 * sub->edge[e];
       sli_heap_update(h, u);
@@ -7886,11 +7885,9 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
       v = m.heap[1].item[0];
       sli_heap_remove(&m.heap[1], v);
     } else {
-      while (unseen < sub->n && m.locked[unseen]) {
+      while (m.locked[unseen]) {
         unseen++;
-      }
-      if (unseen == sub->n) {
-        break;
+        SLI_ASSERT(unseen < sub->n);
       }
       v = unseen;
     }
@@ -9982,10 +9979,9 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
     begin = to = q->end;
     for (k = 0; k < elements; k++) {
       const sl_int e = q->list[at + k];
-      if (q->mark[e] != 0) {
-        to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
-        sli_quotient_absorb(q, e, pivot);
-      }
+      SLI_ASSERT(q->mark[e] != 0);
+      to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
+      sli_quotient_absorb(q, e, pivot);
     }
     to = sli_quotient_gather(q, at + elements, q->length[pivot] - elements, to, &total);
     q->begin[pivot] = begin;
@@ -11756,7 +11752,7 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
                 sl_int *k) {
   const sl_int here = S->super_of[sli_key(seeds[*k])];
   sl_int s = here;
-  while (++*k < count && s == here) {
+  while (++*k < count) {
     s = S->super_of[sli_key(seeds[*k])];
     if (s != here) {
       return s;
@@ -14716,7 +14712,7 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
       z_m += term;
       size += fabs(term);
     }
-    if (!sli_is_finite(z_m) || !(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
+    if (!(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
       return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
     }
     F->ratios[m] = a / z_m;
@@ -14728,7 +14724,7 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   }
   F->divisors[anchor] = 1.0;
   F->squares[m] = sum;
-  if (!sli_is_finite(sum) || !sli_is_finite(F->ratios[m])) {
+  if (!sli_is_finite(sum + F->ratios[m])) {
     return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
   }
   return SL_OK;
@@ -14850,7 +14846,7 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
       const sl_int c = step->column + j;
       const double l = sli_entry(F, entry);
       double size = fabs(l * F->D[c] * l);
-      if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
+      if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST) {
         size += 2.0 * fabs(l * F->E[c] * sli_entry(F, entry + SLI_TILE));
       }
       if (size > most) {
@@ -20362,9 +20358,6 @@ static void sli_choice_sweep(sli_choice *c) {
       best = k + 1;
     }
   }
-  if (least == HUGE_VAL) {
-    best = count;
-  }
   for (k = count; k > best; k--) {
     sli_choice_remove(c, sli_value(c->order[k - 1]));
   }
@@ -20382,7 +20375,7 @@ static void sli_choice_improve(sli_choice *c) {
       const double before = sli_choice_cost(c);
       if (!c->is_inside[k] && c->n_inside[k] == c->n_children[k]) {
         sli_choice_add(c, k);
-        if (sli_choice_cost(c) < before && sli_choice_fits(c)) {
+        if (sli_choice_cost(c) < before) {
           is_better = 1;
         } else {
           sli_choice_remove(c, k);

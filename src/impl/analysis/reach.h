@@ -67,7 +67,7 @@ SLI_INLINE sl_int sli_next_seed(const sl_symbolic *S, const uint64_t *seeds, sl_
                                 sl_int *k) {
     const sl_int here = S->super_of[sli_key(seeds[*k])];
     sl_int s = here;
-    while (++*k < count && s == here) {
+    while (++*k < count) {
         s = S->super_of[sli_key(seeds[*k])];
         if (s != here) {
             return s;

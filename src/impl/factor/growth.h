@@ -40,7 +40,7 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
             const sl_int c = step->column + j;
             const double l = sli_entry(F, entry);
             double size = fabs(l * F->D[c] * l);
-            if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST && j + 1 < r) {
+            if (F->E != NULL && S->pairs[c] == SLI_PAIR_FIRST) { /* L(r, r) is stored as 0 */
                 size += 2.0 * fabs(l * F->E[c] * sli_entry(F, entry + SLI_TILE));
             }
             if (size > most) {

@@ -125,7 +125,7 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
             z_m += term;
             size += fabs(term);
         }
-        if (!sli_is_finite(z_m) || !(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
+        if (!(fabs(z_m) > F->S->n * DBL_EPSILON * size)) { /* also if they overflow */
             return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
         }
         F->ratios[m] = a / z_m;
@@ -137,7 +137,7 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     }
     F->divisors[anchor] = 1.0;
     F->squares[m] = sum;
-    if (!sli_is_finite(sum) || !sli_is_finite(F->ratios[m])) { /* of pivots or weights near 0 */
+    if (!sli_is_finite(sum + F->ratios[m])) { /* of pivots or weights near 0 */
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
     }
     return SL_OK;

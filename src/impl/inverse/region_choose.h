@@ -103,7 +103,7 @@ static void sli_choice_remove(sli_choice *c, sl_int k) {
 }
 
 /* Adds all supernodes, those with small subtrees first, then goes back to the choice with the least
- * cost. */
+ * cost. One fits: with all supernodes inside there is no boundary. */
 static void sli_choice_sweep(sli_choice *c) {
     const sl_int count = c->reach.count;
     sl_int k, best = 0;
@@ -116,9 +116,6 @@ static void sli_choice_sweep(sli_choice *c) {
             least = cost;
             best = k + 1;
         }
-    }
-    if (least == HUGE_VAL) {
-        best = count;
     }
     for (k = count; k > best; k--) {
         sli_choice_remove(c, sli_value(c->order[k - 1]));
@@ -139,7 +136,7 @@ static void sli_choice_improve(sli_choice *c) {
             const double before = sli_choice_cost(c);
             if (!c->is_inside[k] && c->n_inside[k] == c->n_children[k]) {
                 sli_choice_add(c, k);
-                if (sli_choice_cost(c) < before && sli_choice_fits(c)) {
+                if (sli_choice_cost(c) < before) { /* with a smaller boundary, which fits */
                     is_better = 1;
                 } else {
                     sli_choice_remove(c, k);

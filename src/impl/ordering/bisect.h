@@ -101,9 +101,8 @@ static void sli_fm_update(sli_fm *m, sl_int v) {
         if (h->position[u] == -1) {
             int on_border;
             h->key[u] = sli_subgraph_gain(sub, u, &on_border);
-            if (on_border) {
-                sli_heap_add(h, u);
-            }
+            SLI_ASSERT(on_border); /* since v has moved */
+            sli_heap_add(h, u);
         } else {
             h->key[u] += sub->side[u] == sub->side[v] ? -2 * sub->edge[e] : 2 * sub->edge[e];
             sli_heap_update(h, u);
@@ -218,11 +217,9 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
             v = m.heap[1].item[0];
             sli_heap_remove(&m.heap[1], v);
         } else { /* the subgraph is not connected */
-            while (unseen < sub->n && m.locked[unseen]) {
+            while (m.locked[unseen]) { /* not all are, as side 1 has weight */
                 unseen++;
-            }
-            if (unseen == sub->n) {
-                break;
+                SLI_ASSERT(unseen < sub->n);
             }
             v = unseen;
         }

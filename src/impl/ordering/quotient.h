@@ -189,10 +189,9 @@ static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
         begin = to = q->end;
         for (k = 0; k < elements; k++) {
             const sl_int e = q->list[at + k];
-            if (q->mark[e] != 0) {
-                to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
-                sli_quotient_absorb(q, e, pivot);
-            }
+            SLI_ASSERT(q->mark[e] != 0); /* lists lose absorbed elements with each front */
+            to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
+            sli_quotient_absorb(q, e, pivot);
         }
         to = sli_quotient_gather(q, at + elements, q->length[pivot] - elements, to, &total);
         q->begin[pivot] = begin;
