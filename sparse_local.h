@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 579cbd67c1d4c435
+ * FNV-1a of the lines after this comment, without the license: 706312799cd98788
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -25,65 +25,65 @@
  *   2447 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2565 change.h     a factor that follows small changes of its matrix
  *   2652 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2742 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2874 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2923 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *   2744 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2876 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2925 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2975 base.h   3254 status.h   3315 options.h   3373 alloc.h   3483 hash.h   3613 file_map.h
- *   3710 sort.h   3774 parallel.h
+ *   2977 base.h   3256 status.h   3317 options.h   3375 alloc.h   3485 hash.h   3615 file_map.h
+ *   3712 sort.h   3776 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3901 panel.h   3923 step.h   3974 pivot_rule.h   4048 front.h   4107 pairs.h
- *   4314 inverse_front.h   4386 table.h   4414 simd.h   4504 simd_scalar_single.h
- *   4550 simd_scalar.h   4672 simd_avx2_single.h   4726 simd_avx2.h   4938 simd_avx512_single.h
- *   4993 simd_avx512.h   5146 simd_neon_single.h   5188 simd_neon.h   5396 dispatch.h
+ *   3903 panel.h   3925 step.h   3976 pivot_rule.h   4050 front.h   4109 pairs.h
+ *   4316 inverse_front.h   4388 table.h   4416 simd.h   4506 simd_scalar_single.h
+ *   4552 simd_scalar.h   4674 simd_avx2_single.h   4728 simd_avx2.h   4940 simd_avx512_single.h
+ *   4995 simd_avx512.h   5148 simd_neon_single.h   5190 simd_neon.h   5398 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5476 csc.h   5590 csc_build.h   5724 csc64.h   5795 csc_triangle.h   5861 csc_products.h
- *   5978 permute.h   6044 sum.h   6126 output_file.h   6335 matrix_market.h
+ *   5478 csc.h   5592 csc_build.h   5726 csc64.h   5797 csc_triangle.h   5863 csc_products.h
+ *   5980 permute.h   6046 sum.h   6128 output_file.h   6337 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6781 graph.h   6930 coarsen.h   7242 labels.h   7438 subgraph.h   7633 heap.h   7693 bisect.h
- *   7920 separator.h   8182 mindeg.h   8365 dissect.h   8697 levelset.h   8817 geometric.h
- *   8992 cells.h   9172 septree.h   9232 metis.h   9381 metis_refined.h   9495 nd.h
- *   9688 compress.h   9809 quotient.h  10222 order.h
+ *   6783 graph.h   6932 coarsen.h   7244 labels.h   7440 subgraph.h   7635 heap.h   7695 bisect.h
+ *   7922 separator.h   8184 mindeg.h   8367 dissect.h   8699 levelset.h   8819 geometric.h
+ *   8994 cells.h   9174 septree.h   9234 metis.h   9383 metis_refined.h   9497 nd.h
+ *   9690 compress.h   9811 quotient.h  10224 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10504 symbolic_types.h  10541 etree.h  10614 counts.h  10671 supernodes.h  10893 structure.h
- *  11014 schedule.h  11294 symbolic.h  11704 reach.h
+ *  10506 symbolic_types.h  10543 etree.h  10616 counts.h  10673 supernodes.h  10895 structure.h
+ *  11016 schedule.h  11296 symbolic.h  11706 reach.h
  * (factor: the numbers of L and D)
- *  11975 factor_types.h  12355 storage.h  12514 pivot_search.h  12860 pivoted.h  12928 scatter.h
- *  13086 uplooking.h  13158 null_product.h  13362 null_dense.h  13439 null_basis.h
- *  13747 null_vectors.h  13889 multifrontal.h  14065 gather.h  14113 kept.h  14280 front_tasks.h
- *  14623 nullspace.h  14826 growth.h  14902 factor_setup.h  15210 factor.h  15420 leftlooking.h
- *  15560 factor_query.h  15695 combination.h
+ *  11977 factor_types.h  12357 storage.h  12516 pivot_search.h  12862 pivoted.h  12930 scatter.h
+ *  13088 uplooking.h  13160 null_product.h  13364 null_dense.h  13441 null_basis.h
+ *  13749 null_vectors.h  13891 multifrontal.h  14067 gather.h  14115 kept.h  14282 front_tasks.h
+ *  14625 nullspace.h  14828 growth.h  14904 factor_setup.h  15212 factor.h  15422 leftlooking.h
+ *  15562 factor_query.h  15697 combination.h
  * (solve: full and local solves)
- *  15756 region_types.h  15860 work.h  15960 query.h  16170 singular.h  16437 backward.h
- *  16467 sweep_tasks.h  16794 sweep.h  17006 compile.h  17199 plan.h  17306 local.h  17458 parts.h
- *  17747 refine.h  17926 refine_local.h  18142 rcond.h  18298 defects.h
+ *  15758 region_types.h  15862 work.h  15962 query.h  16172 singular.h  16442 backward.h
+ *  16472 sweep_tasks.h  16799 sweep.h  17011 compile.h  17204 plan.h  17311 local.h  17463 parts.h
+ *  17752 refine.h  17931 refine_local.h  18147 rcond.h  18303 defects.h
  * (inverse: entries of the inverse, regions)
- *  18376 traversal.h  18621 traversal_run.h  18804 row_sets.h  18831 unit_vectors.h
- *  19058 bilinear.h  19235 entries.h  19516 block.h  19756 reserve.h  19948 selected.h
- *  20158 selected_query.h  20260 region_choose.h  20484 region.h
+ *  18381 traversal.h  18626 traversal_run.h  18809 row_sets.h  18836 unit_vectors.h
+ *  19063 bilinear.h  19240 entries.h  19521 block.h  19761 reserve.h  19953 selected.h
+ *  20163 selected_query.h  20265 region_choose.h  20489 region.h
  * (change: a factor that follows changes of its matrix)
- *  20732 update.h  21082 rank.h  21411 edges.h  21565 choose.h  21759 pins_types.h
- *  21789 pins_capacitance.h  22028 pins.h  22174 pins_solve.h  22329 subset.h
- *  22436 restrict_analysis.h  22733 restrict_anew.h  22787 restrict_symbolic.h  22968 restrict.h
- *  23195 edit_match.h  23381 edit_place.h  23630 edit_separate.h  23943 edit_order.h
- *  24097 edit_graph.h  24192 edit_join.h  24468 edit.h
+ *  20737 update.h  21087 rank.h  21416 edges.h  21570 choose.h  21764 pins_types.h
+ *  21816 pins_nulls.h  21994 pins_capacitance.h  22221 pins.h  22390 pins_solve.h  22638 subset.h
+ *  22745 restrict_analysis.h  23042 restrict_anew.h  23096 restrict_symbolic.h  23277 restrict.h
+ *  23504 edit_match.h  23690 edit_place.h  23939 edit_separate.h  24252 edit_order.h
+ *  24406 edit_graph.h  24501 edit_join.h  24777 edit.h
  * (save: factors in files)
- *  24632 format.h  24928 decode.h  25076 check.h  25406 write.h  25711 load.h  25979 load_inverse.h
- *  26308 load_calls.h
+ *  24941 format.h  25237 decode.h  25385 check.h  25715 write.h  26020 load.h  26288 load_inverse.h
+ *  26617 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26507 batch_solve.h  26716 batch_factor.h  26917 batch_diagonal.h
+ *  26816 batch_solve.h  27025 batch_factor.h  27226 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27057 hermitian.h  27219 complex_rows.h
+ *  27366 hermitian.h  27528 complex_rows.h
  * (last: undefine every internal macro)
- *  27387 undef.h
+ *  27696 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27608 front.inl.h  27610 product.inl.h  28011 words_undef.inl.h  28091 multi_rhs.inl.h
- *  28110 multi_rhs_small.inl.h  28278 multi_rhs_tiles.inl.h  28575 sweeps.inl.h
- *  28577 unit_triangle.inl.h  28614 two_rhs.inl.h  28783 small_supernode.inl.h
- *  28942 single_rhs.inl.h  29186 kernel_set.inl.h  29188 complex_small.inl.h
- *  29354 complex_rows.inl.h  29595 inverse_front.inl.h  29880 row.inl.h  29910 change.inl.h
- *  29974 interleave.inl.h
+ *  27917 front.inl.h  27919 product.inl.h  28320 words_undef.inl.h  28400 multi_rhs.inl.h
+ *  28419 multi_rhs_small.inl.h  28587 multi_rhs_tiles.inl.h  28884 sweeps.inl.h
+ *  28886 unit_triangle.inl.h  28923 two_rhs.inl.h  29092 small_supernode.inl.h
+ *  29251 single_rhs.inl.h  29495 kernel_set.inl.h  29497 complex_small.inl.h
+ *  29663 complex_rows.inl.h  29904 inverse_front.inl.h  30189 row.inl.h  30219 change.inl.h
+ *  30283 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2655,10 +2655,11 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep.
  *
- *  Singular matrices: with SL_NULL_PIVOT_SKIP and a known null vector (sl_factor_create), one pin
- *  makes a component regular, if the null vector is not 0 there. In components without pins x is 0
- *  in the null rows, and b has to be consistent, which is not checked. Weights (options.mass) are
- *  not used.
+ *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
+ *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
+ *  pins that leave none of its 6 motions. Motions that pins leave are fixed by x = 0 in null rows,
+ *  as they are in components without pins; b has to be in balance with them, which is not checked.
+ *  Weights (options.mass) are not used.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -2682,8 +2683,8 @@ SL_API void sl_pins_free(sl_pins *P);
  *  stats  [out]  error.row; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
  *           combination of the others, to rounding; SL_ERR_STATE: F has changed;
- *           SL_ERR_UNSUPPORTED: the null vector of the row's component is not known; SL_ERR_MEMORY;
- *           SL_ERR_TOO_LARGE. On error P is as before.
+ *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
+ *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
  *           the path, and 4 per row below its supernodes.
  *  Threads  exclusive use of P; F is read.
@@ -2694,8 +2695,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *st
  *  value 1.
  *
  *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row);
- *                SL_ERR_UNSUPPORTED: null pivots, and rows of several trees of the factor.
+ *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row).
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
                                                      const double *values, sl_int count,
@@ -2731,8 +2731,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *                of the pins.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
- *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
- *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side.
+ *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: rounding hides
+ *           whether the pins rule out the motions of a body; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side
+ *           and for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
@@ -16222,6 +16224,13 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
     call(8); \
   }
 
+static void sli_chains_add(double *chains, const double *v, const double *row, sl_int columns,
+               sl_int lanes) {
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+  SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+}
+
 static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
   double chains[SLI_TILE];
   sl_int s;
@@ -16282,9 +16291,7 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
     const sli_step *step = &R->steps[first];
     const double *v = z + step->column, *row = b + (ptrdiff_t)step->base * lanes;
     const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
-    SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+    sli_chains_add(chains, v, row, columns, lanes);
   }
   sli_chains_sum(chains, lanes, dot->sums);
   for (r = 0; r < lanes; r++) {
@@ -16371,9 +16378,7 @@ static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_i
     const sli_step *step = &R->steps[s++];
     const double *v = F->center + step->column, *row = y + (ptrdiff_t)step->base * lanes;
     const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
-    SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+    sli_chains_add(chains, v, row, columns, lanes);
     up = step->up;
   }
   *tree = sli_tree_range_of(F->S, &R->steps[s - 1]);
@@ -21759,13 +21764,14 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
 /* src/impl/change/pins_types.h: a set of pins: the method, and what it keeps */
 
 typedef struct sli_pin {
-  sl_int null;
-  double z;
   sl_int count;
   sl_int *rows;
   double *values;
   sli_reach R;
   double *y;
+  sl_int n_nulls;
+  sl_int *nulls;
+  double *z;
 } sli_pin;
 
 struct sl_pins {
@@ -21774,62 +21780,243 @@ struct sl_pins {
   sli_numbers numbers;
   double sign;
   double delta;
-  double *divisors;
   sl_int count, capacity;
   sli_pin **pins;
   double *K;
   double *scratch;
+  sl_int *uses;
+  sl_int n_used;
 };
 
-SLI_INLINE double sli_pins_inverse(const sl_pins *P, sl_int column) {
-  const double d = P->F->D[column];
-  return 1.0 / (P->divisors != NULL && d == SLI_NULL_PIVOT ? P->delta : d);
+static double sli_dot(const double *a, const double *b, sl_int count) {
+  double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sum;
+  sl_int k;
+  sli_chains_dot(chains, a, b, count, 1);
+  sum = chains[0];
+  for (k = 1; k < SLI_TILE; k++) {
+    sum += chains[k];
+  }
+  return sum;
+}
+
+static void sli_divide(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+  sl_int s, k, r;
+  for (s = 0; s < R->count; s++) {
+    const double *d = F->D + R->steps[s].column;
+    const sl_int columns = sli_step_columns(&R->steps[s]);
+    double *row = y + (ptrdiff_t)R->steps[s].base * lanes;
+    for (k = 0; k < columns; k++, row += lanes) {
+      for (r = 0; r < lanes; r++) {
+        row[r] /= d[k];
+      }
+    }
+  }
+}
+
+/* src/impl/change/pins_nulls.h: null vectors under pins: their products with the pins, and what remains free */
+
+static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
+  sli_tree_range tree;
+  sl_int s = S->super_of[column];
+  while (S->super_parent[s] != -1) {
+    s = S->super_parent[s];
+  }
+  tree.first = S->super_first[S->first_descendant[s]];
+  tree.root = S->super_first[s + 1] - 1;
+  return tree;
+}
+
+static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, sl_int k) {
+  sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
+  int has_known = F->null_vectors > 1 || tree->first == tree->root;
+  for (; m < F->n_nulls && F->nulls[m] <= tree->root && !has_known; m++) {
+    has_known = sli_null_column(F, F->nulls[m]) != -1;
+  }
+  return has_known && F->rule.kinds[k] == SLI_PIVOT_NULL;
+}
+
+static int sli_pin_null(const sl_factor *F, const sli_pin *pin, sl_int first, sl_int last,
+            const sli_tree_range *tree, sl_int null, double *sum) {
+  const sl_int column = sli_null_column(F, null), *iperm = F->S->iperm;
+  const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+  *sum = 0.0;
+  for (; first < last; first++) {
+    const sl_int k = iperm[pin->rows[first]];
+    *sum += pin->values[first] * (column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0);
+  }
+  return column != -1 || sli_null_is_zero_row(F, tree, null);
+}
+
+static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills, sl_int *row) {
+  sl_int first = 0, last;
+  pin->n_nulls = 0;
+  for (; first < pin->count; first = last) {
+    const sli_tree_range tree = sli_tree_of(F->S, F->S->iperm[pin->rows[first]]);
+    sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+    for (last = first + 1; last < pin->count && F->S->iperm[pin->rows[last]] <= tree.root;) {
+      last++;
+    }
+    for (; m < F->n_nulls && F->nulls[m] <= tree.root; m++, pin->n_nulls++) {
+      double z;
+      if (!sli_pin_null(F, pin, first, last, &tree, F->nulls[m], &z)) {
+        *row = pin->rows[first];
+        return SL_ERR_UNSUPPORTED;
+      }
+      if (fills) {
+        pin->nulls[pin->n_nulls] = m;
+        pin->z[pin->n_nulls] = z;
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  sli_free(&P->allocator, pin->nulls);
+  pin->nulls = NULL;
+  pin->n_nulls = 0;
+  if (P->F->n_nulls > 0) {
+    status = sli_pin_visit_nulls(P->F, pin, 0, row);
+  }
+  for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
+    pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
+    pin->z = SLI_TAKE(&b, double, pin->n_nulls);
+    status =
+      pass == 0 ? sli_block_alloc(&b, &P->allocator) : sli_pin_visit_nulls(P->F, pin, 1, row);
+  }
+  pin->nulls = (sl_int *)(void *)b.base;
+  return status;
+}
+
+static void sli_pins_count_nulls(sl_pins *P, const sli_pin *pin, int comes) {
+  sl_int k;
+  for (k = 0; k < pin->n_nulls; k++) {
+    sl_int *uses = &P->uses[pin->nulls[k]];
+    P->n_used += comes ? *uses == 0 : -(*uses == 1);
+    *uses += comes ? 1 : -1;
+  }
+}
+
+static double sli_pin_nulls_dot(const sli_pin *a, const sli_pin *b) {
+  double sum = 0.0;
+  sl_int i = 0, j = 0;
+  while (i < a->n_nulls && j < b->n_nulls) {
+    if (a->nulls[i] == b->nulls[j]) {
+      sum += a->z[i++] * b->z[j++];
+    } else if (a->nulls[i] < b->nulls[j]) {
+      i++;
+    } else {
+      j++;
+    }
+  }
+  return sum;
+}
+
+typedef struct sli_pins_nulls {
+  sl_int count;
+  sl_int *numbers;
+  sl_int *place;
+  unsigned char *is_free;
+  double *W;
+  double *S;
+  double *s;
+} sli_pins_nulls;
+
+static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins *P) {
+  const uint64_t count = (uint64_t)P->n_used;
+  w->count = P->n_used;
+  w->numbers = SLI_TAKE(b, sl_int, count);
+  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->F->n_nulls : 0);
+  w->is_free = SLI_TAKE(b, unsigned char, count);
+  w->W = SLI_TAKE(b, double, count *(uint64_t)P->count);
+  w->S = SLI_TAKE(b, double, count *count);
+  w->s = SLI_TAKE(b, double, SLI_TILE *count);
+}
+
+static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
+  sl_int p, k;
+  memset(w->W, 0, (size_t)w->count * (size_t)P->count * sizeof(double));
+  memset(w->s, 0, (size_t)w->count * sizeof(double));
+  for (p = 0; p < P->count; p++) {
+    const sli_pin *pin = P->pins[p];
+    const double square = sli_dot(pin->values, pin->values, pin->count);
+    for (k = 0; k < pin->n_nulls; k++) {
+      const sl_int at = w->place[pin->nulls[k]];
+      w->W[(size_t)at * (size_t)P->count + (size_t)p] = pin->z[k];
+      w->s[at] += P->F->null_vectors > 1 ? square : 0.0;
+    }
+  }
+}
+
+static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
+  const size_t count = (size_t)P->count;
+  sl_int a, b, p, n_free = 0;
+  for (a = 0; a < w->count; a++) {
+    double *x = w->W + (size_t)a * count;
+    double after = sqrt(sli_dot(x, x, P->count));
+    const double least = SLI_NULL_DEPENDENT * fmax(after, sqrt(w->s[a]));
+    int pass;
+    for (pass = 0; pass < 2 && after > 0.0; pass++) {
+      for (b = 0; b < a; b++) {
+        const double *q = w->W + (size_t)b * count;
+        const double c = w->is_free[b] ? 0.0 : sli_dot(q, x, P->count);
+        for (p = 0; c != 0.0 && p < P->count; p++) {
+          x[p] -= c * q[p];
+        }
+      }
+      after = sqrt(sli_dot(x, x, P->count));
+      after = after > least ? after : 0.0;
+    }
+    w->is_free[a] = after == 0.0;
+    n_free += w->is_free[a];
+    for (p = 0; p < P->count; p++) {
+      x[p] = after == 0.0 ? 0.0 : x[p] / after;
+    }
+  }
+  return n_free;
+}
+
+static sl_int sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
+  sl_int m, at = 0;
+  for (m = 0; at < w->count; m++) {
+    if (P->uses[m] > 0) {
+      w->place[m] = at;
+      w->numbers[at++] = m;
+    }
+  }
+  sli_pins_nulls_load(w, P);
+  return sli_pins_nulls_mark(w, P);
 }
 
 /* src/impl/change/pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
-static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *null) {
-  const sl_int last = R->count - 1;
-  sl_int s, first, count;
-  *null = -1;
-  if (F->n_nulls == 0) {
-    return SL_OK;
-  }
-  for (s = 0; s < last; s++) {
-    if (R->steps[s].up == -1) {
-      return SL_ERR_UNSUPPORTED;
-    }
-  }
-  s = F->S->super_of[R->steps[last].column];
-  first = sli_lower_bound(F->nulls, F->n_nulls, F->S->super_first[F->S->first_descendant[s]]);
-  count = sli_lower_bound(F->nulls, F->n_nulls, F->S->super_first[s + 1]) - first;
-  if (count == 0) {
-    return SL_OK;
-  }
-  *null = F->nulls[first];
-  return count > 1 || F->null_vectors > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
-}
-
-static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
+static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
   const sl_factor *F = P->F;
   const sl_symbolic *S = F->S;
-  sl_status status;
+  const sl_status status = sli_pin_find_nulls(P, pin, row);
   sl_int k;
   memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
   for (k = 0; k < pin->count; k++) {
     pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
   }
   sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
-  pin->z = 0.0;
-  status = sli_pin_null(F, &pin->R, &pin->null);
-  if (status == SL_OK && pin->null != -1) {
-    for (k = 0; k < pin->count; k++) {
-      pin->z += pin->values[k] * F->z[S->iperm[pin->rows[k]]];
+  for (k = 0; k < pin->n_nulls; k++) {
+    const sl_int at = sli_reach_index_of(&pin->R, F->nulls[pin->nulls[k]]);
+    if (at != -1) {
+      pin->y[at] = 0.0;
     }
-    pin->z /= F->z[pin->null];
-    pin->y[sli_reach_index_of(&pin->R, pin->null)] = pin->z;
   }
   return status;
+}
+
+static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
+  if (pin != NULL) {
+    sli_free(&P->allocator, pin->nulls);
+    sli_free(&P->allocator, pin);
+  }
 }
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
@@ -21842,7 +22029,9 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
   double *scratch = NULL;
   const sl_int *unused;
   sl_status status = SL_OK;
+  sl_int k, row = -1;
   int pass;
+  *out = NULL;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_set_layout_seeds(&set, &seeds);
     scratch = SLI_TAKE(&seeds, double, sli_sweep_scratch(S->tallest, S->widest, 1));
@@ -21872,33 +22061,31 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
   }
   if (status == SL_OK) {
     pin->count = count;
-    memcpy(pin->rows, rows, (size_t)count * sizeof *rows);
-    memcpy(pin->values, values, (size_t)count * sizeof *values);
+    for (k = 0; k < count; k++) {
+      pin->rows[k] = rows[sli_value(set.seeds[k])];
+      pin->values[k] = values[sli_value(set.seeds[k])];
+    }
     sli_set_fill(S, &set, &pin->R, &unused);
-    status = sli_pin_sweep(P, pin, scratch);
-    *out = pin;
-  }
-  if (status != SL_OK) {
-    sli_free(&P->allocator, kept.base);
-    *out = NULL;
-  }
-  sli_free(&P->allocator, seeds.base);
-  return status;
-}
-
-static void sli_pin_dot(const sl_pins *P, const sli_pin *pin, const sli_reach *R, const double *x,
-            sl_int lanes, double *sums) {
-  sli_intersection m = sli_intersection_of(&pin->R, R);
-  sl_int k, r;
-  while (sli_intersection_next(&m)) {
-    for (k = 0; k < m.count; k++) {
-      const double a = pin->y[m.in_a + k] * sli_pins_inverse(P, m.column + k);
-      const double *row = x + (ptrdiff_t)lanes * (m.in_b + k);
-      for (r = 0; r < lanes; r++) {
-        sums[r] += a * row[r];
-      }
+    status = sli_pin_sweep(P, pin, scratch, &row);
+    if (status == SL_OK) {
+      *out = pin;
+    } else {
+      sli_pin_free(P, pin);
     }
   }
+  sli_free(&P->allocator, seeds.base);
+  return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0);
+}
+
+static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x, sl_int lanes,
+            double *sums) {
+  sli_intersection m = sli_intersection_of(&pin->R, R);
+  double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  while (sli_intersection_next(&m)) {
+    const double *y = pin->y + m.in_a, *row = x + (ptrdiff_t)lanes * m.in_b;
+    sli_chains_add(chains, y, row, m.count, lanes);
+  }
+  sli_chains_sum(chains, lanes, sums);
 }
 
 static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_int lanes,
@@ -21915,19 +22102,20 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
   }
 }
 
-static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
+static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin, double *y) {
   const sl_int k = P->count;
   const size_t ld = (size_t)P->capacity;
-  double *row = P->K + (size_t)k * ld, own = 0.0, d;
-  sl_int i, j;
-  sli_pin_dot(P, pin, &pin->R, pin->y, 1, &own);
+  double *row = P->K + (size_t)k * ld, own, d;
+  sl_int i;
+  memcpy(y, pin->y, (size_t)pin->R.columns * sizeof *y);
+  sli_divide(P->F, &pin->R, y, 1);
+  sli_pin_dot(pin, &pin->R, y, 1, &own);
+  own += sli_pin_nulls_dot(pin, pin) / P->delta;
   d = own;
   for (i = 0; i < k; i++) {
-    row[i] = 0.0;
-    sli_pin_dot(P, P->pins[i], &pin->R, pin->y, 1, &row[i]);
-    for (j = 0; j < i; j++) {
-      row[i] -= P->K[(size_t)i * ld + (size_t)j] * row[j];
-    }
+    sli_pin_dot(P->pins[i], &pin->R, y, 1, &row[i]);
+    row[i] += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
+    row[i] -= sli_dot(P->K + (size_t)i * ld, row, i);
   }
   for (i = 0; i < k; i++) {
     const double x = row[i];
@@ -22006,20 +22194,25 @@ static sl_status sli_pins_grow(sl_pins *P) {
 static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   const size_t ld = (size_t)P->capacity;
   sl_int i, j, r;
-  for (i = 0; i < P->count; i++) {
-    for (j = 0; j < i; j++) {
-      for (r = 0; r < lanes; r++) {
-        f[i * lanes + r] -= P->K[(size_t)i * ld + (size_t)j] * f[j * lanes + r];
-      }
+  for (i = 1; i < P->count; i++) {
+    const double *l = P->K + (size_t)i * ld;
+    double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
+    sli_chains_add(chains, l, f, i, lanes);
+    sli_chains_sum(chains, lanes, sums);
+    for (r = 0; r < lanes; r++) {
+      f[(ptrdiff_t)i * lanes + r] -= sums[r];
     }
   }
-  for (i = P->count - 1; i >= 0; i--) {
+  for (i = 0; i < P->count; i++) {
     for (r = 0; r < lanes; r++) {
-      f[i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
+      f[(ptrdiff_t)i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
     }
-    for (j = i + 1; j < P->count; j++) {
+  }
+  for (i = P->count - 1; i > 0; i--) {
+    const double *l = P->K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
+    for (j = 0; j < i; j++) {
       for (r = 0; r < lanes; r++) {
-        f[i * lanes + r] -= P->K[(size_t)j * ld + (size_t)i] * f[j * lanes + r];
+        f[(ptrdiff_t)j * lanes + r] -= l[j] * x[r];
       }
     }
   }
@@ -22030,7 +22223,8 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
 static sl_status sli_pins_take(sl_pins *P) {
   const sl_factor *F = P->F;
   const sl_factor_info *info = &F->stats.factor;
-  sl_int k;
+  sl_status status = SL_OK;
+  sl_int *uses = NULL;
   if (!F->is_valid) {
     return SL_ERR_STATE;
   }
@@ -22039,18 +22233,27 @@ static sl_status sli_pins_take(sl_pins *P) {
   }
   P->sign = info->negative > 0 ? -1.0 : 1.0;
   P->delta = P->sign * (info->pivot_max > 0.0 ? info->pivot_max : 1.0);
-  P->numbers = sli_numbers_of(F);
-  for (k = 0; P->divisors != NULL && k < F->S->n; k++) {
-    P->divisors[k] = F->D[k] == SLI_NULL_PIVOT ? 1.0 : F->D[k];
+  if (F->n_nulls > 0) {
+    status = SL_ERR_MEMORY;
+    uses = (sl_int *)sli_alloc(&P->allocator, (size_t)F->n_nulls * sizeof *uses);
+    if (uses != NULL) {
+      memset(uses, 0, (size_t)F->n_nulls * sizeof *uses);
+      status = SL_OK;
+    }
   }
-  return SL_OK;
+  if (status == SL_OK) {
+    sli_free(&P->allocator, P->uses);
+    P->uses = uses;
+    P->n_used = 0;
+    P->numbers = sli_numbers_of(F);
+  }
+  return status;
 }
 
 SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
   const sl_allocator a = sli_allocator(opt);
   sli_block b = {NULL, 0, 0};
   sl_pins *P = NULL;
-  double *divisors = NULL;
   sl_status status = SL_OK;
   int pass;
   if (out == NULL) {
@@ -22062,14 +22265,12 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     P = (sl_pins *)sli_take(&b, 1, sizeof *P);
-    divisors = F->null_pivots == SL_NULL_PIVOT_SKIP ? SLI_TAKE(&b, double, F->S->n) : NULL;
     status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
   if (status == SL_OK) {
     memset(P, 0, sizeof *P);
     P->allocator = a;
     P->F = F;
-    P->divisors = divisors;
     status = sli_pins_take(P);
     if (status == SL_OK) {
       *out = P;
@@ -22085,9 +22286,10 @@ SL_API void sl_pins_free(sl_pins *P) {
     const sl_allocator a = P->allocator;
     sl_int k;
     for (k = 0; k < P->count; k++) {
-      sli_free(&a, P->pins[k]);
+      sli_pin_free(P, P->pins[k]);
     }
     sli_free(&a, P->pins);
+    sli_free(&a, P->uses);
     sli_free(&a, P);
   }
 }
@@ -22095,6 +22297,7 @@ SL_API void sl_pins_free(sl_pins *P) {
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                     sl_int count, sl_stats *stats) {
   sli_pin *pin = NULL;
+  double *y = NULL;
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
@@ -22114,11 +22317,14 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
   if (status != SL_OK) {
     return status;
   }
-  status = sli_pins_append(P, pin);
+  y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
+  status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
+  sli_free(&P->allocator, y);
   if (status != SL_OK) {
-    sli_free(&P->allocator, pin);
-    return sli_fail_at(stats, status, rows[0], -1, 0.0);
+    sli_pin_free(P, pin);
+    return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
   }
+  sli_pins_count_nulls(P, pin, 1);
   P->pins[P->count++] = pin;
   return SL_OK;
 }
@@ -22135,7 +22341,10 @@ SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
   }
   pin = P->pins[index];
   sli_pins_remove(P, index);
-  sli_free(&P->allocator, pin);
+  if (P->numbers.generation != 0) {
+    sli_pins_count_nulls(P, pin, 0);
+  }
+  sli_pin_free(P, pin);
   return SL_OK;
 }
 
@@ -22145,27 +22354,34 @@ SL_API sl_int sl_pins_count(const sl_pins *P) {
 
 SL_API sl_status sl_pins_refactor(sl_pins *P) {
   sli_block b = {NULL, 0, 0};
-  double *scratch = NULL;
+  double *scratch = NULL, *y = NULL;
   sl_status status;
-  sl_int count, k;
+  sl_int count, k, row, columns = 0;
   int pass;
   if (P == NULL) {
     return SL_ERR_ARGUMENT;
   }
   status = sli_pins_take(P);
   P->numbers.generation = 0;
+  for (k = 0; k < P->count; k++) {
+    columns = sli_max(columns, P->pins[k]->R.columns);
+  }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
+    y = SLI_TAKE(&b, double, columns);
     status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
   count = P->count;
   P->count = 0;
   for (k = 0; k < count && status == SL_OK; k++) {
-    status = sli_pin_sweep(P, P->pins[k], scratch);
-    status = status == SL_OK ? sli_pins_append(P, P->pins[k]) : status;
+    status = sli_pin_sweep(P, P->pins[k], scratch, &row);
+    status = status == SL_OK ? sli_pins_append(P, P->pins[k], y) : status;
     P->count++;
   }
   P->count = count;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    sli_pins_count_nulls(P, P->pins[k], 1);
+  }
   P->numbers.generation = status == SL_OK ? P->F->generation : 0;
   sli_free(&P->allocator, b.base);
   return status;
@@ -22175,73 +22391,157 @@ SL_API sl_status sl_pins_refactor(sl_pins *P) {
 
 typedef struct sli_pins_work {
   unsigned char *memory;
+  double *u;
   double *f;
-  double *v;
-  double *h, *z;
+  sli_pins_nulls nulls;
 } sli_pins_work;
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
               sl_int nrhs) {
+  const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
+  w->u = SLI_TAKE(b, double, P->count == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
-  w->v = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
-  w->h = SLI_TAKE(b, double, P->count);
-  w->z = SLI_TAKE(b, double, P->count);
+  sli_pins_nulls_layout(&w->nulls, b, P);
 }
 
-static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w, sl_int p,
-               const double *y, sl_int lanes) {
-  const sl_int null = P->pins[p]->null, at = sli_reach_index_of(&q->forward, null);
-  double *v = w->v + p * lanes;
-  double s = 0.0;
-  sl_int k, r;
-  for (k = 0; k < P->count; k++) {
-    w->z[k] = w->h[k] = P->pins[k]->null == null ? P->pins[k]->z : 0.0;
-  }
-  sli_pins_apply(P, w->h, 1);
-  for (r = 0; r < lanes; r++) {
-    v[r] = at == -1 ? 0.0 : y[(ptrdiff_t)at * lanes + r];
-  }
-  for (k = 0; k < P->count; k++) {
-    s += w->z[k] * w->h[k];
-    for (r = 0; r < lanes; r++) {
-      v[r] += w->z[k] * w->f[k * lanes + r];
-    }
-  }
-  for (r = 0; r < lanes; r++) {
-    v[r] = s != 0.0 ? v[r] / s : 0.0;
-  }
-  for (k = 0; k < P->count; k++) {
-    for (r = 0; r < lanes; r++) {
-      w->f[k * lanes + r] -= w->h[k] * v[r];
-    }
-  }
-}
-
-static int sli_pins_is_first(const sl_pins *P, sl_int p) {
-  sl_int k = 0;
-  while (P->pins[k]->null != P->pins[p]->null) {
-    k++;
-  }
-  return k == p && P->pins[p]->null != -1;
-}
-
-static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
-               sl_int lanes) {
-  sl_int m, p, at;
-  for (m = 0; m < P->F->n_nulls; m++) {
-    at = sli_reach_index_of(&q->backward, P->F->nulls[m]);
-    if (at != -1) {
-      memset(x + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
-    }
+static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
+  const size_t count = (size_t)P->count, ld = (size_t)w->count;
+  sl_int a, b, p, k;
+  (void)sli_pins_nulls_begin(w, P);
+  sli_pins_nulls_load(w, P);
+  memset(w->S, 0, ld * ld * sizeof(double));
+  for (a = 0; a < w->count; a++) {
+    sli_pins_apply(P, w->W + (size_t)a * count, 1);
   }
   for (p = 0; p < P->count; p++) {
-    if (sli_pins_is_first(P, p)) {
-      at = sli_reach_index_of(&q->backward, P->pins[p]->null);
-      if (at != -1) {
-        memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes, (size_t)lanes * sizeof(double));
+    const sli_pin *pin = P->pins[p];
+    for (k = 0; k < pin->n_nulls; k++) {
+      const size_t row = (size_t)w->place[pin->nulls[k]];
+      for (b = 0; b <= (sl_int)row; b++) {
+        w->S[row * ld + (size_t)b] += pin->z[k] * w->W[(size_t)b * count + (size_t)p];
       }
     }
+  }
+  for (a = 0; a < w->count; a++) {
+    double *row = w->S + (size_t)a * ld, d = row[a];
+    for (b = 0; b < a; b++) {
+      row[b] = w->is_free[a] || w->is_free[b]
+             ? 0.0
+             : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
+    }
+    for (b = 0; b < a; b++) {
+      const double x = row[b];
+      row[b] = x / w->S[(size_t)b * ld + (size_t)b];
+      d -= x * row[b];
+    }
+    row[a] = w->is_free[a] ? P->sign : d;
+    if (!(row[a] * P->sign > 0.0)) {
+      return SL_ERR_INACCURATE;
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
+               const double *b, sl_int lanes) {
+  const sl_factor *F = P->F;
+  const sli_reach *R = &q->forward;
+  sl_int first = 0, s, m, k;
+  memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
+  for (s = 0; s < R->count && w->count > 0; s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    m = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+      if (P->uses[dot.number] > 0) {
+        memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
+             (size_t)lanes * sizeof(double));
+      }
+    }
+    first = s + 1;
+  }
+  for (k = 0; k < w->count; k++) {
+    const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
+    if (at != -1 && sli_null_column(F, null) == -1) {
+      memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
+           (size_t)lanes * sizeof(double));
+    }
+  }
+}
+
+static void sli_pins_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+  sl_int m;
+  for (m = 0; m < F->n_nulls; m++) {
+    const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+    if (at != -1) {
+      memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
+    }
+  }
+}
+
+static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes) {
+  const size_t count = (size_t)P->count, ld = (size_t)w->count;
+  sl_int a, b, p, k, r;
+  for (p = 0; p < P->count; p++) {
+    for (k = 0; k < P->pins[p]->n_nulls; k++) {
+      double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
+      for (r = 0; r < lanes; r++) {
+        s[r] += P->pins[p]->z[k] * f[(ptrdiff_t)p * lanes + r];
+      }
+    }
+  }
+  for (r = 0; r < lanes; r++) {
+    double *s = w->s + r;
+    for (a = 0; a < w->count; a++) {
+      s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
+      for (b = 0; b < a; b++) {
+        s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
+      }
+    }
+    for (a = w->count - 1; a >= 0; a--) {
+      s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
+      for (b = a + 1; b < w->count; b++) {
+        s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
+      }
+    }
+    for (a = 0; a < w->count; a++) {
+      for (p = 0; p < P->count && s[a * lanes] != 0.0; p++) {
+        f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
+      }
+    }
+  }
+}
+
+static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
+               sl_int lanes) {
+  const sl_factor *F = P->F;
+  const sli_reach *R = &q->backward;
+  sl_int first = 0, root, s, m, k, r;
+  for (root = 0; root < R->count && w->count > 0; root++) {
+    sl_int last;
+    if (R->steps[root].up != -1) {
+      continue;
+    }
+    last = sli_tree_range_of(F->S, &R->steps[root]).root;
+    for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
+      const sl_int null = F->nulls[m], column = sli_null_column(F, null);
+      const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+      const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
+      for (s = first; s <= root && v != NULL; s++) {
+        const sli_step *step = &R->steps[s];
+        double *row = x + (ptrdiff_t)step->base * lanes;
+        for (k = step->column; k < step->column + sli_step_columns(step); k++) {
+          const double z = column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0;
+          for (r = 0; r < lanes; r++) {
+            *row++ += z * v[r];
+          }
+        }
+      }
+    }
+    first = root + 1;
   }
 }
 
@@ -22252,32 +22552,40 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
   const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
-  sl_int p, r;
+  sl_int p, r, k;
   sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
-  sli_sweep_forward(F, q, &v, nrhs);
+  sli_pins_defects(P, q, &w->nulls, v.y, lanes);
+  sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
+  sli_pins_clear(F, &q->forward, v.y, lanes);
+  if (P->count > 0) {
+    memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+    sli_divide(F, &q->forward, w->u, lanes);
+  }
   for (p = 0; p < P->count; p++) {
-    double sums[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    sli_pin_dot(P, P->pins[p], &q->forward, v.y, lanes, sums);
+    const sli_pin *pin = P->pins[p];
+    double sums[SLI_TILE];
+    sli_pin_dot(pin, &q->forward, w->u, lanes, sums);
+    for (k = 0; k < pin->n_nulls; k++) {
+      const double *s = w->nulls.s + (ptrdiff_t)w->nulls.place[pin->nulls[k]] * lanes;
+      for (r = 0; r < lanes; r++) {
+        sums[r] += pin->z[k] / P->delta * s[r];
+      }
+    }
     for (r = 0; r < lanes; r++) {
       w->f[p * lanes + r] = r < nrhs ? G[(size_t)p + ldg * (size_t)r] - sums[r] : 0.0;
     }
   }
   sli_pins_apply(P, w->f, lanes);
-  for (p = 0; p < P->count; p++) {
-    if (sli_pins_is_first(P, p)) {
-      sli_pins_balance(P, q, w, p, v.y, lanes);
-    }
-  }
+  sli_pins_balance(P, &w->nulls, w->f, lanes);
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
   }
   for (p = 0; p < P->count; p++) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
-  sli_pins_shift(P, q, w, v.x, lanes);
   sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
-             q->backward.rows + q->backward.n_rows,
-             P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
+             q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
+  sli_pins_shift(P, q, &w->nulls, v.x, lanes);
   sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
 }
 
@@ -22314,7 +22622,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   status = sli_work_block(W, &counted);
   if (status == SL_OK) {
     sli_pins_layout(&w, &counted, P, q, nrhs);
-    for (r = 0; r < nrhs; r += 8) {
+    status = sli_pins_nulls_factor(&w.nulls, P);
+    for (r = 0; r < nrhs && status == SL_OK; r += 8) {
       const sl_int block = sli_min(8, nrhs - r);
       sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
                q->nb == 0 ? B : B + (size_t)r * ldb,

@@ -161,6 +161,7 @@ extern "C" {
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"
 #include "impl/change/pins_types.h"
+#include "impl/change/pins_nulls.h"
 #include "impl/change/pins_capacitance.h"
 #include "impl/change/pins.h"
 #include "impl/change/pins_solve.h"

@@ -9,10 +9,11 @@
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep.
  *
- *  Singular matrices: with SL_NULL_PIVOT_SKIP and a known null vector (sl_factor_create), one pin
- *  makes a component regular, if the null vector is not 0 there. In components without pins x is 0
- *  in the null rows, and b has to be consistent, which is not checked. Weights (options.mass) are
- *  not used.
+ *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
+ *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
+ *  pins that leave none of its 6 motions. Motions that pins leave are fixed by x = 0 in null rows,
+ *  as they are in components without pins; b has to be in balance with them, which is not checked.
+ *  Weights (options.mass) are not used.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -36,8 +37,8 @@ SL_API void sl_pins_free(sl_pins *P);
  *  stats  [out]  error.row; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
  *           combination of the others, to rounding; SL_ERR_STATE: F has changed;
- *           SL_ERR_UNSUPPORTED: the null vector of the row's component is not known; SL_ERR_MEMORY;
- *           SL_ERR_TOO_LARGE. On error P is as before.
+ *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
+ *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
  *           the path, and 4 per row below its supernodes.
  *  Threads  exclusive use of P; F is read.
@@ -48,8 +49,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *st
  *  value 1.
  *
  *  rows, values  [in]  count >= 1 entries, copied; a row given twice counts with the sum.
- *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row);
- *                SL_ERR_UNSUPPORTED: null pivots, and rows of several trees of the factor.
+ *  Returns, Cost, Threads  as in sl_pins_add; SL_ERR_NOT_FINITE: a value (error.row).
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows,
                                                      const double *values, sl_int count,
@@ -85,8 +85,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *                of the pins.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
- *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
- *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side.
+ *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: rounding hides
+ *           whether the pins rule out the motions of a body; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side
+ *           and for each null vector of components with pins.
  *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,

@@ -224,8 +224,12 @@ static void pins_of_several_components(void **state) {
     assert_pinned(&p, 7);
     const sl_int both[2] = {2, 30};
     const double ones[2] = {1.0, 1.0};
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add_equality(p.P, both, ones, 2, NULL));
+    SL_CHECK(sl_pins_add_equality(p.P, both, ones, 2, NULL));
+    p.C[(size_t)p.count * 50 + 2] = p.C[(size_t)p.count * 50 + 30] = 1.0;
+    p.count++;
     assert_pinned(&p, 8);
+    release(&p, 0); /* the equality alone holds this component */
+    assert_pinned(&p, 9);
     pinned_free(&p);
     gen_list_free(&t);
 }

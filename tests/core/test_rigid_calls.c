@@ -378,11 +378,7 @@ static void check_refusals(bodies_t *f, const sl_options *opt) {
     const sl_csc v = {f->y.n, 1, p, &row, &one};
     sl_options bad = *opt;
     sl_factor *F = NULL;
-    sl_pins *P = NULL;
     sl_stats stats;
-    SL_CHECK(sl_pins_create(&P, f->F, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, row, &stats));
-    sl_pins_free(P);
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_update(f->F, &v, NULL, NULL, NULL));
     bad.mass = mass;
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_factor_create(&F, f->S, &f->y.A, &bad, NULL));

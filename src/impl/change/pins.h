@@ -8,7 +8,8 @@
 static sl_status sli_pins_take(sl_pins *P) {
     const sl_factor *F = P->F;
     const sl_factor_info *info = &F->stats.factor;
-    sl_int k;
+    sl_status status = SL_OK;
+    sl_int *uses = NULL;
     if (!F->is_valid) {
         return SL_ERR_STATE;
     }
@@ -17,18 +18,27 @@ static sl_status sli_pins_take(sl_pins *P) {
     }
     P->sign = info->negative > 0 ? -1.0 : 1.0;
     P->delta = P->sign * (info->pivot_max > 0.0 ? info->pivot_max : 1.0);
-    P->numbers = sli_numbers_of(F);
-    for (k = 0; P->divisors != NULL && k < F->S->n; k++) {
-        P->divisors[k] = F->D[k] == SLI_NULL_PIVOT ? 1.0 : F->D[k];
+    if (F->n_nulls > 0) {
+        status = SL_ERR_MEMORY;
+        uses = (sl_int *)sli_alloc(&P->allocator, (size_t)F->n_nulls * sizeof *uses);
+        if (uses != NULL) {
+            memset(uses, 0, (size_t)F->n_nulls * sizeof *uses);
+            status = SL_OK;
+        }
     }
-    return SL_OK;
+    if (status == SL_OK) {
+        sli_free(&P->allocator, P->uses);
+        P->uses = uses;
+        P->n_used = 0;
+        P->numbers = sli_numbers_of(F);
+    }
+    return status;
 }
 
 SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
     sli_block b = {NULL, 0, 0};
     sl_pins *P = NULL;
-    double *divisors = NULL;
     sl_status status = SL_OK;
     int pass;
     if (out == NULL) {
@@ -40,14 +50,12 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         P = (sl_pins *)sli_take(&b, 1, sizeof *P);
-        divisors = F->null_pivots == SL_NULL_PIVOT_SKIP ? SLI_TAKE(&b, double, F->S->n) : NULL;
         status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     if (status == SL_OK) {
         memset(P, 0, sizeof *P);
         P->allocator = a;
         P->F = F;
-        P->divisors = divisors;
         status = sli_pins_take(P);
         if (status == SL_OK) {
             *out = P;
@@ -63,9 +71,10 @@ SL_API void sl_pins_free(sl_pins *P) {
         const sl_allocator a = P->allocator;
         sl_int k;
         for (k = 0; k < P->count; k++) {
-            sli_free(&a, P->pins[k]);
+            sli_pin_free(P, P->pins[k]);
         }
         sli_free(&a, P->pins);
+        sli_free(&a, P->uses);
         sli_free(&a, P);
     }
 }
@@ -73,6 +82,7 @@ SL_API void sl_pins_free(sl_pins *P) {
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                                       sl_int count, sl_stats *stats) {
     sli_pin *pin = NULL;
+    double *y = NULL;
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
@@ -92,11 +102,14 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
     if (status != SL_OK) {
         return status;
     }
-    status = sli_pins_append(P, pin);
+    y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
+    status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
+    sli_free(&P->allocator, y);
     if (status != SL_OK) {
-        sli_free(&P->allocator, pin);
-        return sli_fail_at(stats, status, rows[0], -1, 0.0);
+        sli_pin_free(P, pin);
+        return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
     }
+    sli_pins_count_nulls(P, pin, 1);
     P->pins[P->count++] = pin;
     return SL_OK;
 }
@@ -113,7 +126,10 @@ SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
     }
     pin = P->pins[index];
     sli_pins_remove(P, index);
-    sli_free(&P->allocator, pin);
+    if (P->numbers.generation != 0) { /* else its null pivots may be those of another F */
+        sli_pins_count_nulls(P, pin, 0);
+    }
+    sli_pin_free(P, pin);
     return SL_OK;
 }
 
@@ -123,27 +139,34 @@ SL_API sl_int sl_pins_count(const sl_pins *P) {
 
 SL_API sl_status sl_pins_refactor(sl_pins *P) {
     sli_block b = {NULL, 0, 0};
-    double *scratch = NULL;
+    double *scratch = NULL, *y = NULL;
     sl_status status;
-    sl_int count, k;
+    sl_int count, k, row, columns = 0;
     int pass;
     if (P == NULL) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_pins_take(P);
     P->numbers.generation = 0; /* until all of them are there */
+    for (k = 0; k < P->count; k++) {
+        columns = sli_max(columns, P->pins[k]->R.columns);
+    }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
+        y = SLI_TAKE(&b, double, columns);
         status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
     count = P->count;
     P->count = 0;
     for (k = 0; k < count && status == SL_OK; k++) {
-        status = sli_pin_sweep(P, P->pins[k], scratch);
-        status = status == SL_OK ? sli_pins_append(P, P->pins[k]) : status;
+        status = sli_pin_sweep(P, P->pins[k], scratch, &row);
+        status = status == SL_OK ? sli_pins_append(P, P->pins[k], y) : status;
         P->count++;
     }
     P->count = count;
+    for (k = 0; k < count && status == SL_OK; k++) {
+        sli_pins_count_nulls(P, P->pins[k], 1);
+    }
     P->numbers.generation = status == SL_OK ? P->F->generation : 0;
     sli_free(&P->allocator, b.base);
     return status;

@@ -2,53 +2,33 @@
 #ifndef SLI_CHANGE_PINS_CAPACITANCE_H
 #define SLI_CHANGE_PINS_CAPACITANCE_H
 
-#include "pins_types.h"
+#include "pins_nulls.h"
 
-/* The null pivot of the tree of a reach, which is not empty. Null pivots without a known null
- * vector, or several in one tree, are not supported. */
-static sl_status sli_pin_null(const sl_factor *F, const sli_reach *R, sl_int *null) {
-    const sl_int last = R->count - 1;
-    sl_int s, first, count;
-    *null = -1;
-    if (F->n_nulls == 0) {
-        return SL_OK;
-    }
-    for (s = 0; s < last; s++) {
-        if (R->steps[s].up == -1) { /* an equality over several trees */
-            return SL_ERR_UNSUPPORTED;
-        }
-    }
-    s = F->S->super_of[R->steps[last].column];
-    first = sli_lower_bound(F->nulls, F->n_nulls, F->S->super_first[F->S->first_descendant[s]]);
-    count = sli_lower_bound(F->nulls, F->n_nulls, F->S->super_first[s + 1]) - first;
-    if (count == 0) {
-        return SL_OK;
-    }
-    *null = F->nulls[first];
-    return count > 1 || F->null_vectors > 1 || F->g[*null] == 0.0 ? SL_ERR_UNSUPPORTED : SL_OK;
-}
-
-/* y := L^-1 P c, and z' c. */
-static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
+/* y := L^-1 P c, and the entries of W. Sets *row where a null vector is not known. */
+static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
     const sl_factor *F = P->F;
     const sl_symbolic *S = F->S;
-    sl_status status;
+    const sl_status status = sli_pin_find_nulls(P, pin, row);
     sl_int k;
     memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
     for (k = 0; k < pin->count; k++) {
         pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
     }
     sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
-    pin->z = 0.0;
-    status = sli_pin_null(F, &pin->R, &pin->null);
-    if (status == SL_OK && pin->null != -1) {
-        for (k = 0; k < pin->count; k++) {
-            pin->z += pin->values[k] * F->z[S->iperm[pin->rows[k]]];
+    for (k = 0; k < pin->n_nulls; k++) {
+        const sl_int at = sli_reach_index_of(&pin->R, F->nulls[pin->nulls[k]]);
+        if (at != -1) {
+            pin->y[at] = 0.0;
         }
-        pin->z /= F->z[pin->null];
-        pin->y[sli_reach_index_of(&pin->R, pin->null)] = pin->z;
     }
     return status;
+}
+
+static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
+    if (pin != NULL) {
+        sli_free(&P->allocator, pin->nulls);
+        sli_free(&P->allocator, pin);
+    }
 }
 
 /* Makes an equality. */
@@ -62,7 +42,9 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
     double *scratch = NULL;
     const sl_int *unused;
     sl_status status = SL_OK;
+    sl_int k, row = -1;
     int pass;
+    *out = NULL;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_set_layout_seeds(&set, &seeds);
         scratch = SLI_TAKE(&seeds, double, sli_sweep_scratch(S->tallest, S->widest, 1));
@@ -92,34 +74,32 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
     }
     if (status == SL_OK) {
         pin->count = count;
-        memcpy(pin->rows, rows, (size_t)count * sizeof *rows);
-        memcpy(pin->values, values, (size_t)count * sizeof *values);
+        for (k = 0; k < count; k++) {
+            pin->rows[k] = rows[sli_value(set.seeds[k])];
+            pin->values[k] = values[sli_value(set.seeds[k])];
+        }
         sli_set_fill(S, &set, &pin->R, &unused);
-        status = sli_pin_sweep(P, pin, scratch);
-        *out = pin;
-    }
-    if (status != SL_OK) {
-        sli_free(&P->allocator, kept.base);
-        *out = NULL;
-    }
-    sli_free(&P->allocator, seeds.base);
-    return status;
-}
-
-/* sums(r) += sum over the shared columns of a(k) D(k)^-1 x(k, r). x: the vector of a reach. */
-static void sli_pin_dot(const sl_pins *P, const sli_pin *pin, const sli_reach *R, const double *x,
-                        sl_int lanes, double *sums) {
-    sli_intersection m = sli_intersection_of(&pin->R, R);
-    sl_int k, r;
-    while (sli_intersection_next(&m)) {
-        for (k = 0; k < m.count; k++) {
-            const double a = pin->y[m.in_a + k] * sli_pins_inverse(P, m.column + k);
-            const double *row = x + (ptrdiff_t)lanes * (m.in_b + k);
-            for (r = 0; r < lanes; r++) {
-                sums[r] += a * row[r];
-            }
+        status = sli_pin_sweep(P, pin, scratch, &row);
+        if (status == SL_OK) {
+            *out = pin;
+        } else {
+            sli_pin_free(P, pin);
         }
     }
+    sli_free(&P->allocator, seeds.base);
+    return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0);
+}
+
+/* sums(r) := sum over the shared columns of y(k) x(k, r). x: the vector of a reach. */
+static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x, sl_int lanes,
+                        double *sums) {
+    sli_intersection m = sli_intersection_of(&pin->R, R);
+    double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    while (sli_intersection_next(&m)) {
+        const double *y = pin->y + m.in_a, *row = x + (ptrdiff_t)lanes * m.in_b;
+        sli_chains_add(chains, y, row, m.count, lanes);
+    }
+    sli_chains_sum(chains, lanes, sums);
 }
 
 /* x += y f' in the shared columns. */
@@ -138,20 +118,21 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
 }
 
 /* Appends the last of P->count + 1 equalities to the factor of K. A pin that depends on the others
- * leaves a pivot of rounding errors. */
-static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
+ * leaves a pivot of rounding errors. y: R.columns of scratch. */
+static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin, double *y) {
     const sl_int k = P->count;
     const size_t ld = (size_t)P->capacity;
-    double *row = P->K + (size_t)k * ld, own = 0.0, d;
-    sl_int i, j;
-    sli_pin_dot(P, pin, &pin->R, pin->y, 1, &own);
+    double *row = P->K + (size_t)k * ld, own, d;
+    sl_int i;
+    memcpy(y, pin->y, (size_t)pin->R.columns * sizeof *y);
+    sli_divide(P->F, &pin->R, y, 1);
+    sli_pin_dot(pin, &pin->R, y, 1, &own);
+    own += sli_pin_nulls_dot(pin, pin) / P->delta;
     d = own;
-    for (i = 0; i < k; i++) {
-        row[i] = 0.0;
-        sli_pin_dot(P, P->pins[i], &pin->R, pin->y, 1, &row[i]);
-        for (j = 0; j < i; j++) { /* row(i) = l(i) d(i) */
-            row[i] -= P->K[(size_t)i * ld + (size_t)j] * row[j];
-        }
+    for (i = 0; i < k; i++) { /* row(i) = l(i) d(i) */
+        sli_pin_dot(P->pins[i], &pin->R, y, 1, &row[i]);
+        row[i] += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
+        row[i] -= sli_dot(P->K + (size_t)i * ld, row, i);
     }
     for (i = 0; i < k; i++) {
         const double x = row[i];
@@ -234,20 +215,25 @@ static sl_status sli_pins_grow(sl_pins *P) {
 static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
     const size_t ld = (size_t)P->capacity;
     sl_int i, j, r;
-    for (i = 0; i < P->count; i++) {
-        for (j = 0; j < i; j++) {
-            for (r = 0; r < lanes; r++) {
-                f[i * lanes + r] -= P->K[(size_t)i * ld + (size_t)j] * f[j * lanes + r];
-            }
+    for (i = 1; i < P->count; i++) {
+        const double *l = P->K + (size_t)i * ld;
+        double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
+        sli_chains_add(chains, l, f, i, lanes);
+        sli_chains_sum(chains, lanes, sums);
+        for (r = 0; r < lanes; r++) {
+            f[(ptrdiff_t)i * lanes + r] -= sums[r];
         }
     }
-    for (i = P->count - 1; i >= 0; i--) {
+    for (i = 0; i < P->count; i++) {
         for (r = 0; r < lanes; r++) {
-            f[i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
+            f[(ptrdiff_t)i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
         }
-        for (j = i + 1; j < P->count; j++) {
+    }
+    for (i = P->count - 1; i > 0; i--) {
+        const double *l = P->K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
+        for (j = 0; j < i; j++) {
             for (r = 0; r < lanes; r++) {
-                f[i * lanes + r] -= P->K[(size_t)j * ld + (size_t)i] * f[j * lanes + r];
+                f[(ptrdiff_t)j * lanes + r] -= l[j] * x[r];
             }
         }
     }

@@ -7,77 +7,162 @@
 /* Arrays of a solve. */
 typedef struct sli_pins_work {
     unsigned char *memory; /* of the sweeps */
-    double *f;             /* count x lanes: g - C' A^-1 b, then f */
-    double *v;             /* count x lanes: v, in the first row of each singular component */
-    double *h, *z;         /* count: K^-1 z of a component, z */
+    double *u;             /* forward.columns x lanes: D^-1 y */
+    double *f;             /* count x lanes: K f, then f */
+    sli_pins_nulls nulls;
 } sli_pins_work;
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
                             sl_int nrhs) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
+    w->u = SLI_TAKE(b, double, P->count == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
-    w->v = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
-    w->h = SLI_TAKE(b, double, P->count);
-    w->z = SLI_TAKE(b, double, P->count);
+    sli_pins_nulls_layout(&w->nulls, b, P);
 }
 
-/* Makes z' (b + C f) 0 in the component of pin p, the first one there: f -= K^-1 z v. y: after the
- * forward sweep; at the null pivot it is z' b. */
-static void sli_pins_balance(const sl_pins *P, const sli_query *q, const sli_pins_work *w, sl_int p,
-                             const double *y, sl_int lanes) {
-    const sl_int null = P->pins[p]->null, at = sli_reach_index_of(&q->forward, null);
-    double *v = w->v + p * lanes;
-    double s = 0.0;
-    sl_int k, r;
-    for (k = 0; k < P->count; k++) {
-        w->z[k] = w->h[k] = P->pins[k]->null == null ? P->pins[k]->z : 0.0;
-    }
-    sli_pins_apply(P, w->h, 1);
-    for (r = 0; r < lanes; r++) {
-        v[r] = at == -1 ? 0.0 : y[(ptrdiff_t)at * lanes + r];
-    }
-    for (k = 0; k < P->count; k++) {
-        s += w->z[k] * w->h[k];
-        for (r = 0; r < lanes; r++) {
-            v[r] += w->z[k] * w->f[k * lanes + r];
-        }
-    }
-    for (r = 0; r < lanes; r++) {
-        v[r] = s != 0.0 ? v[r] / s : 0.0;
-    }
-    for (k = 0; k < P->count; k++) {
-        for (r = 0; r < lanes; r++) {
-            w->f[k * lanes + r] -= w->h[k] * v[r];
-        }
-    }
-}
-
-/* Is pin p the first one of a singular component? */
-static int sli_pins_is_first(const sl_pins *P, sl_int p) {
-    sl_int k = 0;
-    while (P->pins[k]->null != P->pins[p]->null) {
-        k++;
-    }
-    return k == p && P->pins[p]->null != -1;
-}
-
-/* Sets x at the null pivots: v in a component with pins, 0 in the others. */
-static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
-                           sl_int lanes) {
-    sl_int m, p, at;
-    for (m = 0; m < P->F->n_nulls; m++) {
-        at = sli_reach_index_of(&q->backward, P->F->nulls[m]);
-        if (at != -1) {
-            memset(x + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
-        }
+/* Factors W' K^-1 W for the columns of W that are not left out. */
+static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
+    const size_t count = (size_t)P->count, ld = (size_t)w->count;
+    sl_int a, b, p, k;
+    (void)sli_pins_nulls_begin(w, P);
+    sli_pins_nulls_load(w, P);
+    memset(w->S, 0, ld * ld * sizeof(double));
+    for (a = 0; a < w->count; a++) {
+        sli_pins_apply(P, w->W + (size_t)a * count, 1);
     }
     for (p = 0; p < P->count; p++) {
-        if (sli_pins_is_first(P, p)) {
-            at = sli_reach_index_of(&q->backward, P->pins[p]->null);
-            if (at != -1) {
-                memcpy(x + (ptrdiff_t)at * lanes, w->v + p * lanes, (size_t)lanes * sizeof(double));
+        const sli_pin *pin = P->pins[p];
+        for (k = 0; k < pin->n_nulls; k++) {
+            const size_t row = (size_t)w->place[pin->nulls[k]];
+            for (b = 0; b <= (sl_int)row; b++) {
+                w->S[row * ld + (size_t)b] += pin->z[k] * w->W[(size_t)b * count + (size_t)p];
             }
         }
+    }
+    for (a = 0; a < w->count; a++) {
+        double *row = w->S + (size_t)a * ld, d = row[a];
+        for (b = 0; b < a; b++) { /* row(b) = l(b) d(b) */
+            row[b] = w->is_free[a] || w->is_free[b]
+                         ? 0.0
+                         : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
+        }
+        for (b = 0; b < a; b++) {
+            const double x = row[b];
+            row[b] = x / w->S[(size_t)b * ld + (size_t)b];
+            d -= x * row[b];
+        }
+        row[a] = w->is_free[a] ? P->sign : d;
+        if (!(row[a] * P->sign > 0.0)) {
+            return SL_ERR_INACCURATE;
+        }
+    }
+    return SL_OK;
+}
+
+/* s := Z' b before the forward sweep. */
+static void sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
+                             const double *b, sl_int lanes) {
+    const sl_factor *F = P->F;
+    const sli_reach *R = &q->forward;
+    sl_int first = 0, s, m, k;
+    memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
+    for (s = 0; s < R->count && w->count > 0; s++) {
+        sli_null_dot dot;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        m = sli_null_first(F, R, s);
+        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+            if (P->uses[dot.number] > 0) {
+                memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
+                       (size_t)lanes * sizeof(double));
+            }
+        }
+        first = s + 1;
+    }
+    for (k = 0; k < w->count; k++) {
+        const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
+        if (at != -1 && sli_null_column(F, null) == -1) { /* a row of zeros */
+            memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
+                   (size_t)lanes * sizeof(double));
+        }
+    }
+}
+
+/* y := 0 at all null pivots. */
+static void sli_pins_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+    sl_int m;
+    for (m = 0; m < F->n_nulls; m++) {
+        const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+        if (at != -1) {
+            memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
+        }
+    }
+}
+
+/* s := v, where W' f = -Z' b; f := that of this v. */
+static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes) {
+    const size_t count = (size_t)P->count, ld = (size_t)w->count;
+    sl_int a, b, p, k, r;
+    for (p = 0; p < P->count; p++) {
+        for (k = 0; k < P->pins[p]->n_nulls; k++) {
+            double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
+            for (r = 0; r < lanes; r++) {
+                s[r] += P->pins[p]->z[k] * f[(ptrdiff_t)p * lanes + r];
+            }
+        }
+    }
+    for (r = 0; r < lanes; r++) {
+        double *s = w->s + r;
+        for (a = 0; a < w->count; a++) {
+            s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
+            for (b = 0; b < a; b++) {
+                s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
+            }
+        }
+        for (a = w->count - 1; a >= 0; a--) {
+            s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
+            for (b = a + 1; b < w->count; b++) {
+                s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
+            }
+        }
+        for (a = 0; a < w->count; a++) {
+            for (p = 0; p < P->count && s[a * lanes] != 0.0; p++) {
+                f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
+            }
+        }
+    }
+}
+
+/* x += Z v */
+static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
+                           sl_int lanes) {
+    const sl_factor *F = P->F;
+    const sli_reach *R = &q->backward;
+    sl_int first = 0, root, s, m, k, r;
+    for (root = 0; root < R->count && w->count > 0; root++) {
+        sl_int last;
+        if (R->steps[root].up != -1) {
+            continue;
+        }
+        last = sli_tree_range_of(F->S, &R->steps[root]).root;
+        for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
+            const sl_int null = F->nulls[m], column = sli_null_column(F, null);
+            const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+            const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
+            for (s = first; s <= root && v != NULL; s++) {
+                const sli_step *step = &R->steps[s];
+                double *row = x + (ptrdiff_t)step->base * lanes;
+                for (k = step->column; k < step->column + sli_step_columns(step); k++) {
+                    const double z = column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0;
+                    for (r = 0; r < lanes; r++) {
+                        *row++ += z * v[r];
+                    }
+                }
+            }
+        }
+        first = root + 1;
     }
 }
 
@@ -89,32 +174,40 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
     const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
     const int kind = sli_lanes_kind(nrhs);
     const sl_int lanes = (sl_int)1 << kind;
-    sl_int p, r;
+    sl_int p, r, k;
     sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
-    sli_sweep_forward(F, q, &v, nrhs);
+    sli_pins_defects(P, q, &w->nulls, v.y, lanes);
+    sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
+    sli_pins_clear(F, &q->forward, v.y, lanes);
+    if (P->count > 0) {
+        memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+        sli_divide(F, &q->forward, w->u, lanes);
+    }
     for (p = 0; p < P->count; p++) {
-        double sums[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-        sli_pin_dot(P, P->pins[p], &q->forward, v.y, lanes, sums);
+        const sli_pin *pin = P->pins[p];
+        double sums[SLI_TILE];
+        sli_pin_dot(pin, &q->forward, w->u, lanes, sums);
+        for (k = 0; k < pin->n_nulls; k++) {
+            const double *s = w->nulls.s + (ptrdiff_t)w->nulls.place[pin->nulls[k]] * lanes;
+            for (r = 0; r < lanes; r++) {
+                sums[r] += pin->z[k] / P->delta * s[r];
+            }
+        }
         for (r = 0; r < lanes; r++) {
             w->f[p * lanes + r] = r < nrhs ? G[(size_t)p + ldg * (size_t)r] - sums[r] : 0.0;
         }
     }
     sli_pins_apply(P, w->f, lanes);
-    for (p = 0; p < P->count; p++) {
-        if (sli_pins_is_first(P, p)) {
-            sli_pins_balance(P, q, w, p, v.y, lanes);
-        }
-    }
+    sli_pins_balance(P, &w->nulls, w->f, lanes);
     if (!q->is_shared) {
         sli_sweep_transfer(q, v.y, v.x, lanes);
     }
     for (p = 0; p < P->count; p++) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
     }
-    sli_pins_shift(P, q, w, v.x, lanes);
     sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
-                       q->backward.rows + q->backward.n_rows,
-                       P->divisors != NULL ? P->divisors : F->D, v.x, v.scratch);
+                       q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
+    sli_pins_shift(P, q, &w->nulls, v.x, lanes);
     sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
 }
 
@@ -151,7 +244,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     status = sli_work_block(W, &counted);
     if (status == SL_OK) {
         sli_pins_layout(&w, &counted, P, q, nrhs);
-        for (r = 0; r < nrhs; r += 8) {
+        status = sli_pins_nulls_factor(&w.nulls, P);
+        for (r = 0; r < nrhs && status == SL_OK; r += 8) {
             const sl_int block = sli_min(8, nrhs - r);
             sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
                            q->nb == 0 ? B : B + (size_t)r * ldb,

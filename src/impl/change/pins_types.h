@@ -13,38 +13,69 @@
  * With Y = L^-1 P C, kept in the reaches of its columns, K = Y' D^-1 Y, and C' A^-1 b = Y' D^-1 y
  * after the forward sweep y = L^-1 P b: a solve takes one forward and one backward sweep.
  *
- * In a singular component with null vector z, whose null pivot is N, let D(N) = delta. L is that of
- * a regular A + delta e e', e the unit vector of N. The solution of A is then that of this matrix
- * plus v z, where z' (b + C f) = 0, and v is the unknown that belongs to this equation. */
+ * In singular components let the columns of Z span the null space, Z = I in the null rows N, and G
+ * be the inverse of A without the rows N, 0 in these rows. Y is 0 there. Then
+ *
+ *     x = G (b + C f) + Z v,  Z' (b + C f) = 0,  C' x = g.
+ *
+ * C' G C may be singular, as it is for a pin in N. With W = C' Z and any delta of the sign of A,
+ *
+ *     K = C' G C + W W' / delta,  K f + W v = g - C' G b - W Z' b / delta,  W' f = -Z' b
+ *
+ * is the same system with a definite K. Columns of W that depend on others are left out, and their
+ * v is 0: motions that the pins do not rule out. */
 
 /* One equality. */
 typedef struct sli_pin {
-    sl_int null; /* the null pivot of its component; -1: none */
-    double z;    /* z' c of the null vector, scaled to 1 at the null pivot; 0: none */
     sl_int count;
-    sl_int *rows; /* count: the rows of c, and its entries */
-    double *values;
-    sli_reach R; /* of c */
-    double *y;   /* R.columns: L^-1 P c */
+    sl_int *rows;   /* count: the rows of c, in the order of L */
+    double *values; /* count: its entries */
+    sli_reach R;    /* of c */
+    double *y;      /* R.columns: L^-1 P c, 0 at null pivots */
+    sl_int n_nulls; /* null pivots in its trees */
+    sl_int *nulls;  /* n_nulls: their numbers, ascending; the first array of its own block */
+    double *z;      /* n_nulls: z' c of their null vectors, the entries of W */
 } sli_pin;
 
 struct sl_pins {
     sl_allocator allocator;
     const sl_factor *F; /* borrowed */
     sli_numbers numbers;
-    double sign;      /* of all pivots */
-    double delta;     /* takes the place of null pivots */
-    double *divisors; /* n: D, with 1 at null pivots; NULL: there are none */
+    double sign;  /* of all pivots */
+    double delta; /* takes the place of null pivots */
     sl_int count, capacity;
     sli_pin **pins;  /* capacity */
     double *K;       /* capacity x capacity, row-major: the factor L D L' of K, D on the diagonal */
     double *scratch; /* 2 capacity */
+    sl_int *uses;    /* of each null pivot: the pins in its tree; NULL: there are no null pivots */
+    sl_int n_used;   /* null pivots with pins */
 };
 
-/* D^-1 of a column where null pivots are delta. */
-SLI_INLINE double sli_pins_inverse(const sl_pins *P, sl_int column) {
-    const double d = P->F->D[column];
-    return 1.0 / (P->divisors != NULL && d == SLI_NULL_PIVOT ? P->delta : d);
+/* sum a(k) b(k) */
+static double sli_dot(const double *a, const double *b, sl_int count) {
+    double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sum;
+    sl_int k;
+    sli_chains_dot(chains, a, b, count, 1);
+    sum = chains[0];
+    for (k = 1; k < SLI_TILE; k++) {
+        sum += chains[k];
+    }
+    return sum;
+}
+
+/* y := D^-1 y over a reach, and 0 at null pivots, where D is SLI_NULL_PIVOT. */
+static void sli_divide(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
+    sl_int s, k, r;
+    for (s = 0; s < R->count; s++) {
+        const double *d = F->D + R->steps[s].column;
+        const sl_int columns = sli_step_columns(&R->steps[s]);
+        double *row = y + (ptrdiff_t)R->steps[s].base * lanes;
+        for (k = 0; k < columns; k++, row += lanes) {
+            for (r = 0; r < lanes; r++) {
+                row[r] /= d[k];
+            }
+        }
+    }
 }
 
 #endif

@@ -63,6 +63,13 @@ static void sli_chains_sum(const double *chains, sl_int lanes, double *sums) {
         call(8); \
     }
 
+static void sli_chains_add(double *chains, const double *v, const double *row, sl_int columns,
+                           sl_int lanes) {
+#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
+    SLI_FOR_LANES(lanes, SLI_CALL)
+#undef SLI_CALL
+}
+
 /* norms(r) := the sum of |b| in a packed block of right-hand sides. */
 static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
     double chains[SLI_TILE];
@@ -130,9 +137,7 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
         const sli_step *step = &R->steps[first];
         const double *v = z + step->column, *row = b + (ptrdiff_t)step->base * lanes;
         const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
-        SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+        sli_chains_add(chains, v, row, columns, lanes);
     }
     sli_chains_sum(chains, lanes, dot->sums);
     for (r = 0; r < lanes; r++) {
@@ -229,9 +234,7 @@ static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_i
         const sli_step *step = &R->steps[s++];
         const double *v = F->center + step->column, *row = y + (ptrdiff_t)step->base * lanes;
         const sl_int columns = sli_step_columns(step);
-#define SLI_CALL(constant) sli_chains_dot(chains, v, row, columns, constant)
-        SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+        sli_chains_add(chains, v, row, columns, lanes);
         up = step->up;
     }
     *tree = sli_tree_range_of(F->S, &R->steps[s - 1]);
