@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 706312799cd98788
+ * FNV-1a of the lines after this comment, without the license: b3db16971e6d0c7e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,64 +26,64 @@
  *   2565 change.h     a factor that follows small changes of its matrix
  *   2652 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2744 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2876 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2925 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *   2877 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2926 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2977 base.h   3256 status.h   3317 options.h   3375 alloc.h   3485 hash.h   3615 file_map.h
- *   3712 sort.h   3776 parallel.h
+ *   2978 base.h   3257 status.h   3318 options.h   3376 alloc.h   3486 hash.h   3616 file_map.h
+ *   3713 sort.h   3777 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3903 panel.h   3925 step.h   3976 pivot_rule.h   4050 front.h   4109 pairs.h
- *   4316 inverse_front.h   4388 table.h   4416 simd.h   4506 simd_scalar_single.h
- *   4552 simd_scalar.h   4674 simd_avx2_single.h   4728 simd_avx2.h   4940 simd_avx512_single.h
- *   4995 simd_avx512.h   5148 simd_neon_single.h   5190 simd_neon.h   5398 dispatch.h
+ *   3904 panel.h   3930 step.h   3981 pivot_rule.h   4055 front.h   4115 pairs.h
+ *   4322 inverse_front.h   4394 table.h   4422 simd.h   4517 simd_scalar_single.h
+ *   4563 simd_scalar.h   4687 simd_avx2_single.h   4741 simd_avx2.h   4955 simd_avx512_single.h
+ *   5010 simd_avx512.h   5165 simd_neon_single.h   5207 simd_neon.h   5417 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5478 csc.h   5592 csc_build.h   5726 csc64.h   5797 csc_triangle.h   5863 csc_products.h
- *   5980 permute.h   6046 sum.h   6128 output_file.h   6337 matrix_market.h
+ *   5497 csc.h   5611 csc_build.h   5745 csc64.h   5816 csc_triangle.h   5882 csc_products.h
+ *   5999 permute.h   6065 sum.h   6147 output_file.h   6356 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6783 graph.h   6932 coarsen.h   7244 labels.h   7440 subgraph.h   7635 heap.h   7695 bisect.h
- *   7922 separator.h   8184 mindeg.h   8367 dissect.h   8699 levelset.h   8819 geometric.h
- *   8994 cells.h   9174 septree.h   9234 metis.h   9383 metis_refined.h   9497 nd.h
- *   9690 compress.h   9811 quotient.h  10224 order.h
+ *   6802 graph.h   6951 coarsen.h   7263 labels.h   7459 subgraph.h   7654 heap.h   7714 bisect.h
+ *   7941 separator.h   8203 mindeg.h   8386 dissect.h   8718 levelset.h   8838 geometric.h
+ *   9013 cells.h   9193 septree.h   9253 metis.h   9402 metis_refined.h   9516 nd.h
+ *   9709 compress.h   9830 quotient.h  10243 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10506 symbolic_types.h  10543 etree.h  10616 counts.h  10673 supernodes.h  10895 structure.h
- *  11016 schedule.h  11296 symbolic.h  11706 reach.h
+ *  10525 symbolic_types.h  10562 etree.h  10635 counts.h  10692 supernodes.h  10914 structure.h
+ *  11035 schedule.h  11315 symbolic.h  11725 reach.h
  * (factor: the numbers of L and D)
- *  11977 factor_types.h  12357 storage.h  12516 pivot_search.h  12862 pivoted.h  12930 scatter.h
- *  13088 uplooking.h  13160 null_product.h  13364 null_dense.h  13441 null_basis.h
- *  13749 null_vectors.h  13891 multifrontal.h  14067 gather.h  14115 kept.h  14282 front_tasks.h
- *  14625 nullspace.h  14828 growth.h  14904 factor_setup.h  15212 factor.h  15422 leftlooking.h
- *  15562 factor_query.h  15697 combination.h
+ *  11996 factor_types.h  12387 storage.h  12527 pivot_search.h  12873 pivoted.h  12941 scatter.h
+ *  13099 uplooking.h  13171 null_product.h  13375 null_dense.h  13452 null_basis.h
+ *  13760 null_vectors.h  13902 multifrontal.h  14092 gather.h  14140 kept.h  14307 front_tasks.h
+ *  14650 nullspace.h  14853 growth.h  14929 factor_setup.h  15237 factor.h  15447 leftlooking.h
+ *  15587 factor_query.h  15722 combination.h
  * (solve: full and local solves)
- *  15758 region_types.h  15862 work.h  15962 query.h  16172 singular.h  16442 backward.h
- *  16472 sweep_tasks.h  16799 sweep.h  17011 compile.h  17204 plan.h  17311 local.h  17463 parts.h
- *  17752 refine.h  17931 refine_local.h  18147 rcond.h  18303 defects.h
+ *  15783 region_types.h  15887 work.h  15987 query.h  16197 singular.h  16467 backward.h
+ *  16497 sweep_tasks.h  16824 sweep.h  17036 compile.h  17229 plan.h  17336 local.h  17488 parts.h
+ *  17777 refine.h  17956 refine_local.h  18172 rcond.h  18328 defects.h
  * (inverse: entries of the inverse, regions)
- *  18381 traversal.h  18626 traversal_run.h  18809 row_sets.h  18836 unit_vectors.h
- *  19063 bilinear.h  19240 entries.h  19521 block.h  19761 reserve.h  19953 selected.h
- *  20163 selected_query.h  20265 region_choose.h  20489 region.h
+ *  18406 traversal.h  18651 traversal_run.h  18834 row_sets.h  18861 unit_vectors.h
+ *  19088 bilinear.h  19265 entries.h  19546 block.h  19786 reserve.h  19978 selected.h
+ *  20188 selected_query.h  20290 region_choose.h  20514 region.h
  * (change: a factor that follows changes of its matrix)
- *  20737 update.h  21087 rank.h  21416 edges.h  21570 choose.h  21764 pins_types.h
- *  21816 pins_nulls.h  21994 pins_capacitance.h  22221 pins.h  22390 pins_solve.h  22638 subset.h
- *  22745 restrict_analysis.h  23042 restrict_anew.h  23096 restrict_symbolic.h  23277 restrict.h
- *  23504 edit_match.h  23690 edit_place.h  23939 edit_separate.h  24252 edit_order.h
- *  24406 edit_graph.h  24501 edit_join.h  24777 edit.h
+ *  20762 update.h  21112 rank.h  21441 edges.h  21595 choose.h  21789 pins_types.h
+ *  21841 pins_nulls.h  22019 pins_capacitance.h  22246 pins.h  22415 pins_solve.h  22663 subset.h
+ *  22770 restrict_analysis.h  23067 restrict_anew.h  23121 restrict_symbolic.h  23302 restrict.h
+ *  23529 edit_match.h  23715 edit_place.h  23964 edit_separate.h  24277 edit_order.h
+ *  24431 edit_graph.h  24526 edit_join.h  24802 edit.h
  * (save: factors in files)
- *  24941 format.h  25237 decode.h  25385 check.h  25715 write.h  26020 load.h  26288 load_inverse.h
- *  26617 load_calls.h
+ *  24966 format.h  25262 decode.h  25410 check.h  25740 write.h  26045 load.h  26313 load_inverse.h
+ *  26642 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26816 batch_solve.h  27025 batch_factor.h  27226 batch_diagonal.h
+ *  26841 batch_solve.h  27050 batch_factor.h  27251 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27366 hermitian.h  27528 complex_rows.h
+ *  27391 hermitian.h  27553 complex_rows.h
  * (last: undefine every internal macro)
- *  27696 undef.h
+ *  27721 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27917 front.inl.h  27919 product.inl.h  28320 words_undef.inl.h  28400 multi_rhs.inl.h
- *  28419 multi_rhs_small.inl.h  28587 multi_rhs_tiles.inl.h  28884 sweeps.inl.h
- *  28886 unit_triangle.inl.h  28923 two_rhs.inl.h  29092 small_supernode.inl.h
- *  29251 single_rhs.inl.h  29495 kernel_set.inl.h  29497 complex_small.inl.h
- *  29663 complex_rows.inl.h  29904 inverse_front.inl.h  30189 row.inl.h  30219 change.inl.h
- *  30283 interleave.inl.h
+ *  27947 front.inl.h  27949 product.inl.h  28444 words_undef.inl.h  28526 multi_rhs.inl.h
+ *  28545 multi_rhs_small.inl.h  28713 multi_rhs_tiles.inl.h  29010 sweeps.inl.h
+ *  29012 unit_triangle.inl.h  29049 two_rhs.inl.h  29218 small_supernode.inl.h
+ *  29377 single_rhs.inl.h  29621 kernel_set.inl.h  29623 complex_small.inl.h
+ *  29787 complex_rows.inl.h  30027 inverse_front.inl.h  30312 row.inl.h  30342 change.inl.h
+ *  30406 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2762,8 +2762,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX keeps the first column of each: solves of one
- * right-hand side read half as much. More right-hand sides are solved one by one; from 4 on
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
+ * operations and the memory of a factorization, and solves of one right-hand side read half as
+ * much. More right-hand sides are solved one by one; from 4 on
  * SL_STORAGE_DOUBLE is faster. Every call on factors takes both, except that L as complex is not
  * changed, restricted or saved.
  */
@@ -3918,6 +3919,10 @@ SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
   return sli_tile_offset(w, sli_tiles(w + u));
 }
 
+SLI_INLINE sl_off sli_half_at(sl_off at) {
+  return at / (2 * SLI_TILE) * SLI_TILE + at % SLI_TILE;
+}
+
 SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
   return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;
 }
@@ -4084,6 +4089,7 @@ typedef struct sli_front {
   double *E;
   double *reciprocals;
   sli_front_single single;
+  int is_complex;
   const sli_pivot_rule *rule;
   sl_int column;
 } sli_front;
@@ -4402,7 +4408,7 @@ typedef struct sli_kernels {
   sl_isa isa;
   sli_sweeps sweeps[3];
   sli_row_kernel row;
-  sli_front_kernels fronts[2];
+  sli_front_kernels fronts[3];
   sli_products_kernel products;
   sli_interleave_kernel interleave;
   sli_separate_kernel separate;
@@ -4456,12 +4462,15 @@ typedef struct sli_kernels {
   }
 
 #define SLV_SINGLE 0
+#define SLV_COMPLEX 0
 #define SLI_PASTE(a, b) a##b
 #define SLI_BY_TYPE(word, is_single) SLI_PASTE(word, is_single)
 #define SLI_VALUE_0 double
 #define SLI_VALUE_1 float
 #define SLI_SWEEP_0(name, f) name(f)
 #define SLI_SWEEP_1(name, f) name(single_##f)
+#define SLI_FRONT_0(name, f) name(f)
+#define SLI_FRONT_1(name, f) name(complex_##f)
 #define SLI_WIDE_0(v, columns) const double *v;
 #define SLI_WIDE_1(v, columns) SLI_ALIGNED(double v[SLI_TILE * (columns)]);
 #define SLI_WIDEN_0(v, l, columns, rows) v = (l);
@@ -4492,6 +4501,8 @@ typedef struct sli_kernels {
 #define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
 #define SLV_PACK_PAIRS(l, E, j, length, B) \
   SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
+#define SLV_PARTS (1 + SLV_COMPLEX)
+#define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
@@ -4560,17 +4571,17 @@ typedef struct sli_kernels {
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_TURN_ALL(a, re, im) \
+#define SLV_TURN_ALL(a, b, re, im) \
   { \
     sl_int i_; \
     for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
-      const double re_ = a[i_]; \
-      a[i_] = re a[i_ + 1]; \
+      const double re_ = b[i_]; \
+      a[i_] = re b[i_ + 1]; \
       a[i_ + 1] = im re_; \
     } \
   }
-#define SLV_TURN(a) SLV_TURN_ALL(a, -, +)
-#define SLV_TURN_BACK(a) SLV_TURN_ALL(a, +, -)
+#define SLV_TURN(a, b) SLV_TURN_ALL(a, b, -, +)
+#define SLV_TURN_BACK(a, b) SLV_TURN_ALL(a, b, +, -)
 #define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
 #define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_AXPY(a, l, p) \
@@ -4662,6 +4673,8 @@ typedef struct sli_kernels {
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
+#include SL_HEADER
+#define SLI_SECTION_FRONT
 #include SL_HEADER
 #define SLI_SECTION_FRONT
 #include SL_HEADER
@@ -4795,12 +4808,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
   a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLV_TURN(a) \
-  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(a##_0, 5)), \
-  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(a##_1, 5));
-#define SLV_TURN_BACK(a) \
-  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), a##_0), 5), \
-  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), a##_1), 5);
+#define SLV_TURN(a, b) \
+  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_0, 5)), \
+  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_1, 5));
+#define SLV_TURN_BACK(a, b) \
+  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_0), 5), \
+  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_1), 5);
 #define SLV_FNMA(a, b, c) \
   a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
 #define SLV_LOAD_PART(a, p, count, rest) \
@@ -4930,6 +4943,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_FRONT
 #include SL_HEADER
+#define SLI_SECTION_FRONT
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
@@ -5014,10 +5029,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
-#define SLV_TURN(a) \
-  a = SLV_SWAP(a), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
-#define SLV_TURN_BACK(a) \
-  a = SLV_SWAP(a), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
+#define SLV_TURN(a, b) \
+  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
+#define SLV_TURN_BACK(a, b) \
+  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest) \
   a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
@@ -5138,6 +5153,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_FRONT
 #include SL_HEADER
+#define SLI_SECTION_FRONT
+#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
@@ -5231,12 +5248,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
 #define SLV_SAME(a) (a)
-#define SLV_TURN(a) \
-  a##_0 = SLV_TURN_2(a##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(a##_1, vneg_f64, SLV_SAME), \
-  a##_2 = SLV_TURN_2(a##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(a##_3, vneg_f64, SLV_SAME);
-#define SLV_TURN_BACK(a) \
-  a##_0 = SLV_TURN_2(a##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(a##_1, SLV_SAME, vneg_f64), \
-  a##_2 = SLV_TURN_2(a##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(a##_3, SLV_SAME, vneg_f64);
+#define SLV_TURN(a, b) \
+  a##_0 = SLV_TURN_2(b##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(b##_1, vneg_f64, SLV_SAME), \
+  a##_2 = SLV_TURN_2(b##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(b##_3, vneg_f64, SLV_SAME);
+#define SLV_TURN_BACK(a, b) \
+  a##_0 = SLV_TURN_2(b##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(b##_1, SLV_SAME, vneg_f64), \
+  a##_2 = SLV_TURN_2(b##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(b##_3, SLV_SAME, vneg_f64);
 #define SLV_FNMA(a, b, c) \
   a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
   a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
@@ -5385,6 +5402,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
+#include SL_HEADER
+#define SLI_SECTION_FRONT
 #include SL_HEADER
 #define SLI_SECTION_FRONT
 #include SL_HEADER
@@ -11070,7 +11089,7 @@ typedef struct sli_schedule_work {
 
 SLI_INLINE sl_off sli_update_size(const sli_step *s) {
   const sl_int tiles = sli_update_tiles(s->width, s->below);
-  return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)tiles;
+  return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)(tiles + tiles % 2);
 }
 
 SLI_INLINE double sli_front_flops(const sli_step *s) {
@@ -11083,8 +11102,8 @@ SLI_INLINE int sli_front_is_large(const sli_step *s) {
 }
 
 SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
-  return SLI_TILE * ((sl_off)sli_tiles(s->width + s->below) + sli_tiles(s->width)) +
-       SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width);
+  return 2 * (SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
+        SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width));
 }
 
 static sl_int sli_large_pieces(const sli_step *s, sl_int workers, sl_int *tiles) {
@@ -12149,9 +12168,13 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
   return F->storage == SL_STORAGE_FLOAT || sli_is_single(F);
 }
 
+SLI_INLINE int sli_is_complex(const sl_factor *F) {
+  return F->storage == SL_STORAGE_COMPLEX;
+}
+
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-  return F->storage != SL_STORAGE_DOUBLE ? F->panels + F->panel_room * worker
-                      : (double *)F->values + F->S->steps[s].panel;
+  return sli_is_float(F) ? F->panels + F->panel_room * worker
+               : (double *)F->values + (F->S->steps[s].panel >> sli_is_complex(F));
 }
 
 #define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
@@ -12165,8 +12188,9 @@ SLI_INLINE float sli_single(double a) {
 #define SLI_ENTRIES_AHEAD 32
 
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                           float *single, sl_off first, sl_off last,
-                           const double *x, const sl_int *scatter_from,
+                           float *single, int is_half, sl_off first,
+                           sl_off last, const double *x,
+                           const sl_int *scatter_from,
                            sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
   const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
@@ -12186,6 +12210,10 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
     }
     if (panel == NULL) {
       single[to[m] - begin] += sli_single(a);
+    } else if (is_half) { /* untested: constant */
+      if ((to[m] & SLI_TILE) == 0) {
+        panel[sli_half_at(to[m] - begin)] += a;
+      }
     } else {
       panel[to[m] - begin] += a;
     }
@@ -12220,17 +12248,19 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   F->extents[s].pivot = -1;
   F->extents[s].zero = 0;
   if (from->A != NULL) {
-    return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, m, end, from->A->x,
+    return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, 0, m, end, from->A->x,
                             S->scatter_from, failure)
-               : sli_panel_load_entries(F, s, panel, NULL, m, end, from->A->x,
-                            S->scatter_from, failure);
+         : sli_is_complex(F) ? sli_panel_load_entries(F, s, panel, NULL, 1, m, end,
+                              from->A->x, S->scatter_from, failure)
+                   : sli_panel_load_entries(F, s, panel, NULL, 0, m, end,
+                              from->A->x, S->scatter_from, failure);
   }
   for (; m < end && status == SL_OK; m = last) {
     last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
     sli_source_sum(from, m, (sl_int)(last - m), sums);
     status = panel == NULL
-           ? sli_panel_load_entries(F, s, NULL, single, m, last, sums, NULL, failure)
-           : sli_panel_load_entries(F, s, panel, NULL, m, last, sums, NULL, failure);
+           ? sli_panel_load_entries(F, s, NULL, single, 0, m, last, sums, NULL, failure)
+           : sli_panel_load_entries(F, s, panel, NULL, 0, m, last, sums, NULL, failure);
   }
   return status;
 }
@@ -12357,7 +12387,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
 /* src/impl/factor/storage.h: L in double, in float or as complex: sweeps over it, its entries, panels to store */
 
 SLI_INLINE const sli_sweeps *sli_sweeps_of(const sl_factor *F) {
-  return &F->kernels->sweeps[F->storage == SL_STORAGE_COMPLEX ? 2 : sli_is_float(F)];
+  return &F->kernels->sweeps[sli_is_complex(F) ? 2 : sli_is_float(F)];
 }
 
 SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
@@ -12371,7 +12401,7 @@ SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
 }
 
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-  if (F->storage == SL_STORAGE_COMPLEX) {
+  if (sli_is_complex(F)) {
     const double *l = (const double *)F->values + at / (2 * SLI_TILE) * SLI_TILE;
     const sl_off lane = at % SLI_TILE;
     return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
@@ -12429,27 +12459,8 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int 
   return SL_OK;
 }
 
-static void sli_panel_halve(const sl_factor *F, const sli_front *f, sl_int s) {
-  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
-  double *to = (double *)F->values + F->S->steps[s].panel / 2;
-  const double *from = f->panel;
-  sl_int t, j;
-  for (t = 0; t < tiles; t++) {
-    const sl_int row = SLI_TILE * t, columns = sli_min(w, row + SLI_TILE);
-    for (j = 0; j < columns; j += 2, from += 2 * SLI_TILE, to += SLI_TILE) {
-      memcpy(to, from, SLI_TILE * sizeof(double));
-      if (j >= row) {
-        to[j + 1 - row] = 0.0;
-      }
-    }
-  }
-}
-
 static sl_status sli_panel_store(const sl_factor *F, const sli_front *f, sl_int s,
                  sli_failure *failure) {
-  if (F->storage == SL_STORAGE_COMPLEX) {
-    sli_panel_halve(F, f, s);
-  }
   return F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure) : SL_OK;
 }
 
@@ -13893,11 +13904,12 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
 SLI_INLINE void *sli_update_matrix(const sl_factor *F, sl_int s, sl_int worker) {
   const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
   const sl_off at = begin < own ? begin + worker * own : begin;
-  return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at) : (void *)(F->stack + at);
+  return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at)
+              : (void *)(F->stack + (at >> sli_is_complex(F)));
 }
 
 SLI_INLINE const sli_front_kernels *sli_front_kernels_of(const sl_factor *F) {
-  return &F->kernels->fronts[sli_is_single(F)];
+  return &F->kernels->fronts[sli_is_complex(F) ? 2 : sli_is_single(F)];
 }
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
@@ -13926,6 +13938,7 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   f.E = F->E == NULL ? NULL : F->E + step->column;
   f.magnitude = magnitude;
   f.reciprocals = reciprocals;
+  f.is_complex = sli_is_complex(F);
   return f;
 }
 
@@ -13945,9 +13958,10 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
     }
     return;
   }
-  memset(f->panel + from, 0, (size_t)size * sizeof(double));
+  memset(f->panel + (from >> f->is_complex), 0, (size_t)(size >> f->is_complex) * sizeof(double));
   if (has_update) {
-    memset(f->update + at, 0, (size_t)(end - at) * sizeof(double));
+    memset(f->update + (at >> f->is_complex), 0,
+         (size_t)((end - at) >> f->is_complex) * sizeof(double));
   }
 }
 
@@ -13964,7 +13978,10 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
     return status;
   }
   for (k = 0; k < f->width; k++) {
-    f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
+    const sl_off at = sli_panel_at(f->width, k, k);
+    f->magnitude[k] = !f->is_complex ? fabs(f->panel[at])
+              : k % 2 == 0   ? fabs(f->panel[sli_half_at(at)])
+                     : 0.0;
   }
   for (; k < rows; k++) {
     f->magnitude[k] = 0.0;
@@ -13992,9 +14009,10 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
         f->single.magnitude[relative[k]] += magnitude[k];
       }
     } else {
-      const double *magnitude = (const double *)from + magnitudes;
-      for (k = first; k < last; k++) {
-        f->magnitude[relative[k]] += magnitude[k];
+      const int half = f->is_complex;
+      const double *magnitude = (const double *)from + (magnitudes >> half);
+      for (k = first; k < last; k += 1 + half) {
+        f->magnitude[relative[k]] += magnitude[k >> half];
       }
     }
   }
@@ -14007,6 +14025,13 @@ static void sli_front_hand_over(const sli_front *f) {
   if (f->panel == NULL) {
     memcpy(f->single.update + sli_triangle_offset(tiles), f->single.magnitude + first,
          rows * sizeof(float));
+  } else if (f->is_complex) {
+    double *to = f->update + sli_triangle_offset(tiles) / 2;
+    const double *from = f->magnitude + first;
+    size_t k;
+    for (k = 0; k < rows; k += 2) {
+      to[k / 2] = from[k] + from[k + 1];
+    }
   } else {
     memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + first, rows * sizeof(double));
   }
@@ -14471,7 +14496,7 @@ static sli_front sli_large_front(const sl_factor *F, sl_int s) {
     f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width);
     return f;
   }
-  f.magnitude = f.update + sli_update_size(step);
+  f.magnitude = f.update + (sli_update_size(step) >> f.is_complex);
   f.reciprocals = f.magnitude + rows;
   f.panel = sli_front_panel(F, s, F->schedule.workers);
   return f;
@@ -14935,8 +14960,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   F->values = sli_is_float(F)
           ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
           : (void *)SLI_TAKE(b, double,
-                     S->panel_begin[S->n_supers] /
-                       (F->storage == SL_STORAGE_COMPLEX ? 2 : 1));
+                     S->panel_begin[S->n_supers] >> sli_is_complex(F));
 }
 
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
@@ -14977,7 +15001,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
     F->failures = SLI_TAKE(b, sli_failure, workers);
     sli_schedule_layout(&F->schedule, b, S->n_supers);
-    if (F->storage != SL_STORAGE_DOUBLE) {
+    if (sli_is_float(F)) {
       sli_factor_layout_panels(F, b);
     }
   } else {
@@ -15007,8 +15031,9 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     b.base = NULL;
     b.used = 0;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-      F->stack = sli_is_single(F) ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
-                    : SLI_TAKE(&b, double, F->schedule.stack);
+      F->stack = sli_is_single(F)
+               ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
+               : SLI_TAKE(&b, double, F->schedule.stack >> sli_is_complex(F));
       sli_schedule_layout_tops(&F->schedule, S, &b);
       F->stats.factor.bytes += pass == 0 ? b.used : 0;
       status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
@@ -15182,7 +15207,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
            (S->n_pairs > 0 && sli_is_single(&draft)) ||
            (draft.is_centered && draft.null_vectors > 1) ||
-           (draft.storage == SL_STORAGE_COMPLEX && !sli_complex_is_possible(&draft))
+           (sli_is_complex(&draft) && !sli_complex_is_possible(&draft))
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -15356,7 +15381,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
       (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
     }
   }
-  if (F->storage == SL_STORAGE_COMPLEX && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
+  if (sli_is_complex(F) && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
     (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
   }
   if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
@@ -16009,7 +16034,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-  return F->n_nulls > 0 || F->checks || F->is_centered || F->storage == SL_STORAGE_COMPLEX
+  return F->n_nulls > 0 || F->checks || F->is_centered || sli_is_complex(F)
          ? 8
          : SLI_BLOCK_MOST;
 }
@@ -25880,7 +25905,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   const sl_factor *F = set->factor;
-  const sl_status status = F != NULL && F->storage == SL_STORAGE_COMPLEX ? SL_ERR_UNSUPPORTED
+  const sl_status status = F != NULL && sli_is_complex(F) ? SL_ERR_UNSUPPORTED
                                        : sli_save_check(set);
   sl_factor none;
   int fits = 1;
@@ -27771,11 +27796,16 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PACK_PAIRS_1
 #undef SLI_SWEEP_0
 #undef SLI_SWEEP_1
+#undef SLI_FRONT_0
+#undef SLI_FRONT_1
 #undef SLI_WIDE_0
 #undef SLI_WIDE_1
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
 #undef SLV_SINGLE
+#undef SLV_COMPLEX
+#undef SLV_PARTS
+#undef SLV_FRONT
 #undef SLV_VALUE
 #undef SLV_OF
 #undef SLV_LEAST
@@ -27922,6 +27952,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#endif
+#if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
 #else
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_TILES(a, p, q)
@@ -27933,6 +27965,19 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #define SLI_SUM(k, v) \
   SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
   SLV_ADD(c##v##k, b)
+#elif SLV_COMPLEX
+#define SLI_LOAD(k, v) \
+  if ((k) % 2 == 0 && (k) < columns) { \
+    SLV_LOAD(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
+  } else { \
+    SLV_ZERO(c##v##k) \
+  }
+#define SLI_STORE_PAIR(k, m, v) \
+  if ((k) < columns) { \
+    SLV_TURN_BACK(c##v##m, c##v##m) \
+    SLV_ADD(c##v##k, c##v##m) \
+    SLV_STORE(Cp##v + SLI_TILE / 2 * (k), c##v##k) \
+  }
 #else
 #define SLI_LOAD(k, v) \
   if (SLI_IS_IN(k, columns)) { \
@@ -27947,6 +27992,19 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
     SLI_SUM(k, v) \
     SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
   }
+#if !SLV_COMPLEX
+#define SLI_STORE_BLOCK(v) SLV_EACH_COLUMN(SLI_STORE, v)
+#elif SLV_COLUMNS == 8
+#define SLI_STORE_BLOCK(v) \
+  SLI_STORE_PAIR(0, 1, v) \
+  SLI_STORE_PAIR(2, 3, v) \
+  SLI_STORE_PAIR(4, 5, v) \
+  SLI_STORE_PAIR(6, 7, v)
+#else
+#define SLI_STORE_BLOCK(v) \
+  SLI_STORE_PAIR(0, 1, v) \
+  SLI_STORE_PAIR(2, 3, v)
+#endif
 #define SLI_UPDATE(k, unused)  \
   SLV_BROADCAST(b, B + (k)) \
   SLV_FNMA(c0##k, a0, b)
@@ -27954,9 +28012,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
   SLI_UPDATE(k, unused) \
   SLV_FNMA(c1##k, a1, b)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                       const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                       SLV_VALUE *Cq0, sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                        const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                        SLV_VALUE *Cq0, sl_int columns) {
   sl_int j;
   SLV_DECLARE(a0)
   SLV_DECLARE(b)
@@ -27966,17 +28024,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows1)(const SLV_VALUE *Ap0, const SLV_VAL
     SLI_LOAD_ROWS(a0, Ap0, Aq0)
     SLV_EACH_COLUMN(SLI_UPDATE, 0)
   }
-  SLV_EACH_COLUMN(SLI_STORE, 0)
+  SLI_STORE_BLOCK(0)
   (void)Aq0;
   (void)Cq0;
 }
 
 #if SLV_TILES > SLV_VECTOR_TILES
-SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                       const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
-                       const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                       SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-                       sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                        const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
+                        const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                        SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
+                        sl_int columns) {
   sl_int j;
   SLV_DECLARE(a0)
   SLV_DECLARE(a1)
@@ -27990,8 +28048,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VAL
     SLI_LOAD_ROWS(a1, Ap1 + j, Aq1 + j)
     SLV_EACH_COLUMN(SLI_UPDATE2, 0)
   }
-  SLV_EACH_COLUMN(SLI_STORE, 0)
-  SLV_EACH_COLUMN(SLI_STORE, 1)
+  SLI_STORE_BLOCK(0)
+  SLI_STORE_BLOCK(1)
   (void)Cq0;
   (void)Cq1;
   (void)Aq0;
@@ -28003,49 +28061,52 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VAL
 #undef SLI_LOAD
 #undef SLI_SUM
 #undef SLI_STORE
+#undef SLI_STORE_PAIR
+#undef SLI_STORE_BLOCK
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 #undef SLI_LOAD_ROWS
 
-#if SLV_VECTOR_TILES == 1
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const SLV_VALUE *A, const SLV_VALUE *B, sl_int length,
-                        SLV_VALUE *C, sl_int columns) {
-  SLV_NAME(rows1)(A, A, B, length, C, C, columns);
+#if SLV_VECTOR_TILES == 1 && !SLV_COMPLEX
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
+                         sl_int length, SLV_VALUE *C, sl_int columns) {
+  SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
 }
 #if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
-                        const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
-                        SLV_VALUE *C1, sl_int columns) {
-  SLV_NAME(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
+                         const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
+                         SLV_VALUE *C1, sl_int columns) {
+  SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
 }
 #endif
 #endif
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
-                      SLV_VALUE *B) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
+                       SLV_VALUE *B) {
   sl_int j;
   SLV_DECLARE(a)
   SLV_DECLARE(b)
   for (j = 0; j < length; j++) {
     SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
-    SLV_BROADCAST(b, d + j)
+    SLV_BROADCAST(b, d + SLV_PARTS * j)
     SLV_MULTIPLY(a, a, b)
     SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
-                       const double *E, sl_int t0, sl_int t1, sl_int c0,
-                       sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
-                       sl_int target_width, sl_int target_first, SLV_VALUE *B) {
-  const sl_int step = SLV_TILES, tile_size = SLI_TILE * SLI_TILE;
+SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
+                      const double *E, sl_int t0, sl_int t1, sl_int c0,
+                      sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+                      sl_int target_width, sl_int target_first,
+                      SLV_VALUE *B) {
+  const sl_int step = SLV_TILES, parts = SLV_PARTS, tile_size = SLI_TILE * SLI_TILE;
   sl_int j, t, c, k, r, m;
-  for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
-    const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 - j);
+  for (j = j0 / parts; j < j1 / parts; j += SLI_CHUNK_COLUMNS) {
+    const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 / parts - j);
     for (c = c0; c < c1; c++) {
-      const SLV_VALUE *l = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j;
+      const SLV_VALUE *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
       SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
-      SLV_NAME(pack)(l, D + j, length, to);
+      SLV_FRONT(pack)(l, D + parts * j, length, to);
       SLV_PACK_PAIRS(l, E, j, length, to)
     }
     for (t = t0; t < t1; t += step) {
@@ -28054,19 +28115,19 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
       SLV_VALUE *C[SLV_TILES];
       for (m = 0; m < step; m++) {
         r = sli_min(t + m, end - 1);
-        A[m] = panel + sli_tile_offset(w, r) + SLI_TILE * (ptrdiff_t)j;
-        C[m] = target + sli_tile_offset(target_width, r - target_first);
+        A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
+        C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
       }
       for (c = c0; c < c1 && c < end; c++) {
-        const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+        const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
         const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
         const sl_int columns = target_width - SLI_TILE * (c - target_first);
         for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
-          const ptrdiff_t to = at + SLI_TILE * k;
+          const ptrdiff_t to = at + SLI_TILE / parts * k;
 #if SLV_TILES > SLV_VECTOR_TILES
           if (c <= t && end == t + step) {
             const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
-            SLV_NAME(rows2)
+            SLV_FRONT(rows2)
             (A[0], A[q], A[p], A[p + q], b + k, length, C[0] + to, C[q] + to, C[p] + to,
              C[p + q] + to, columns - k);
             continue;
@@ -28074,7 +28135,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
 #endif
           for (r = sli_max(t, c) - t; r < end - t; r += SLV_VECTOR_TILES) {
             m = sli_min(r + SLV_VECTOR_TILES, end - t) - 1;
-            SLV_NAME(rows1)
+            SLV_FRONT(rows1)
             (A[r], A[m], b + k, length, C[r] + to, C[m] + to, columns - k);
           }
         }
@@ -28084,12 +28145,20 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
 }
 /* end of product.inl.h */
 
+#if SLV_COMPLEX
+#define SLI_EACH SLI_EACH4
+#define SLI_EACH_AGAIN SLI_EACH4_AGAIN
+#else
+#define SLI_EACH SLI_EACH8
+#define SLI_EACH_AGAIN SLI_EACH8_AGAIN
+#endif
+
 #define SLI_SCALE(l, x, k) \
   if (by_reciprocal) { \
     SLV_BROADCAST(b, reciprocal + (k)) \
     SLV_MULTIPLY(l, x, b) \
   } else { \
-    SLV_BROADCAST(b, D + (k)) \
+    SLV_BROADCAST(b, D + SLV_PARTS * (k)) \
     SLV_DIVIDE(l, x, b) \
   }
 
@@ -28099,6 +28168,11 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
   SLV_FNMA(m, b, x)
 
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#if SLV_COMPLEX
+#define SLI_DECLARE_TURNED(k, unused) SLV_DECLARE(e##k)
+#else
+#define SLI_DECLARE_TURNED(k, unused)
+#endif
 #define SLI_LOAD(k, p) \
   if (SLI_IS_IN(k, columns)) { \
     SLV_LOAD_TILES(a##k, (p) + SLI_TILE * (k), q + SLI_TILE * (k)) \
@@ -28106,53 +28180,83 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
     SLV_ZERO(a##k) \
   }
 
+#if SLV_COMPLEX
+#define SLI_TURN(e, l) SLV_TURN_BACK(e, l)
+#define SLI_AFTER(i, k) \
+  if ((i) > (k)) { \
+    SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i)) \
+    SLV_FNMA(a##i, l, b) \
+    SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
+    SLV_FNMA(a##i, e0, b) \
+  }
+#define SLI_TAKE_PIVOT(k, d) \
+  D[2 * (k)] = D[2 * (k) + 1] = d; \
+  magnitude[2 * (k)] = magnitude[2 * (k) + 1] = sums[2 * (k)] + sums[2 * (k) + 1];
+#else
+#define SLI_TURN(e, l)
 #define SLI_AFTER(i, k) \
   if ((i) > (k)) { \
     SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
     SLV_FNMA(a##i, l, b) \
   }
+#define SLI_TAKE_PIVOT(k, d) \
+  D[k] = d; \
+  magnitude[k] = sums[k];
+#endif
 #define SLI_PIVOT(k, p) \
   if (SLI_IS_IN(k, columns)) { \
     SLV_VALUE d; \
     SLV_STORE(x + SLI_TILE * (k), a##k) \
     SLV_STORE(sums, m) \
-    SLV_LANE(b, a##k, k) \
-    d = x[SLI_TILE * (k) + (k)]; \
+    SLV_LANE(b, a##k, (k)*SLV_PARTS) \
+    d = x[(SLI_TILE + SLV_PARTS) * (k)]; \
     if (rule != NULL) { \
       d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
       SLV_BROADCAST(b, &d) \
     } \
     SLV_DIVIDE(l, a##k, b) \
-    D[k] = d; \
-    magnitude[k] = sums[k]; \
+    SLI_TAKE_PIVOT(k, d) \
     minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
     reciprocal[k] = (SLV_VALUE)1 / d; \
     safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
     SLI_GAIN(l, a##k, k) \
-    SLV_BELOW(l, k) \
+    SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
     SLV_STORE((p) + SLI_TILE * (k), l) \
-    SLI_EACH8_AGAIN(SLI_AFTER, k) \
+    SLI_TURN(e0, l) \
+    SLI_EACH_AGAIN(SLI_AFTER, k) \
   }
 
+#if SLV_COMPLEX
+#define SLI_BEFORE(j, k) \
+  if ((j) < (k)) { \
+    SLV_BROADCAST(b, pivots + SLI_TILE * (j) + 2 * (k)) \
+    SLV_FNMA(a##k, a##j, b) \
+    SLV_BROADCAST(b, pivots + SLI_TILE * (j) + 2 * (k) + 1) \
+    SLV_FNMA(a##k, e##j, b) \
+  }
+#else
 #define SLI_BEFORE(j, k) \
   if ((j) < (k)) { \
     SLV_BROADCAST(b, pivots + SLI_TILE * (j) + (k)) \
     SLV_FNMA(a##k, a##j, b) \
   }
+#endif
 #define SLI_SOLVE(k, unused) \
   if (SLI_IS_IN(k, columns)) { \
-    SLI_EACH8_AGAIN(SLI_BEFORE, k) \
+    SLI_EACH_AGAIN(SLI_BEFORE, k) \
+    SLI_TURN(e##k, a##k) \
     SLI_SCALE(l, a##k, k) \
     SLI_GAIN(l, a##k, k) \
     SLV_STORE_TILES(p + SLI_TILE * (k), q + SLI_TILE * (k), l) \
   }
 
-SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
-                         SLV_VALUE *reciprocals) {
-  const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
+                        SLV_VALUE *reciprocals) {
+  const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
   const sl_int column = f->column + first;
-  const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-  SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+  const sli_pivot_rule *rule = !SLV_COMPLEX && f->rule->replaces ? f->rule : NULL;
+  SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
+           SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
   const SLV_VALUE *q = p;
   SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
   SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
@@ -28163,12 +28267,13 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
   SLV_DECLARE(b)
   SLV_DECLARE(l)
   SLV_DECLARE(m)
-  SLI_EACH8(SLI_DECLARE, 0)
+  SLI_EACH(SLI_DECLARE, 0)
+  SLI_DECLARE_TURNED(0, 0)
   SLV_LOAD(m, magnitude)
-  SLI_EACH8(SLI_LOAD, p)
-  SLI_EACH8(SLI_PIVOT, p)
+  SLI_EACH(SLI_LOAD, p)
+  SLI_EACH(SLI_PIVOT, p)
   SLV_STORE(sums, m)
-  for (t = columns; t < SLI_TILE; t++) {
+  for (t = SLV_PARTS * columns; t < SLI_TILE; t++) {
     magnitude[t] = sums[t];
   }
   if (!safe) {
@@ -28177,28 +28282,31 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
   (void)q;
 }
 
-SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-                       const SLV_VALUE *reciprocals) {
-  const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-  SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE * (ptrdiff_t)first;
-  const SLV_VALUE *pivots = panel + sli_tile_offset(w, c);
-  const int has_pairs = sli_tile_has_pairs(f, c);
+SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                        const SLV_VALUE *reciprocals) {
+  const sl_int w = f->width, first = SLI_TILE * c;
+  const sl_int columns = sli_min(SLI_TILE, w - first) / SLV_PARTS;
+  SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+  const SLV_VALUE *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
+  const int has_pairs = !SLV_COMPLEX && sli_tile_has_pairs(f, c);
   const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
   const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
   const int by_reciprocal = reciprocal[0] != 0;
   sl_int t;
   for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
     const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
-    SLV_VALUE *p = panel + sli_tile_offset(w, t), *q = panel + sli_tile_offset(w, second);
+    SLV_VALUE *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
+    SLV_VALUE *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
     SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
     SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
-    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH(SLI_DECLARE, 0)
+    SLI_EACH(SLI_DECLARE_TURNED, 0)
     SLV_LOAD_TILES(m, sums, second_sums)
-    SLI_EACH8(SLI_LOAD, p)
-    SLI_EACH8(SLI_SOLVE, 0)
+    SLI_EACH(SLI_LOAD, p)
+    SLI_EACH(SLI_SOLVE, 0)
     SLV_STORE_TILES(sums, second_sums, m)
     (void)q;
     (void)second_sums;
@@ -28216,80 +28324,88 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
 #undef SLI_PIVOT
 #undef SLI_BEFORE
 #undef SLI_SOLVE
+#undef SLI_TURN
+#undef SLI_TAKE_PIVOT
+#undef SLI_DECLARE_TURNED
+#undef SLI_EACH
+#undef SLI_EACH_AGAIN
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
-                        sl_int t1, SLV_VALUE *B) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                         sl_int t1, SLV_VALUE *B) {
   if (c > c0) {
-    SLV_NAME(product)
+    SLV_FRONT(product)
     (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c, c + 1, SLI_TILE * c0,
      SLI_TILE * c, SLV_OF(f, panel), f->width, 0, B);
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, void *scratch) {
+SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *scratch) {
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
   if (c0 > 0) {
-    SLV_NAME(product)
+    SLV_FRONT(product)
     (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, c0, c1, c0, c1, 0, SLI_TILE * c0,
      SLV_OF(f, panel), f->width, 0, B);
   }
   for (c = c0; c < c1; c++) {
     SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
-    SLV_NAME(catch_up)(f, c0, c, c, c1, B);
-    if (sli_tile_has_pairs(f, c)) {
+    SLV_FRONT(catch_up)(f, c0, c, c, c1, B);
+    if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     } else {
-      SLV_NAME(tile_pivots)(f, c, reciprocals);
+      SLV_FRONT(tile_pivots)(f, c, reciprocals);
     }
-    SLV_NAME(tile_rows)(f, c, c + 1, c1, reciprocals);
+    SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                    void *scratch) {
+SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                     void *scratch) {
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
   if (c0 > 0) {
-    SLV_NAME(product)
+    SLV_FRONT(product)
     (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, 0, SLI_TILE * c0,
      SLV_OF(f, panel), f->width, 0, B);
   }
   for (c = c0; c < c1; c++) {
-    SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
-    SLV_NAME(tile_rows)
+    SLV_FRONT(catch_up)(f, c0, c, t0, t1, B);
+    SLV_FRONT(tile_rows)
     (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
-                      sl_int t1, void *scratch) {
+SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                       sl_int t1, void *scratch) {
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int w = f->width, last = sli_min(c1, t1);
   sl_int c;
   for (c = c0; c < last; c += SLI_GROUP_TILES) {
-    SLV_NAME(product)
+    SLV_FRONT(product)
     (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
      sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
   }
 }
 
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from, sl_int skipped,
-                      const sl_int *relative, sl_int columns, sl_int first,
-                      sl_int last) {
+SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *from, sl_int skipped,
+                       const sl_int *relative, sl_int columns, sl_int first,
+                       sl_int last) {
   const sl_int w = f->width, whole = w / SLI_TILE;
   sl_int row, end, i;
   for (row = first; row < last; row = end) {
     const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-    const SLV_VALUE *source = (const SLV_VALUE *)from +
-                  sli_triangle_offset((skipped + row) / SLI_TILE) +
-                  SLI_TILE * (ptrdiff_t)skipped + lane;
+    const SLV_VALUE *source =
+      (const SLV_VALUE *)from +
+      (sli_triangle_offset((skipped + row) / SLI_TILE) + SLI_TILE * (ptrdiff_t)skipped) /
+        SLV_PARTS +
+      lane;
     SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
-    const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
-                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
-                   SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
+    const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile) / SLV_PARTS,
+                 ((ptrdiff_t)sli_triangle_offset(tile - whole) -
+                  SLI_TILE * SLI_TILE * (ptrdiff_t)whole) /
+                   SLV_PARTS};
     sl_int lanes[SLI_TILE];
     unsigned mask = 0;
     for (end = row;
@@ -28299,15 +28415,23 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
     }
     {
       SLV_EXPAND(mask, lanes, end - row)
-      for (i = 0; i < end && i < columns; i++) {
+      for (i = 0; i < end && i < columns; i += SLV_PARTS) {
         const int is_below = relative[i] >= w;
         SLV_VALUE *target =
-          to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
-        SLV_EXPAND_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
+          to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
+        SLV_EXPAND_ADD(target, source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i)
       }
     }
   }
 }
+
+#if SLV_COMPLEX
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 0
+#else
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 1
+#endif
 #endif
 
 #ifdef SLI_SECTION_WORDS_UNDEF
@@ -28321,6 +28445,8 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
 
 #undef SLV_SINGLE
 #define SLV_SINGLE 0
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 0
 
 #undef SLV_NAME
 #undef SLV_NAME_4
@@ -29521,7 +29647,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_triangle)(const sl_int w, c
     SLV_ZERO(b) \
     SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
     SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
-    SLV_TURN(b) \
+    SLV_TURN(b, b) \
     SLV_ADD(a, b) \
   }
 #define SLI_PAIR_BELOW(k, m) \
@@ -29550,7 +29676,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
     SLV_ZERO(a)
     SLV_ZERO(b)
     SLI_EACH_PAIR(SLI_PAIR_BELOW)
-    SLV_TURN(b)
+    SLV_TURN(b, b)
     SLV_ADD(a, b)
     SLV_STORE(buf + row, a)
   }
@@ -29568,9 +29694,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
     SLV_SUM_DOT(a##m, l + SLI_TILE / 2 * (k), u) \
   }
 #define SLI_DOTS \
-  SLV_ZERO(u) \
-  SLV_ADD(u, v) \
-  SLV_TURN_BACK(u) \
+  SLV_TURN_BACK(u, v) \
   SLI_DOT(6, 7) SLI_DOT(4, 5) SLI_DOT(2, 3) SLI_DOT(0, 1)
 #define SLI_ROW_AT(k) rows[at + (k)]
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
@@ -29678,7 +29802,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int b
     SLV_ZERO(b0) \
     SLV_DOT(a0, l + SLI_HALF * (k), v) \
     SLV_DOT(b0, l + SLI_HALF * (k), u) \
-    SLV_TURN(b0) \
+    SLV_TURN(b0, b0) \
     SLV_ADD(a0, b0) \
   }
 
@@ -29723,7 +29847,7 @@ SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const doub
     }
     SLV_ADD(a0, a1)
     SLV_ADD(b0, b1)
-    SLV_TURN(b0)
+    SLV_TURN(b0, b0)
     SLV_ADD(a0, b0)
     if (inner > 0) {
       SLV_DECLARE(u)
@@ -29752,8 +29876,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
   SLV_SUM_DECLARE(a)
   SLV_SUM_DECLARE(b)
   SLV_LOAD(v, x)
-  SLV_LOAD(u, x)
-  SLV_TURN_BACK(u)
+  SLV_TURN_BACK(u, v)
   for (j = (ptrdiff_t) final - 2; j >= first; j -= 2) {
     const double *l = tile + SLI_HALF * j;
     SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
@@ -30376,7 +30499,9 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(row),
   {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
    {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
-    SLV_NAME(single_assemble)}},
+    SLV_NAME(single_assemble)},
+   {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
+    SLV_NAME(complex_assemble)}},
   SLV_NAME(products8),
   SLV_NAME(interleave),
   SLV_NAME(separate),

@@ -24,8 +24,9 @@
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX keeps the first column of each: solves of one
- * right-hand side read half as much. More right-hand sides are solved one by one; from 4 on
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
+ * operations and the memory of a factorization, and solves of one right-hand side read half as
+ * much. More right-hand sides are solved one by one; from 4 on
  * SL_STORAGE_DOUBLE is faster. Every call on factors takes both, except that L as complex is not
  * changed, restricted or saved.
  */

@@ -75,11 +75,11 @@ typedef struct sli_schedule_work {
 #define SLI_WORTHWHILE 1.25
 #endif
 
-/* Doubles that a supernode passes to its parent: the update matrix and the magnitudes of its
- * rows. */
+/* Doubles that a supernode passes to its parent: the update matrix and the magnitudes of its rows.
+ * Half of it is aligned, too: that of a complex matrix. */
 SLI_INLINE sl_off sli_update_size(const sli_step *s) {
     const sl_int tiles = sli_update_tiles(s->width, s->below);
-    return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)tiles;
+    return sli_triangle_offset(tiles) + SLI_TILE * (sl_off)(tiles + tiles % 2);
 }
 
 /* Flops of a front: the sum of (entries)^2 over its columns. */
@@ -94,10 +94,10 @@ SLI_INLINE int sli_front_is_large(const sli_step *s) {
 }
 
 /* Numbers that follow the update matrix of a large front: its magnitudes, D where it is in float,
- * and reciprocals. */
+ * and reciprocals. Of a complex matrix, there is room for half of this. */
 SLI_INLINE sl_off sli_large_scratch(const sli_step *s) {
-    return SLI_TILE * ((sl_off)sli_tiles(s->width + s->below) + sli_tiles(s->width)) +
-           SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width);
+    return 2 * (SLI_TILE * (sl_off)sli_tiles(s->width + s->below) +
+                SLI_FRONT_RECIPROCALS * (sl_off)sli_front_groups(s->width));
 }
 
 /* Pieces of a large front, and the row tiles of those below the pivots. */

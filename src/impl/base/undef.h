@@ -76,11 +76,16 @@
 #undef SLI_PACK_PAIRS_1
 #undef SLI_SWEEP_0
 #undef SLI_SWEEP_1
+#undef SLI_FRONT_0
+#undef SLI_FRONT_1
 #undef SLI_WIDE_0
 #undef SLI_WIDE_1
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
 #undef SLV_SINGLE
+#undef SLV_COMPLEX
+#undef SLV_PARTS
+#undef SLV_FRONT
 #undef SLV_VALUE
 #undef SLV_OF
 #undef SLV_LEAST

@@ -166,7 +166,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
             (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
         }
     }
-    if (F->storage == SL_STORAGE_COMPLEX && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
+    if (sli_is_complex(F) && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
         (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
     }
     if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {

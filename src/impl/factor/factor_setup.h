@@ -43,8 +43,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->values = sli_is_float(F)
                     ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
                     : (void *)SLI_TAKE(b, double,
-                                       S->panel_begin[S->n_supers] /
-                                           (F->storage == SL_STORAGE_COMPLEX ? 2 : 1));
+                                       S->panel_begin[S->n_supers] >> sli_is_complex(F));
 }
 
 /* The pieces of scratch for panels that are not stored in double: one a worker, and one for a large
@@ -88,7 +87,7 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
         F->failures = SLI_TAKE(b, sli_failure, workers);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
-        if (F->storage != SL_STORAGE_DOUBLE) {
+        if (sli_is_float(F)) {
             sli_factor_layout_panels(F, b);
         }
     } else {
@@ -119,8 +118,9 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         b.base = NULL;
         b.used = 0;
         for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-            F->stack = sli_is_single(F) ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
-                                        : SLI_TAKE(&b, double, F->schedule.stack);
+            F->stack = sli_is_single(F)
+                           ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
+                           : SLI_TAKE(&b, double, F->schedule.stack >> sli_is_complex(F));
             sli_schedule_layout_tops(&F->schedule, S, &b);
             F->stats.factor.bytes += pass == 0 ? b.used : 0;
             status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
@@ -312,7 +312,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
                      (S->n_pairs > 0 && sli_is_single(&draft)) ||
                      (draft.is_centered && draft.null_vectors > 1) ||
-                     (draft.storage == SL_STORAGE_COMPLEX && !sli_complex_is_possible(&draft))
+                     (sli_is_complex(&draft) && !sli_complex_is_possible(&draft))
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

@@ -214,10 +214,15 @@ SLI_INLINE int sli_is_float(const sl_factor *F) {
     return F->storage == SL_STORAGE_FLOAT || sli_is_single(F);
 }
 
+/* Is only the first column of each pair computed and kept, as the second one is i times that? */
+SLI_INLINE int sli_is_complex(const sl_factor *F) {
+    return F->storage == SL_STORAGE_COMPLEX;
+}
+
 /* The panel of supernode s in double, while a worker factors it. */
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-    return F->storage != SL_STORAGE_DOUBLE ? F->panels + F->panel_room * worker
-                                          : (double *)F->values + F->S->steps[s].panel;
+    return sli_is_float(F) ? F->panels + F->panel_room * worker
+                           : (double *)F->values + (F->S->steps[s].panel >> sli_is_complex(F));
 }
 
 /* The largest entry of A and sum of magnitudes, and the smallest sum, of fronts in float. Products
@@ -235,12 +240,13 @@ SLI_INLINE float sli_single(double a) {
 #define SLI_ENTRIES_AHEAD 32
 
 /* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, in double or, if
- * that is NULL, in float, and records the largest magnitude. With scatter_from, x is the value
- * array of A and scatter_from[m] the position of entry m; without, x[0] is the value of entry
- * `first`. */
+ * that is NULL, in float, and records the largest magnitude. is_half: the panel has the first
+ * columns of pairs only. With scatter_from, x is the value array of A and scatter_from[m] the
+ * position of entry m; without, x[0] is the value of entry `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                                                   float *single, sl_off first, sl_off last,
-                                                   const double *x, const sl_int *scatter_from,
+                                                   float *single, int is_half, sl_off first,
+                                                   sl_off last, const double *x,
+                                                   const sl_int *scatter_from,
                                                    sli_failure *failure) {
     const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
     const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
@@ -260,6 +266,10 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
         }
         if (panel == NULL) {
             single[to[m] - begin] += sli_single(a);
+        } else if (is_half) { /* untested: constant */
+            if ((to[m] & SLI_TILE) == 0) {
+                panel[sli_half_at(to[m] - begin)] += a;
+            }
         } else {
             panel[to[m] - begin] += a;
         }
@@ -296,17 +306,19 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     F->extents[s].pivot = -1;
     F->extents[s].zero = 0;
     if (from->A != NULL) {
-        return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, m, end, from->A->x,
+        return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, 0, m, end, from->A->x,
                                                       S->scatter_from, failure)
-                             : sli_panel_load_entries(F, s, panel, NULL, m, end, from->A->x,
-                                                      S->scatter_from, failure);
+               : sli_is_complex(F) ? sli_panel_load_entries(F, s, panel, NULL, 1, m, end,
+                                                            from->A->x, S->scatter_from, failure)
+                                   : sli_panel_load_entries(F, s, panel, NULL, 0, m, end,
+                                                            from->A->x, S->scatter_from, failure);
     }
     for (; m < end && status == SL_OK; m = last) {
         last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
         sli_source_sum(from, m, (sl_int)(last - m), sums);
         status = panel == NULL
-                     ? sli_panel_load_entries(F, s, NULL, single, m, last, sums, NULL, failure)
-                     : sli_panel_load_entries(F, s, panel, NULL, m, last, sums, NULL, failure);
+                     ? sli_panel_load_entries(F, s, NULL, single, 0, m, last, sums, NULL, failure)
+                     : sli_panel_load_entries(F, s, panel, NULL, 0, m, last, sums, NULL, failure);
     }
     return status;
 }

@@ -223,7 +223,7 @@ static sli_front sli_large_front(const sl_factor *F, sl_int s) {
         f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width);
         return f;
     }
-    f.magnitude = f.update + sli_update_size(step);
+    f.magnitude = f.update + (sli_update_size(step) >> f.is_complex);
     f.reciprocals = f.magnitude + rows;
     f.panel = sli_front_panel(F, s, F->schedule.workers);
     return f;

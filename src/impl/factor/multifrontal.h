@@ -9,11 +9,12 @@
 SLI_INLINE void *sli_update_matrix(const sl_factor *F, sl_int s, sl_int worker) {
     const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
     const sl_off at = begin < own ? begin + worker * own : begin;
-    return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at) : (void *)(F->stack + at);
+    return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at)
+                            : (void *)(F->stack + (at >> sli_is_complex(F)));
 }
 
 SLI_INLINE const sli_front_kernels *sli_front_kernels_of(const sl_factor *F) {
-    return &F->kernels->fronts[sli_is_single(F)];
+    return &F->kernels->fronts[sli_is_complex(F) ? 2 : sli_is_single(F)];
 }
 
 static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
@@ -42,6 +43,7 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.E = F->E == NULL ? NULL : F->E + step->column;
     f.magnitude = magnitude;
     f.reciprocals = reciprocals;
+    f.is_complex = sli_is_complex(F);
     return f;
 }
 
@@ -62,9 +64,10 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
         }
         return;
     }
-    memset(f->panel + from, 0, (size_t)size * sizeof(double));
+    memset(f->panel + (from >> f->is_complex), 0, (size_t)(size >> f->is_complex) * sizeof(double));
     if (has_update) {
-        memset(f->update + at, 0, (size_t)(end - at) * sizeof(double));
+        memset(f->update + (at >> f->is_complex), 0,
+               (size_t)((end - at) >> f->is_complex) * sizeof(double));
     }
 }
 
@@ -83,7 +86,10 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
         return status;
     }
     for (k = 0; k < f->width; k++) {
-        f->magnitude[k] = fabs(f->panel[sli_panel_at(f->width, k, k)]);
+        const sl_off at = sli_panel_at(f->width, k, k);
+        f->magnitude[k] = !f->is_complex ? fabs(f->panel[at])
+                          : k % 2 == 0   ? fabs(f->panel[sli_half_at(at)])
+                                         : 0.0;
     }
     for (; k < rows; k++) {
         f->magnitude[k] = 0.0;
@@ -113,15 +119,17 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
                 f->single.magnitude[relative[k]] += magnitude[k];
             }
         } else {
-            const double *magnitude = (const double *)from + magnitudes;
-            for (k = first; k < last; k++) {
-                f->magnitude[relative[k]] += magnitude[k];
+            const int half = f->is_complex;
+            const double *magnitude = (const double *)from + (magnitudes >> half);
+            for (k = first; k < last; k += 1 + half) {
+                f->magnitude[relative[k]] += magnitude[k >> half];
             }
         }
     }
 }
 
-/* Stores the magnitudes of the rows below next to the update matrix, for the parent. */
+/* Stores the magnitudes of the rows below, or of pairs of them, next to the update matrix, for the
+ * parent. */
 static void sli_front_hand_over(const sli_front *f) {
     const sl_int tiles = sli_update_tiles(f->width, f->below);
     const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
@@ -129,6 +137,13 @@ static void sli_front_hand_over(const sli_front *f) {
     if (f->panel == NULL) {
         memcpy(f->single.update + sli_triangle_offset(tiles), f->single.magnitude + first,
                rows * sizeof(float));
+    } else if (f->is_complex) {
+        double *to = f->update + sli_triangle_offset(tiles) / 2;
+        const double *from = f->magnitude + first;
+        size_t k;
+        for (k = 0; k < rows; k += 2) {
+            to[k / 2] = from[k] + from[k + 1];
+        }
     } else {
         memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + first, rows * sizeof(double));
     }

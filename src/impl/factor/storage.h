@@ -14,15 +14,14 @@
  * energy norm, by about 2 ||H||, which is of the order of u sqrt(cond A), not u cond A: the pivots,
  * which hold the smallest eigenvalues, are not rounded. */
 
-/* With SL_STORAGE_COMPLEX the columns 2k of L are kept, column by column as in double, and the
- * columns 2k + 1, which are i times those, are not: L has the blocks [a -b; b a]. In floating point
- * that holds to rounding, as it does that the entry inside a block is 0 and that the two pivots of
- * a block are equal. A panel has an even number of columns of 8 rows, so that the position of its
- * entries says which they are. */
+/* With SL_STORAGE_COMPLEX the columns 2k of L are computed and kept, column by column as in double,
+ * and the columns 2k + 1, which are i times those, are not: L has the blocks [a -b; b a]. The two
+ * pivots of a block are equal, and the entry inside it is 0. A panel has an even number of columns
+ * of 8 rows, so that the position of an entry says which of the two columns it is in. */
 
 /* Which of the kernels' sweeps read L. */
 SLI_INLINE const sli_sweeps *sli_sweeps_of(const sl_factor *F) {
-    return &F->kernels->sweeps[F->storage == SL_STORAGE_COMPLEX ? 2 : sli_is_float(F)];
+    return &F->kernels->sweeps[sli_is_complex(F) ? 2 : sli_is_float(F)];
 }
 
 /* The sweeps of F's factorization: x := L^-1 x over steps, and x := L'^-1 D^-1 x. */
@@ -38,7 +37,7 @@ SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
 
 /* The entry of L at a position of the panels. */
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-    if (F->storage == SL_STORAGE_COMPLEX) {
+    if (sli_is_complex(F)) {
         const double *l = (const double *)F->values + at / (2 * SLI_TILE) * SLI_TILE;
         const sl_off lane = at % SLI_TILE;
         return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
@@ -102,29 +101,9 @@ static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int 
     return SL_OK;
 }
 
-/* Keeps the first column of each pair of the panel of a front. */
-static void sli_panel_halve(const sl_factor *F, const sli_front *f, sl_int s) {
-    const sl_int w = f->width, tiles = sli_tiles(w + f->below);
-    double *to = (double *)F->values + F->S->steps[s].panel / 2;
-    const double *from = f->panel;
-    sl_int t, j;
-    for (t = 0; t < tiles; t++) {
-        const sl_int row = SLI_TILE * t, columns = sli_min(w, row + SLI_TILE);
-        for (j = 0; j < columns; j += 2, from += 2 * SLI_TILE, to += SLI_TILE) {
-            memcpy(to, from, SLI_TILE * sizeof(double));
-            if (j >= row) {
-                to[j + 1 - row] = 0.0; /* inside the block */
-            }
-        }
-    }
-}
-
 /* Stores the panel of a front that is done. */
 static sl_status sli_panel_store(const sl_factor *F, const sli_front *f, sl_int s,
                                  sli_failure *failure) {
-    if (F->storage == SL_STORAGE_COMPLEX) {
-        sli_panel_halve(F, f, s);
-    }
     return F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure) : SL_OK;
 }
 

@@ -22,7 +22,7 @@
         SLV_ZERO(b0) \
         SLV_DOT(a0, l + SLI_HALF * (k), v) \
         SLV_DOT(b0, l + SLI_HALF * (k), u) \
-        SLV_TURN(b0) \
+        SLV_TURN(b0, b0) \
         SLV_ADD(a0, b0) \
     }
 
@@ -67,7 +67,7 @@ SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const doub
         }
         SLV_ADD(a0, a1)
         SLV_ADD(b0, b1)
-        SLV_TURN(b0)
+        SLV_TURN(b0, b0)
         SLV_ADD(a0, b0)
         if (inner > 0) {
             SLV_DECLARE(u)
@@ -98,8 +98,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
     SLV_SUM_DECLARE(a)
     SLV_SUM_DECLARE(b)
     SLV_LOAD(v, x)
-    SLV_LOAD(u, x)
-    SLV_TURN_BACK(u)
+    SLV_TURN_BACK(u, v)
     for (j = (ptrdiff_t) final - 2; j >= first; j -= 2) {
         const double *l = tile + SLI_HALF * j;
         SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);

@@ -30,7 +30,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_triangle)(const sl_int w, c
         SLV_ZERO(b) \
         SLV_DOT(a, l + SLI_TILE / 2 * (k), y##k) \
         SLV_DOT(b, l + SLI_TILE / 2 * (k), y##m) \
-        SLV_TURN(b) \
+        SLV_TURN(b, b) \
         SLV_ADD(a, b) \
     }
 #define SLI_PAIR_BELOW(k, m) \
@@ -59,7 +59,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
         SLV_ZERO(a)
         SLV_ZERO(b)
         SLI_EACH_PAIR(SLI_PAIR_BELOW)
-        SLV_TURN(b)
+        SLV_TURN(b, b)
         SLV_ADD(a, b)
         SLV_STORE(buf + row, a)
     }
@@ -78,9 +78,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
         SLV_SUM_DOT(a##m, l + SLI_TILE / 2 * (k), u) \
     }
 #define SLI_DOTS \
-    SLV_ZERO(u) \
-    SLV_ADD(u, v) \
-    SLV_TURN_BACK(u) \
+    SLV_TURN_BACK(u, v) \
     SLI_DOT(6, 7) SLI_DOT(4, 5) SLI_DOT(2, 3) SLI_DOT(0, 1)
 /* Positions in x of the 8 rows of a tile, as in small_supernode.inl.h. */
 #define SLI_ROW_AT(k) rows[at + (k)]

@@ -56,6 +56,7 @@ typedef struct sli_front {
      * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
     double *reciprocals;
     sli_front_single single; /* of a front in float, which has no arrays in double */
+    int is_complex;          /* panel and update have the first columns of pairs only */
     const sli_pivot_rule *rule;
     sl_int column; /* first column of the supernode */
 } sli_front;
@@ -67,7 +68,10 @@ typedef struct sli_front {
  * their magnitudes on the diagonal. At the end the panel holds L, D holds the pivots, and L D L' is
  * subtracted from update. In the rows of the panel magnitude is that of the pivot; in the others it
  * has grown by |L D L'| on the diagonal. Every row tile is computed independently of the others, so
- * row tiles may be distributed over threads. The caller looks for null pivots. */
+ * row tiles may be distributed over threads. The caller looks for null pivots.
+ *
+ * Rows, columns and tiles of a front of a complex matrix are those of its real one. The magnitude
+ * of a pair of rows is the sum of two numbers, except in rows of the panel. */
 
 /* The row tiles of a group's pivots. */
 typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, void *scratch);

@@ -2,6 +2,16 @@
 
 #include "product.inl.h"
 
+/* A column tile has 8 columns or, of a complex matrix, 4. Column k then has the pivot in lane 2k,
+ * and entries of L are conjugated where they are those of the pivots' rows. */
+#if SLV_COMPLEX
+#define SLI_EACH SLI_EACH4
+#define SLI_EACH_AGAIN SLI_EACH4_AGAIN
+#else
+#define SLI_EACH SLI_EACH8
+#define SLI_EACH_AGAIN SLI_EACH8_AGAIN
+#endif
+
 /* l(rows, k) = x(rows, k) / d(k); multiplies by 1/d where every |d| of the tile is in
  * SLV_LEAST .. SLV_MOST, so that 1/d neither overflows nor underflows */
 #define SLI_SCALE(l, x, k) \
@@ -9,7 +19,7 @@
         SLV_BROADCAST(b, reciprocal + (k)) \
         SLV_MULTIPLY(l, x, b) \
     } else { \
-        SLV_BROADCAST(b, D + (k)) \
+        SLV_BROADCAST(b, D + SLV_PARTS * (k)) \
         SLV_DIVIDE(l, x, b) \
     }
 
@@ -20,6 +30,11 @@
     SLV_FNMA(m, b, x)
 
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#if SLV_COMPLEX
+#define SLI_DECLARE_TURNED(k, unused) SLV_DECLARE(e##k)
+#else
+#define SLI_DECLARE_TURNED(k, unused)
+#endif
 #define SLI_LOAD(k, p) \
     if (SLI_IS_IN(k, columns)) { \
         SLV_LOAD_TILES(a##k, (p) + SLI_TILE * (k), q + SLI_TILE * (k)) \
@@ -30,55 +45,86 @@
 /* Column k of the diagonal tile: determines the pivot, then subtracts l(rows) x(column) from the
  * columns after it. Divides by d: the reciprocal would make the chain of dependent operations,
  * which limits the speed here, one operation longer. */
+#if SLV_COMPLEX
+#define SLI_TURN(e, l) SLV_TURN_BACK(e, l)
+#define SLI_AFTER(i, k) \
+    if ((i) > (k)) { \
+        SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i)) \
+        SLV_FNMA(a##i, l, b) \
+        SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
+        SLV_FNMA(a##i, e0, b) \
+    }
+/* The magnitudes of both rows of a pair: the sum of those of the real and of the imaginary part. */
+#define SLI_TAKE_PIVOT(k, d) \
+    D[2 * (k)] = D[2 * (k) + 1] = d; \
+    magnitude[2 * (k)] = magnitude[2 * (k) + 1] = sums[2 * (k)] + sums[2 * (k) + 1];
+#else
+#define SLI_TURN(e, l)
 #define SLI_AFTER(i, k) \
     if ((i) > (k)) { \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
         SLV_FNMA(a##i, l, b) \
     }
+#define SLI_TAKE_PIVOT(k, d) \
+    D[k] = d; \
+    magnitude[k] = sums[k];
+#endif
 #define SLI_PIVOT(k, p) \
     if (SLI_IS_IN(k, columns)) { \
         SLV_VALUE d; \
         SLV_STORE(x + SLI_TILE * (k), a##k) \
         SLV_STORE(sums, m) \
-        SLV_LANE(b, a##k, k) \
-        d = x[SLI_TILE * (k) + (k)]; \
+        SLV_LANE(b, a##k, (k)*SLV_PARTS) \
+        d = x[(SLI_TILE + SLV_PARTS) * (k)]; \
         if (rule != NULL) { \
             d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
             SLV_BROADCAST(b, &d) \
         } \
         SLV_DIVIDE(l, a##k, b) \
-        D[k] = d; \
-        magnitude[k] = sums[k]; \
+        SLI_TAKE_PIVOT(k, d) \
         minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
         reciprocal[k] = (SLV_VALUE)1 / d; \
         safe &= fabs(d) > SLV_LEAST && fabs(d) < SLV_MOST; \
         SLI_GAIN(l, a##k, k) \
-        SLV_BELOW(l, k) \
+        SLV_BELOW(l, (k)*SLV_PARTS + SLV_PARTS - 1) \
         SLV_STORE((p) + SLI_TILE * (k), l) \
-        SLI_EACH8_AGAIN(SLI_AFTER, k) \
+        SLI_TURN(e0, l) \
+        SLI_EACH_AGAIN(SLI_AFTER, k) \
     }
 
 /* Column k of a tile below: x(rows, k) -= x(rows, j) L(k, j) for j < k, then l = x / d. */
+#if SLV_COMPLEX
+#define SLI_BEFORE(j, k) \
+    if ((j) < (k)) { \
+        SLV_BROADCAST(b, pivots + SLI_TILE * (j) + 2 * (k)) \
+        SLV_FNMA(a##k, a##j, b) \
+        SLV_BROADCAST(b, pivots + SLI_TILE * (j) + 2 * (k) + 1) \
+        SLV_FNMA(a##k, e##j, b) \
+    }
+#else
 #define SLI_BEFORE(j, k) \
     if ((j) < (k)) { \
         SLV_BROADCAST(b, pivots + SLI_TILE * (j) + (k)) \
         SLV_FNMA(a##k, a##j, b) \
     }
+#endif
 #define SLI_SOLVE(k, unused) \
     if (SLI_IS_IN(k, columns)) { \
-        SLI_EACH8_AGAIN(SLI_BEFORE, k) \
+        SLI_EACH_AGAIN(SLI_BEFORE, k) \
+        SLI_TURN(e##k, a##k) \
         SLI_SCALE(l, a##k, k) \
         SLI_GAIN(l, a##k, k) \
         SLV_STORE_TILES(p + SLI_TILE * (k), q + SLI_TILE * (k), l) \
     }
 
 /* The pivots of column tile c, 8 or fewer. The columns before it are already applied. */
-SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
-                                               SLV_VALUE *reciprocals) {
-    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first);
+SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
+                                                SLV_VALUE *reciprocals) {
+    const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
     const sl_int column = f->column + first;
-    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
-    SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) + SLI_TILE * (ptrdiff_t)first;
+    const sli_pivot_rule *rule = !SLV_COMPLEX && f->rule->replaces ? f->rule : NULL;
+    SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
+                   SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
     const SLV_VALUE *q = p;
     SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
     SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
@@ -89,12 +135,14 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
     SLV_DECLARE(b)
     SLV_DECLARE(l)
     SLV_DECLARE(m)
-    SLI_EACH8(SLI_DECLARE, 0)
+    SLI_EACH(SLI_DECLARE, 0)
+    SLI_DECLARE_TURNED(0, 0)
     SLV_LOAD(m, magnitude)
-    SLI_EACH8(SLI_LOAD, p)
-    SLI_EACH8(SLI_PIVOT, p)
+    SLI_EACH(SLI_LOAD, p)
+    SLI_EACH(SLI_PIVOT, p)
     SLV_STORE(sums, m)
-    for (t = columns; t < SLI_TILE; t++) { /* rows below that are in the last tile of pivots */
+    /* rows below that are in the last tile of pivots */
+    for (t = SLV_PARTS * columns; t < SLI_TILE; t++) {
         magnitude[t] = sums[t];
     }
     if (!safe) {
@@ -104,28 +152,31 @@ SLV_FUNCTION static void SLV_NAME(tile_pivots)(const sli_front *f, sl_int c,
 }
 
 /* L in column tile c of row tiles t0 .. t1-1, all below its pivots. */
-SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
-                                             const SLV_VALUE *reciprocals) {
-    const sl_int w = f->width, first = SLI_TILE * c, columns = sli_min(SLI_TILE, w - first);
-    SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE * (ptrdiff_t)first;
-    const SLV_VALUE *pivots = panel + sli_tile_offset(w, c);
-    const int has_pairs = sli_tile_has_pairs(f, c);
+SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
+                                              const SLV_VALUE *reciprocals) {
+    const sl_int w = f->width, first = SLI_TILE * c;
+    const sl_int columns = sli_min(SLI_TILE, w - first) / SLV_PARTS;
+    SLV_VALUE *panel = SLV_OF(f, panel) + SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
+    const SLV_VALUE *pivots = panel + sli_tile_offset(w, c) / SLV_PARTS;
+    const int has_pairs = !SLV_COMPLEX && sli_tile_has_pairs(f, c);
     const SLV_VALUE *D = has_pairs ? reciprocals + 2 * SLI_TILE : SLV_OF(f, D) + first;
     const SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
     const int by_reciprocal = reciprocal[0] != 0;
     sl_int t;
     for (t = t0; t < t1; t += SLV_VECTOR_TILES) {
         const sl_int second = sli_min(t + SLV_VECTOR_TILES, t1) - 1;
-        SLV_VALUE *p = panel + sli_tile_offset(w, t), *q = panel + sli_tile_offset(w, second);
+        SLV_VALUE *p = panel + sli_tile_offset(w, t) / SLV_PARTS;
+        SLV_VALUE *q = panel + sli_tile_offset(w, second) / SLV_PARTS;
         SLV_VALUE *sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)t;
         SLV_VALUE *second_sums = SLV_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)second;
         SLV_DECLARE(b)
         SLV_DECLARE(l)
         SLV_DECLARE(m)
-        SLI_EACH8(SLI_DECLARE, 0)
+        SLI_EACH(SLI_DECLARE, 0)
+        SLI_EACH(SLI_DECLARE_TURNED, 0)
         SLV_LOAD_TILES(m, sums, second_sums)
-        SLI_EACH8(SLI_LOAD, p)
-        SLI_EACH8(SLI_SOLVE, 0)
+        SLI_EACH(SLI_LOAD, p)
+        SLI_EACH(SLI_SOLVE, 0)
         SLV_STORE_TILES(sums, second_sums, m)
         (void)q;
         (void)second_sums;
@@ -143,62 +194,67 @@ SLV_FUNCTION static void SLV_NAME(tile_rows)(const sli_front *f, sl_int c, sl_in
 #undef SLI_PIVOT
 #undef SLI_BEFORE
 #undef SLI_SOLVE
+#undef SLI_TURN
+#undef SLI_TAKE_PIVOT
+#undef SLI_DECLARE_TURNED
+#undef SLI_EACH
+#undef SLI_EACH_AGAIN
 
 /* Applies the columns of the group before tile c to column tile c of row tiles t0 .. t1-1. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
-                                                sl_int t1, SLV_VALUE *B) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
+                                                 sl_int t1, SLV_VALUE *B) {
     if (c > c0) {
-        SLV_NAME(product)
+        SLV_FRONT(product)
         (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c, c + 1, SLI_TILE * c0,
          SLI_TILE * c, SLV_OF(f, panel), f->width, 0, B);
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(pivots)(const sli_front *f, sl_int c0, void *scratch) {
+SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *scratch) {
     SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
     if (c0 > 0) {
-        SLV_NAME(product)
+        SLV_FRONT(product)
         (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, c0, c1, c0, c1, 0, SLI_TILE * c0,
          SLV_OF(f, panel), f->width, 0, B);
     }
     for (c = c0; c < c1; c++) {
         SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
-        SLV_NAME(catch_up)(f, c0, c, c, c1, B);
-        if (sli_tile_has_pairs(f, c)) {
+        SLV_FRONT(catch_up)(f, c0, c, c, c1, B);
+        if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
             sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
         } else {
-            SLV_NAME(tile_pivots)(f, c, reciprocals);
+            SLV_FRONT(tile_pivots)(f, c, reciprocals);
         }
-        SLV_NAME(tile_rows)(f, c, c + 1, c1, reciprocals);
+        SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
-                                        void *scratch) {
+SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t0, sl_int t1,
+                                         void *scratch) {
     SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
     if (c0 > 0) {
-        SLV_NAME(product)
+        SLV_FRONT(product)
         (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, 0, SLI_TILE * c0,
          SLV_OF(f, panel), f->width, 0, B);
     }
     for (c = c0; c < c1; c++) {
-        SLV_NAME(catch_up)(f, c0, c, t0, t1, B);
-        SLV_NAME(tile_rows)
+        SLV_FRONT(catch_up)(f, c0, c, t0, t1, B);
+        SLV_FRONT(tile_rows)
         (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     }
 }
 
-SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
-                                          sl_int t1, void *scratch) {
+SLV_FUNCTION static void SLV_FRONT(update)(const sli_front *f, sl_int c0, sl_int c1, sl_int t0,
+                                           sl_int t1, void *scratch) {
     SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int w = f->width, last = sli_min(c1, t1);
     sl_int c;
     for (c = c0; c < last; c += SLI_GROUP_TILES) {
-        SLV_NAME(product)
+        SLV_FRONT(product)
         (SLV_OF(f, panel), w, SLV_OF(f, D), f->E, sli_max(t0, c), t1, c,
          sli_min(c + SLI_GROUP_TILES, last), 0, w, SLV_OF(f, update), SLI_TILE * (t1 - c0), c0, B);
     }
@@ -207,20 +263,23 @@ SLV_FUNCTION static void SLV_NAME(update)(const sli_front *f, sl_int c0, sl_int 
 /* Extend-add. Consecutive rows that are in one tile of the child and in one tile of the parent form
  * a run. A run is moved as a whole through all columns, its lanes expanded by a mask. Entries above
  * the diagonal are moved too and never read. */
-SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from, sl_int skipped,
-                                            const sl_int *relative, sl_int columns, sl_int first,
-                                            sl_int last) {
+SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *from, sl_int skipped,
+                                             const sl_int *relative, sl_int columns, sl_int first,
+                                             sl_int last) {
     const sl_int w = f->width, whole = w / SLI_TILE;
     sl_int row, end, i;
     for (row = first; row < last; row = end) {
         const sl_int lane = (skipped + row) % SLI_TILE, tile = relative[row] / SLI_TILE;
-        const SLV_VALUE *source = (const SLV_VALUE *)from +
-                                  sli_triangle_offset((skipped + row) / SLI_TILE) +
-                                  SLI_TILE * (ptrdiff_t)skipped + lane;
+        const SLV_VALUE *source =
+            (const SLV_VALUE *)from +
+            (sli_triangle_offset((skipped + row) / SLI_TILE) + SLI_TILE * (ptrdiff_t)skipped) /
+                SLV_PARTS +
+            lane;
         SLV_VALUE *const to[2] = {SLV_OF(f, panel), SLV_OF(f, update)};
-        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile),
-                                 (ptrdiff_t)sli_triangle_offset(tile - whole) -
-                                     SLI_TILE * SLI_TILE * (ptrdiff_t)whole};
+        const ptrdiff_t at[2] = {(ptrdiff_t)sli_tile_offset(w, tile) / SLV_PARTS,
+                                 ((ptrdiff_t)sli_triangle_offset(tile - whole) -
+                                  SLI_TILE * SLI_TILE * (ptrdiff_t)whole) /
+                                     SLV_PARTS};
         sl_int lanes[SLI_TILE];
         unsigned mask = 0;
         for (end = row;
@@ -230,12 +289,20 @@ SLV_FUNCTION static void SLV_NAME(assemble)(const sli_front *f, const void *from
         }
         {
             SLV_EXPAND(mask, lanes, end - row)
-            for (i = 0; i < end && i < columns; i++) {
+            for (i = 0; i < end && i < columns; i += SLV_PARTS) {
                 const int is_below = relative[i] >= w; /* selects the target without a branch */
                 SLV_VALUE *target =
-                    to[is_below] + (at[is_below] + SLI_TILE * (ptrdiff_t)relative[i]);
-                SLV_EXPAND_ADD(target, source + SLI_TILE * (ptrdiff_t)i)
+                    to[is_below] + (at[is_below] + SLI_TILE / SLV_PARTS * (ptrdiff_t)relative[i]);
+                SLV_EXPAND_ADD(target, source + SLI_TILE / SLV_PARTS * (ptrdiff_t)i)
             }
         }
     }
 }
+
+#if SLV_COMPLEX
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 0
+#else
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 1
+#endif

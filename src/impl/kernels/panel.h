@@ -29,6 +29,13 @@ SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
     return sli_tile_offset(w, sli_tiles(w + u));
 }
 
+/* A complex matrix is kept as its real one, with pairs of rows and columns for the real and the
+ * imaginary part. Second columns of pairs are left out: sizes and offsets of tiles are half of
+ * those above. This is the position in such a panel of an entry of a first column. */
+SLI_INLINE sl_off sli_half_at(sl_off at) {
+    return at / (2 * SLI_TILE) * SLI_TILE + at % SLI_TILE;
+}
+
 /* Position of local row r of column j in a panel of w columns. */
 SLI_INLINE sl_off sli_panel_at(sl_int w, sl_int r, sl_int j) {
     return sli_tile_offset(w, r / SLI_TILE) + (sl_off)j * SLI_TILE + r % SLI_TILE;

@@ -3,11 +3,17 @@
 /* A block of C in registers has SLV_COLUMNS columns of SLV_TILES row tiles. A vector is one column
  * of a row tile or, where registers are longer than a tile, of the row tiles p and q. If q is p,
  * both halves are the same, and so is what they store. Columns after the last of C are computed and
- * discarded, as B always has the 8 rows of a tile. */
+ * discarded, as B always has the 8 rows of a tile.
+ *
+ * Of a complex matrix, B holds real and imaginary parts in turn, as a tile does. Both are applied
+ * to the same entries of A, in two columns c0, c1 of the block: as B is conjugated, the column of C
+ * is c0 - i c1. So the loop is the same, over half of the columns. */
 #if !defined(SLV_LOAD_TILES)
 #define SLV_VECTOR_TILES 1
 #define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
 #define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#endif
+#if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
 #else
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_TILES(a, p, q)
@@ -19,6 +25,19 @@
 #define SLI_SUM(k, v) \
     SLV_LOAD_TILES(b, Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k)) \
     SLV_ADD(c##v##k, b)
+#elif SLV_COMPLEX
+#define SLI_LOAD(k, v) \
+    if ((k) % 2 == 0 && (k) < columns) { \
+        SLV_LOAD(c##v##k, Cp##v + SLI_TILE / 2 * (k)) \
+    } else { \
+        SLV_ZERO(c##v##k) \
+    }
+#define SLI_STORE_PAIR(k, m, v) \
+    if ((k) < columns) { \
+        SLV_TURN_BACK(c##v##m, c##v##m) \
+        SLV_ADD(c##v##k, c##v##m) \
+        SLV_STORE(Cp##v + SLI_TILE / 2 * (k), c##v##k) \
+    }
 #else
 #define SLI_LOAD(k, v) \
     if (SLI_IS_IN(k, columns)) { \
@@ -33,6 +52,19 @@
         SLI_SUM(k, v) \
         SLV_STORE_TILES(Cp##v + SLI_TILE * (k), Cq##v + SLI_TILE * (k), c##v##k) \
     }
+#if !SLV_COMPLEX
+#define SLI_STORE_BLOCK(v) SLV_EACH_COLUMN(SLI_STORE, v)
+#elif SLV_COLUMNS == 8
+#define SLI_STORE_BLOCK(v) \
+    SLI_STORE_PAIR(0, 1, v) \
+    SLI_STORE_PAIR(2, 3, v) \
+    SLI_STORE_PAIR(4, 5, v) \
+    SLI_STORE_PAIR(6, 7, v)
+#else
+#define SLI_STORE_BLOCK(v) \
+    SLI_STORE_PAIR(0, 1, v) \
+    SLI_STORE_PAIR(2, 3, v)
+#endif
 #define SLI_UPDATE(k, unused) /* C(rows, k) -= A(rows, j) B(k, j) */ \
     SLV_BROADCAST(b, B + (k)) \
     SLV_FNMA(c0##k, a0, b)
@@ -42,9 +74,9 @@
 
 /* One vector. A: [length][8], for each row tile; B: [length][8], from the first column of the block
  * on; C: [columns][8], for each row tile. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                                             const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                                             SLV_VALUE *Cq0, sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows1)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                                              const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                                              SLV_VALUE *Cq0, sl_int columns) {
     sl_int j;
     SLV_DECLARE(a0)
     SLV_DECLARE(b)
@@ -54,18 +86,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows1)(const SLV_VALUE *Ap0, const SLV_VAL
         SLI_LOAD_ROWS(a0, Ap0, Aq0)
         SLV_EACH_COLUMN(SLI_UPDATE, 0)
     }
-    SLV_EACH_COLUMN(SLI_STORE, 0)
+    SLI_STORE_BLOCK(0)
     (void)Aq0;
     (void)Cq0;
 }
 
 #if SLV_TILES > SLV_VECTOR_TILES
 /* Two vectors. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
-                                             const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
-                                             const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
-                                             SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
-                                             sl_int columns) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VALUE *Aq0,
+                                              const SLV_VALUE *Ap1, const SLV_VALUE *Aq1,
+                                              const SLV_VALUE *B, sl_int length, SLV_VALUE *Cp0,
+                                              SLV_VALUE *Cq0, SLV_VALUE *Cp1, SLV_VALUE *Cq1,
+                                              sl_int columns) {
     sl_int j;
     SLV_DECLARE(a0)
     SLV_DECLARE(a1)
@@ -79,8 +111,8 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VAL
         SLI_LOAD_ROWS(a1, Ap1 + j, Aq1 + j)
         SLV_EACH_COLUMN(SLI_UPDATE2, 0)
     }
-    SLV_EACH_COLUMN(SLI_STORE, 0)
-    SLV_EACH_COLUMN(SLI_STORE, 1)
+    SLI_STORE_BLOCK(0)
+    SLI_STORE_BLOCK(1)
     (void)Cq0;
     (void)Cq1;
     (void)Aq0;
@@ -92,34 +124,36 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(rows2)(const SLV_VALUE *Ap0, const SLV_VAL
 #undef SLI_LOAD
 #undef SLI_SUM
 #undef SLI_STORE
+#undef SLI_STORE_PAIR
+#undef SLI_STORE_BLOCK
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 #undef SLI_LOAD_ROWS
 
-#if SLV_VECTOR_TILES == 1
+#if SLV_VECTOR_TILES == 1 && !SLV_COMPLEX
 /* The same for users of single row tiles. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block1)(const SLV_VALUE *A, const SLV_VALUE *B, sl_int length,
-                                              SLV_VALUE *C, sl_int columns) {
-    SLV_NAME(rows1)(A, A, B, length, C, C, columns);
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
+                                               sl_int length, SLV_VALUE *C, sl_int columns) {
+    SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
 }
 #if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
-                                              const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
-                                              SLV_VALUE *C1, sl_int columns) {
-    SLV_NAME(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
+                                               const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
+                                               SLV_VALUE *C1, sl_int columns) {
+    SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
 }
 #endif
 #endif
 
-/* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
-                                            SLV_VALUE *B) {
+/* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns that are kept. */
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
+                                             SLV_VALUE *B) {
     sl_int j;
     SLV_DECLARE(a)
     SLV_DECLARE(b)
     for (j = 0; j < length; j++) {
         SLV_LOAD(a, l + SLI_TILE * (ptrdiff_t)j)
-        SLV_BROADCAST(b, d + j)
+        SLV_BROADCAST(b, d + SLV_PARTS * j)
         SLV_MULTIPLY(a, a, b)
         SLV_STORE(B + SLI_TILE * (ptrdiff_t)j, a)
     }
@@ -132,18 +166,19 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(pack)(const SLV_VALUE *l, const SLV_VALUE 
  * tiles in the second. Row tiles are taken as many at a time as a block has; where these cross the
  * diagonal, and at the end, one vector at a time. E: D(j+1, j), or NULL if D is diagonal. B:
  * scratch, sli_front_scratch entries. */
-SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
-                                           const double *E, sl_int t0, sl_int t1, sl_int c0,
-                                           sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
-                                           sl_int target_width, sl_int target_first, SLV_VALUE *B) {
-    const sl_int step = SLV_TILES, tile_size = SLI_TILE * SLI_TILE;
+SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, const SLV_VALUE *D,
+                                            const double *E, sl_int t0, sl_int t1, sl_int c0,
+                                            sl_int c1, sl_int j0, sl_int j1, SLV_VALUE *target,
+                                            sl_int target_width, sl_int target_first,
+                                            SLV_VALUE *B) {
+    const sl_int step = SLV_TILES, parts = SLV_PARTS, tile_size = SLI_TILE * SLI_TILE;
     sl_int j, t, c, k, r, m;
-    for (j = j0; j < j1; j += SLI_CHUNK_COLUMNS) {
-        const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 - j);
+    for (j = j0 / parts; j < j1 / parts; j += SLI_CHUNK_COLUMNS) {
+        const sl_int length = sli_min(SLI_CHUNK_COLUMNS, j1 / parts - j);
         for (c = c0; c < c1; c++) {
-            const SLV_VALUE *l = panel + sli_tile_offset(w, c) + SLI_TILE * (ptrdiff_t)j;
+            const SLV_VALUE *l = panel + sli_tile_offset(w, c) / parts + SLI_TILE * (ptrdiff_t)j;
             SLV_VALUE *to = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
-            SLV_NAME(pack)(l, D + j, length, to);
+            SLV_FRONT(pack)(l, D + parts * j, length, to);
             SLV_PACK_PAIRS(l, E, j, length, to)
         }
         for (t = t0; t < t1; t += step) {
@@ -152,19 +187,19 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
             SLV_VALUE *C[SLV_TILES];
             for (m = 0; m < step; m++) {
                 r = sli_min(t + m, end - 1);
-                A[m] = panel + sli_tile_offset(w, r) + SLI_TILE * (ptrdiff_t)j;
-                C[m] = target + sli_tile_offset(target_width, r - target_first);
+                A[m] = panel + sli_tile_offset(w, r) / parts + SLI_TILE * (ptrdiff_t)j;
+                C[m] = target + sli_tile_offset(target_width, r - target_first) / parts;
             }
             for (c = c0; c < c1 && c < end; c++) {
-                const ptrdiff_t at = (ptrdiff_t)tile_size * (c - target_first);
+                const ptrdiff_t at = (ptrdiff_t)tile_size / parts * (c - target_first);
                 const SLV_VALUE *b = B + (ptrdiff_t)(c - c0) * SLI_TILE * length;
                 const sl_int columns = target_width - SLI_TILE * (c - target_first);
                 for (k = 0; k < SLI_TILE && k < columns; k += SLV_COLUMNS) {
-                    const ptrdiff_t to = at + SLI_TILE * k;
+                    const ptrdiff_t to = at + SLI_TILE / parts * k;
 #if SLV_TILES > SLV_VECTOR_TILES
                     if (c <= t && end == t + step) {
                         const sl_int p = SLV_VECTOR_TILES, q = SLV_VECTOR_TILES - 1;
-                        SLV_NAME(rows2)
+                        SLV_FRONT(rows2)
                         (A[0], A[q], A[p], A[p + q], b + k, length, C[0] + to, C[q] + to, C[p] + to,
                          C[p + q] + to, columns - k);
                         continue;
@@ -172,7 +207,7 @@ SLV_FUNCTION static void SLV_NAME(product)(const SLV_VALUE *panel, sl_int w, con
 #endif
                     for (r = sli_max(t, c) - t; r < end - t; r += SLV_VECTOR_TILES) {
                         m = sli_min(r + SLV_VECTOR_TILES, end - t) - 1;
-                        SLV_NAME(rows1)
+                        SLV_FRONT(rows1)
                         (A[r], A[m], b + k, length, C[r] + to, C[m] + to, columns - k);
                     }
                 }

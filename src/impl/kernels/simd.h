@@ -26,7 +26,7 @@
  *  SLV_FIRST(a, count)    lanes count .. 7 of a = 0
  *  SLV_BELOW(a, k)        lanes 0 .. k of a = 0
  *  SLV_ADD(a, b)          a += b
- *  SLV_TURN(a)            pairs of lanes as complex numbers: a *= i. SLV_TURN_BACK: a *= -i
+ *  SLV_TURN(a, b)         pairs of lanes as complex numbers: a = i b. SLV_TURN_BACK: a = -i b
  *  SLV_MULTIPLY(a, b, c)  a = b c. SLV_DIVIDE: a = b / c. SLV_FNMA: a -= b c
  *  SLV_AXPY(a, l, p)      a -= l[0..7] * *p
  *  SLV_DOT(a, l, v)       a -= l[0..7] v, lane by lane
@@ -51,6 +51,13 @@
  *  SLV_WIDE(v, columns)   declares v for SLV_WIDEN(v, l, columns, rows): v = columns 0 .. columns-1
  *                         from l on, their first 4 or 8 rows, as doubles, [column][8]. For scalars
  *                         of L; L in double is not copied. SLV_WIDEN_ROWS(v, l, rows): one column
+ *
+ *  Fronts of complex matrices keep every other column (panel.h). Their templates are included a
+ *  second time for them, and flip SLV_COMPLEX at their end.
+ *
+ *  SLV_COMPLEX            1: a column of a front is the first one of a pair of real columns; else 0
+ *  SLV_PARTS              the real columns that a column of a front is kept for: 1 or 2
+ *  SLV_FRONT(f)           SLV_NAME of a function of fronts
  *
  *  SLV_SUM_: an accumulator of partial sums, at most 8, as many as suit the registers.
  *  SLV_SUM_DECLARE, _ZERO, _LOAD, _STORE as above; an accumulator has room for 8 doubles in memory
@@ -122,12 +129,15 @@
 
 /* What depends on the type of L. */
 #define SLV_SINGLE 0
+#define SLV_COMPLEX 0
 #define SLI_PASTE(a, b) a##b
 #define SLI_BY_TYPE(word, is_single) SLI_PASTE(word, is_single)
 #define SLI_VALUE_0 double
 #define SLI_VALUE_1 float
 #define SLI_SWEEP_0(name, f) name(f)
 #define SLI_SWEEP_1(name, f) name(single_##f)
+#define SLI_FRONT_0(name, f) name(f)
+#define SLI_FRONT_1(name, f) name(complex_##f)
 #define SLI_WIDE_0(v, columns) const double *v;
 #define SLI_WIDE_1(v, columns) SLI_ALIGNED(double v[SLI_TILE * (columns)]);
 #define SLI_WIDEN_0(v, l, columns, rows) v = (l);
@@ -158,6 +168,8 @@
 #define SLV_PIVOT(d) SLI_BY_TYPE(SLI_PIVOT_, SLV_SINGLE)(d)
 #define SLV_PACK_PAIRS(l, E, j, length, B) \
     SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
+#define SLV_PARTS (1 + SLV_COMPLEX)
+#define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)

@@ -82,12 +82,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
     a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
 #define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLV_TURN(a) \
-    a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(a##_0, 5)), \
-    a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(a##_1, 5));
-#define SLV_TURN_BACK(a) \
-    a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), a##_0), 5), \
-    a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), a##_1), 5);
+#define SLV_TURN(a, b) \
+    a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_0, 5)), \
+    a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_1, 5));
+#define SLV_TURN_BACK(a, b) \
+    a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_0), 5), \
+    a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_1), 5);
 #define SLV_FNMA(a, b, c) \
     a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
 #define SLV_LOAD_PART(a, p, count, rest) \
@@ -212,6 +212,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "words_undef.inl.h"

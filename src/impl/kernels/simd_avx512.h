@@ -30,10 +30,10 @@
 #define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
 #define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
 #define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
-#define SLV_TURN(a) \
-    a = SLV_SWAP(a), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
-#define SLV_TURN_BACK(a) \
-    a = SLV_SWAP(a), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
+#define SLV_TURN(a, b) \
+    a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
+#define SLV_TURN_BACK(a, b) \
+    a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
 #define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
 #define SLV_LOAD_PART(a, p, count, rest) \
     a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
@@ -152,6 +152,7 @@
 #undef SLW_GROUPS
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "words_undef.inl.h"

@@ -49,12 +49,12 @@
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
 #define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
 #define SLV_SAME(a) (a)
-#define SLV_TURN(a) \
-    a##_0 = SLV_TURN_2(a##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(a##_1, vneg_f64, SLV_SAME), \
-    a##_2 = SLV_TURN_2(a##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(a##_3, vneg_f64, SLV_SAME);
-#define SLV_TURN_BACK(a) \
-    a##_0 = SLV_TURN_2(a##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(a##_1, SLV_SAME, vneg_f64), \
-    a##_2 = SLV_TURN_2(a##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(a##_3, SLV_SAME, vneg_f64);
+#define SLV_TURN(a, b) \
+    a##_0 = SLV_TURN_2(b##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(b##_1, vneg_f64, SLV_SAME), \
+    a##_2 = SLV_TURN_2(b##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(b##_3, vneg_f64, SLV_SAME);
+#define SLV_TURN_BACK(a, b) \
+    a##_0 = SLV_TURN_2(b##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(b##_1, SLV_SAME, vneg_f64), \
+    a##_2 = SLV_TURN_2(b##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(b##_3, SLV_SAME, vneg_f64);
 #define SLV_FNMA(a, b, c) \
     a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
     a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
@@ -200,6 +200,7 @@
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "words_undef.inl.h"

@@ -15,17 +15,17 @@
 #define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
 #define SLV_STORE(p, a) memcpy((p), a, sizeof a);
 #define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_TURN_ALL(a, re, im) \
+#define SLV_TURN_ALL(a, b, re, im) \
     { \
         sl_int i_; \
         for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
-            const double re_ = a[i_]; \
-            a[i_] = re a[i_ + 1]; \
+            const double re_ = b[i_]; \
+            a[i_] = re b[i_ + 1]; \
             a[i_ + 1] = im re_; \
         } \
     }
-#define SLV_TURN(a) SLV_TURN_ALL(a, -, +)
-#define SLV_TURN_BACK(a) SLV_TURN_ALL(a, +, -)
+#define SLV_TURN(a, b) SLV_TURN_ALL(a, b, -, +)
+#define SLV_TURN_BACK(a, b) SLV_TURN_ALL(a, b, +, -)
 #define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
 #define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
 #define SLV_AXPY(a, l, p) \
@@ -111,6 +111,7 @@
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
 #include "sweeps.inl.h"
+#include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "words_undef.inl.h"

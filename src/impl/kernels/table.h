@@ -30,7 +30,7 @@ typedef struct sli_kernels {
     sl_isa isa;
     sli_sweeps sweeps[3]; /* of sl_storage */
     sli_row_kernel row;
-    sli_front_kernels fronts[2]; /* in double, in float */
+    sli_front_kernels fronts[3]; /* in double, in float, of complex matrices */
     sli_products_kernel products;
     sli_interleave_kernel interleave;
     sli_separate_kernel separate;

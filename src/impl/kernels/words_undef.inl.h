@@ -2,6 +2,8 @@
 
 #undef SLV_SINGLE
 #define SLV_SINGLE 0
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 0
 
 #undef SLV_NAME
 #undef SLV_NAME_4

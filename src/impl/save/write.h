@@ -180,7 +180,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 /* Checks the arguments of a save and fills in everything but the checksums. */
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     const sl_factor *F = set->factor;
-    const sl_status status = F != NULL && F->storage == SL_STORAGE_COMPLEX ? SL_ERR_UNSUPPORTED
+    const sl_status status = F != NULL && sli_is_complex(F) ? SL_ERR_UNSUPPORTED
                                                                            : sli_save_check(set);
     sl_factor none;
     int fits = 1;

@@ -65,7 +65,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
  * the sweeps over L of complex matrices. */
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-    return F->n_nulls > 0 || F->checks || F->is_centered || F->storage == SL_STORAGE_COMPLEX
+    return F->n_nulls > 0 || F->checks || F->is_centered || sli_is_complex(F)
                ? 8
                : SLI_BLOCK_MOST;
 }
