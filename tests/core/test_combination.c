@@ -57,6 +57,8 @@ static void a_combination_of_many_terms_has_the_same_bits(void **state) {
     NOTHING_WRONG(check_factor(F, &view));
     SL_CHECK(sl_factor_refactor(F, &view, NULL)); /* the matrix of the sum into the same factor */
     assert_same_bits(F, plain);
+    y.values[0][0] = NAN; /* in the first block of several */
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor_combination(F, c, values, 7, NULL));
     sl_matrix_free(A);
     sl_factor_free(F);
     sl_factor_free(plain);

@@ -33,6 +33,7 @@ static const option_t options[] = {
     {"null_vector_count", READS_FACTOR},
     {"storage", READS_FACTOR},
     {"region", READS_REGION},
+    {"dimensions", READS_ANALYSIS},
     {"region_bytes", READS_REGION_BYTES},
 };
 
@@ -119,6 +120,9 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         break;
     case 21:
         opt.region = f->region;
+        break;
+    case 22:
+        opt.dimensions = 3;
         break;
     default:
         opt.region_bytes = (size_t)1 << 20;

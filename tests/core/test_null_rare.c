@@ -1,0 +1,206 @@
+/* test_null_rare.c: null pivots of rows of zeros in several trees, of weights that cancel, of sums of
+ * matrices, and where sizes overflow */
+#include "tests/lib/factored.h"
+
+/* Adds the edge (i, j) of a Laplacian. */
+static void add_edge(gen_list_t *t, sl_int i, sl_int j, double weight) {
+    gen_add(t, i, i, weight);
+    gen_add(t, j, j, weight);
+    gen_add(t, i > j ? i : j, i > j ? j : i, -weight);
+}
+
+/* Adds up what was added to the same entry. */
+static gen_matrix_t matrix_of(gen_list_t *t, int style) {
+    gen_matrix_t M = gen_store(t, gen_style(style), 1);
+    gen_list_free(t);
+    return M;
+}
+
+static sl_options skipping(void) {
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    return opt;
+}
+
+/* Two trees of three rows, each an edge and a row of zeros, with weights: the rows of zeros have the
+ * solution 0, the others zero mean. */
+static void rows_of_zeros_in_several_trees(void **state) {
+    (void)state;
+    const double mass[6] = {1, 3, 5, 1, 3, 5}, b[6] = {2, -2, 0, -4, 4, 0};
+    const double expected[6] = {1.5, -0.5, 0, -3, 1, 0};
+    gen_list_t t = gen_list(6);
+    for (sl_int k = 0; k < 6; k += 3) {
+        static const sl_int row[6] = {0, 1, 2, 1, 2, 2}, column[6] = {0, 0, 0, 1, 1, 2};
+        static const double value[6] = {1, -1, 0, 1, 0, 0};
+        for (int e = 0; e < 6; e++) {
+            gen_add(&t, k + row[e], k + column[e], value[e]);
+        }
+    }
+    gen_matrix_t M = matrix_of(&t, 0);
+    sl_options opt = skipping();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double x[6];
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, &stats));
+    assert_int_equal(stats.symbolic.components, 2);
+    opt.mass = mass;
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+    assert_int_equal(stats.factor.null, 4);
+    SL_CHECK(sl_factor_solve(F, x, 6, b, 6, 1, NULL));
+    for (int k = 0; k < 6; k++) {
+        assert_true(fabs(x[k] - expected[k]) <= 1e-14);
+    }
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* Weights m with z' m = 0 up to rounding do not determine a solution, also where z is small at the
+ * null pivot, so that the terms of z' m are much larger than m. */
+static void weights_that_cancel_against_the_null_vector(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 1, 1, 2, 2};
+    const double x[5] = {1e-6, -1e-6, 2e-6, -1e-3, 1.0}, z[3] = {1000, 1000, 1};
+    const sl_csc A = {3, 3, p, i, x};
+    double mass[3] = {1, -1, 1e-13};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    opt = skipping();
+    opt.null_vector = z;
+    opt.mass = mass;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.error.row, 2);
+    mass[2] = 1e-3;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.null, 1);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* Edges of weight 0 divide the rows into components, whichever triangles are stored; what is not
+ * read may have any value. */
+static void edges_of_weight_zero_in_both_triangles(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 2, 5, 7}, i[7] = {0, 1, 0, 1, 2, 1, 2};
+    const double x[7] = {1, -1, 77, 1, 0, 77, 0};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    opt.triangle = SL_TRIANGLE_LOWER;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    opt = skipping();
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.null, 2);
+    assert_int_equal(stats.factor.regular, 0);
+    const double b[3] = {1, -1, 0};
+    double y[3];
+    SL_CHECK(sl_factor_solve(F, y, 3, b, 3, 1, NULL));
+    assert_true(y[0] - y[1] == 1.0 && y[2] == 0.0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* The null vector of the sum, signs, is none that is assumed: the tolerance finds the null pivot, and
+ * products with both terms confirm it. */
+static void null_pivots_of_a_sum_are_confirmed(void **state) {
+    (void)state;
+    enum { N = 30 };
+    static sl_int p[N + 1], i[2 * N];
+    static double one[2 * N], two[2 * N], b[N], x[N];
+    sl_int t = 0;
+    for (sl_int k = 0; k < N; k++) { /* edges with entries +1 in place of -1 */
+        p[k] = t;
+        i[t] = k;
+        one[t] = k < N / 2 ? (k > 0) + 1.0 : k == N / 2;
+        two[t++] = k > N / 2 ? 1.0 + (k + 1 < N) : k == N / 2;
+        if (k + 1 < N) {
+            i[t] = k + 1;
+            one[t] = k < N / 2;
+            two[t++] = k >= N / 2;
+        }
+        b[k] = 1.0;
+    }
+    p[N] = t;
+    const sl_csc A = {N, N, p, i, one};
+    const double *values[2] = {one, two}, c[2] = {1, 1};
+    sl_options opt = skipping();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create_combination(&F, S, c, values, 2, &opt, &stats));
+    assert_int_equal(stats.factor.null, 1);
+    SL_CHECK(sl_factor_solve(F, x, N, b, N, 1, NULL));
+    for (sl_int k = 0; k < t; k++) {
+        one[k] += two[k];
+    }
+    BACKWARD_PASSES(&A, x, N, b, N, 1);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* Sums of magnitudes that overflow prove no null vector; the null pivot is an exact 0. */
+static void sizes_that_overflow(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double w = 1.7e308, x[3] = {w, -w, w}, b[2] = {w, -w};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_options opt = skipping();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double y[2];
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.null, 1);
+    SL_CHECK(sl_factor_solve(F, y, 2, b, 2, 1, NULL));
+    assert_true(y[0] - y[1] == 1.0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* Without an option for null pivots a Laplacian is refused even if its last pivot is rounding that
+ * came from heavier rows; the regular component before it is not the reason. */
+static void a_regular_component_is_not_suspected(void **state) {
+    (void)state;
+    int rounded = 0;
+    for (int k = 1; k < 100; k++) {
+        gen_list_t t = gen_list(5);
+        gen_add(&t, 0, 0, 1.0);
+        add_edge(&t, 0, 1, 2.0);
+        add_edge(&t, 2, 3, 1.0);
+        add_edge(&t, 3, 4, 0.003 * k);
+        gen_matrix_t M = matrix_of(&t, 0);
+        sl_options opt = options_none();
+        sl_symbolic *S;
+        sl_factor *F;
+        sl_stats stats;
+        opt.ordering = SL_ORDERING_NATURAL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, NULL, &stats));
+        assert_in_range(stats.error.row, 2, 4);
+        rounded += stats.error.value != 0.0;
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+    assert_true(rounded > 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_of_zeros_in_several_trees),
+        cmocka_unit_test(weights_that_cancel_against_the_null_vector),
+        cmocka_unit_test(edges_of_weight_zero_in_both_triangles),
+        cmocka_unit_test(null_pivots_of_a_sum_are_confirmed),
+        cmocka_unit_test(sizes_that_overflow),
+        cmocka_unit_test(a_regular_component_is_not_suspected),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
