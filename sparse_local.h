@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b3db16971e6d0c7e
+ * FNV-1a of the lines after this comment, without the license: 61b00622a73b4879
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,57 +33,57 @@
  *   2978 base.h   3257 status.h   3318 options.h   3376 alloc.h   3486 hash.h   3616 file_map.h
  *   3713 sort.h   3777 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3904 panel.h   3930 step.h   3981 pivot_rule.h   4055 front.h   4115 pairs.h
- *   4322 inverse_front.h   4394 table.h   4422 simd.h   4517 simd_scalar_single.h
- *   4563 simd_scalar.h   4687 simd_avx2_single.h   4741 simd_avx2.h   4955 simd_avx512_single.h
- *   5010 simd_avx512.h   5165 simd_neon_single.h   5207 simd_neon.h   5417 dispatch.h
+ *   3904 panel.h   3930 step.h   4005 pivot_rule.h   4079 front.h   4139 pairs.h
+ *   4346 inverse_front.h   4418 table.h   4446 simd.h   4541 simd_scalar_single.h
+ *   4587 simd_scalar.h   4711 simd_avx2_single.h   4765 simd_avx2.h   4979 simd_avx512_single.h
+ *   5034 simd_avx512.h   5189 simd_neon_single.h   5231 simd_neon.h   5441 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5497 csc.h   5611 csc_build.h   5745 csc64.h   5816 csc_triangle.h   5882 csc_products.h
- *   5999 permute.h   6065 sum.h   6147 output_file.h   6356 matrix_market.h
+ *   5521 csc.h   5635 csc_build.h   5769 csc64.h   5840 csc_triangle.h   5906 csc_products.h
+ *   6023 permute.h   6089 sum.h   6171 output_file.h   6380 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6802 graph.h   6951 coarsen.h   7263 labels.h   7459 subgraph.h   7654 heap.h   7714 bisect.h
- *   7941 separator.h   8203 mindeg.h   8386 dissect.h   8718 levelset.h   8838 geometric.h
- *   9013 cells.h   9193 septree.h   9253 metis.h   9402 metis_refined.h   9516 nd.h
- *   9709 compress.h   9830 quotient.h  10243 order.h
+ *   6826 graph.h   6975 coarsen.h   7287 labels.h   7483 subgraph.h   7678 heap.h   7738 bisect.h
+ *   7965 separator.h   8227 mindeg.h   8410 dissect.h   8742 levelset.h   8862 geometric.h
+ *   9037 cells.h   9217 septree.h   9277 metis.h   9426 metis_refined.h   9540 nd.h
+ *   9733 compress.h   9854 quotient.h  10267 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10525 symbolic_types.h  10562 etree.h  10635 counts.h  10692 supernodes.h  10914 structure.h
- *  11035 schedule.h  11315 symbolic.h  11725 reach.h
+ *  10549 symbolic_types.h  10586 etree.h  10659 counts.h  10716 supernodes.h  10938 structure.h
+ *  11059 schedule.h  11339 symbolic.h  11749 reach.h
  * (factor: the numbers of L and D)
- *  11996 factor_types.h  12387 storage.h  12527 pivot_search.h  12873 pivoted.h  12941 scatter.h
- *  13099 uplooking.h  13171 null_product.h  13375 null_dense.h  13452 null_basis.h
- *  13760 null_vectors.h  13902 multifrontal.h  14092 gather.h  14140 kept.h  14307 front_tasks.h
- *  14650 nullspace.h  14853 growth.h  14929 factor_setup.h  15237 factor.h  15447 leftlooking.h
- *  15587 factor_query.h  15722 combination.h
+ *  12020 factor_types.h  12411 storage.h  12551 pivot_search.h  12897 pivoted.h  12965 scatter.h
+ *  13123 uplooking.h  13195 null_product.h  13399 null_dense.h  13476 null_basis.h
+ *  13784 null_vectors.h  13926 multifrontal.h  14116 gather.h  14164 kept.h  14331 front_tasks.h
+ *  14674 nullspace.h  14877 growth.h  14953 factor_setup.h  15261 factor.h  15471 leftlooking.h
+ *  15611 factor_query.h  15746 combination.h
  * (solve: full and local solves)
- *  15783 region_types.h  15887 work.h  15987 query.h  16197 singular.h  16467 backward.h
- *  16497 sweep_tasks.h  16824 sweep.h  17036 compile.h  17229 plan.h  17336 local.h  17488 parts.h
- *  17777 refine.h  17956 refine_local.h  18172 rcond.h  18328 defects.h
+ *  15807 region_types.h  15911 work.h  16011 query.h  16221 singular.h  16491 backward.h
+ *  16521 sweep_tasks.h  16848 sweep.h  17060 compile.h  17253 plan.h  17360 local.h  17512 parts.h
+ *  17801 refine.h  17980 refine_local.h  18196 rcond.h  18352 defects.h
  * (inverse: entries of the inverse, regions)
- *  18406 traversal.h  18651 traversal_run.h  18834 row_sets.h  18861 unit_vectors.h
- *  19088 bilinear.h  19265 entries.h  19546 block.h  19786 reserve.h  19978 selected.h
- *  20188 selected_query.h  20290 region_choose.h  20514 region.h
+ *  18430 traversal.h  18675 traversal_run.h  18858 row_sets.h  18885 unit_vectors.h
+ *  19112 bilinear.h  19289 entries.h  19570 block.h  19810 reserve.h  20002 selected.h
+ *  20212 selected_query.h  20314 region_choose.h  20538 region.h
  * (change: a factor that follows changes of its matrix)
- *  20762 update.h  21112 rank.h  21441 edges.h  21595 choose.h  21789 pins_types.h
- *  21841 pins_nulls.h  22019 pins_capacitance.h  22246 pins.h  22415 pins_solve.h  22663 subset.h
- *  22770 restrict_analysis.h  23067 restrict_anew.h  23121 restrict_symbolic.h  23302 restrict.h
- *  23529 edit_match.h  23715 edit_place.h  23964 edit_separate.h  24277 edit_order.h
- *  24431 edit_graph.h  24526 edit_join.h  24802 edit.h
+ *  20786 update.h  21136 rank.h  21465 edges.h  21619 choose.h  21813 pins_types.h
+ *  21865 pins_nulls.h  22043 pins_capacitance.h  22270 pins.h  22439 pins_solve.h  22687 subset.h
+ *  22794 restrict_analysis.h  23091 restrict_anew.h  23145 restrict_symbolic.h  23326 restrict.h
+ *  23553 edit_match.h  23739 edit_place.h  23988 edit_separate.h  24301 edit_order.h
+ *  24455 edit_graph.h  24550 edit_join.h  24826 edit.h
  * (save: factors in files)
- *  24966 format.h  25262 decode.h  25410 check.h  25740 write.h  26045 load.h  26313 load_inverse.h
- *  26642 load_calls.h
+ *  24990 format.h  25286 decode.h  25434 check.h  25764 write.h  26069 load.h  26337 load_inverse.h
+ *  26666 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26841 batch_solve.h  27050 batch_factor.h  27251 batch_diagonal.h
+ *  26865 batch_solve.h  27074 batch_factor.h  27275 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27391 hermitian.h  27553 complex_rows.h
+ *  27415 hermitian.h  27577 complex_rows.h
  * (last: undefine every internal macro)
- *  27721 undef.h
+ *  27745 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27947 front.inl.h  27949 product.inl.h  28444 words_undef.inl.h  28526 multi_rhs.inl.h
- *  28545 multi_rhs_small.inl.h  28713 multi_rhs_tiles.inl.h  29010 sweeps.inl.h
- *  29012 unit_triangle.inl.h  29049 two_rhs.inl.h  29218 small_supernode.inl.h
- *  29377 single_rhs.inl.h  29621 kernel_set.inl.h  29623 complex_small.inl.h
- *  29787 complex_rows.inl.h  30027 inverse_front.inl.h  30312 row.inl.h  30342 change.inl.h
- *  30406 interleave.inl.h
+ *  27974 front.inl.h  27976 product.inl.h  28471 words_undef.inl.h  28553 multi_rhs.inl.h
+ *  28572 multi_rhs_small.inl.h  28740 multi_rhs_tiles.inl.h  29045 sweeps.inl.h
+ *  29047 unit_triangle.inl.h  29084 two_rhs.inl.h  29253 small_supernode.inl.h
+ *  29412 single_rhs.inl.h  29656 kernel_set.inl.h  29658 complex_small.inl.h
+ *  29822 complex_rows.inl.h  30062 inverse_front.inl.h  30347 row.inl.h  30377 change.inl.h
+ *  30441 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3977,6 +3977,30 @@ SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
 }
 
 #define SLI_PREFETCH_DISTANCE 4096
+
+#define SLI_STEPS_AHEAD 2
+#define SLI_ROWS_FETCHED 24
+#define SLI_FETCHED_BYTES 4000000
+
+SLI_INLINE int sli_steps_exceed_cache(sl_int count, const sli_step *s, sl_int nrhs) {
+  return count > SLI_STEPS_AHEAD &&
+       (size_t)s[count - 1].base * (size_t)nrhs * sizeof(double) > SLI_FETCHED_BYTES;
+}
+
+SLI_ALWAYS_INLINE void sli_step_prefetch(const sli_step *s, const sl_int *rows, const double *x,
+                     sl_int nrhs) {
+  const sl_int columns = sli_min(sli_step_columns(s), SLI_ROWS_FETCHED);
+  const sl_int below = sli_min(s->below, SLI_ROWS_FETCHED);
+  sl_int k, r;
+  for (k = 0; k < columns * nrhs; k += 8) {
+    SLI_PREFETCH(x + (ptrdiff_t)s->base * nrhs + k, 0);
+  }
+  for (r = 0; r < below; r++) {
+    for (k = 0; k < nrhs; k += 8) {
+      SLI_PREFETCH(x + (ptrdiff_t)rows[r] * nrhs + k, 0);
+    }
+  }
+}
 
 /* src/impl/kernels/pivot_rule.h: replacement of null pivots and of pivots of the wrong sign */
 
@@ -27771,6 +27795,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_CASE
 #undef SLI_CASES
 #undef SLI_PREFETCH_DISTANCE
+#undef SLI_STEPS_AHEAD
+#undef SLI_ROWS_FETCHED
+#undef SLI_FETCHED_BYTES
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_IS_IN
@@ -28779,6 +28806,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                        double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
+  const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
   SLV_WIDE(v, SLI_TILE)
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -28786,6 +28814,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
     sl_int group, j;
+    if (is_fetched && count > SLI_STEPS_AHEAD) {
+      sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
+    }
 #if SLW_ROWS == 8 || defined(SLW_HALF)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {
@@ -28847,6 +28878,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                         double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
+  const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
   SLV_WIDE(v, SLI_TILE)
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -28859,6 +28891,9 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
     SLW_DECLARE(b)
     SLW_DECLARE(c)
     rows_end -= s->below;
+    if (is_fetched && count > SLI_STEPS_AHEAD) {
+      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+    }
 #if SLW_ROWS == 8 || defined(SLW_HALF)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {

@@ -124,6 +124,31 @@ static void regions_take_wide_blocks(void **state) {
     }
 }
 
+/* Vectors beyond the caches, whose rows are prefetched: full solves and plans. */
+static void large_vectors_have_the_same_bits(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        for (int is_float = 0; is_float < 2; is_float++) {
+            sl_options opt = options_none();
+            opt.isa = isas.isa[k];
+            opt.storage = is_float ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
+            factored_t y = factored_make(GEN_GRID2, 17000, 0, 0, &opt);
+            const sl_int n = y.M.view.n_cols;
+            sl_int *set = test_ints((size_t)n);
+            sl_plan *P = NULL;
+            assert_true(n * 32.0 * sizeof(double) > 4.2e6);
+            gen_set(set, n - 50, n, 8);
+            SL_CHECK(sl_plan_create(&P, y.S, set, n - 50, set, 100, NULL, NULL));
+            check_query(NULL, y.F, n, n, 32, 6);
+            check_query(P, y.F, n - 50, 100, 33, 7);
+            sl_plan_free(P);
+            free(set);
+            factored_free(&y);
+        }
+    }
+}
+
 /* X may be B, whose blocks are read before they are written. */
 static void solves_in_place(void **state) {
     (void)state;
@@ -143,6 +168,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_are_those_of_blocks_of_eight),
         cmocka_unit_test(regions_take_wide_blocks),
+        cmocka_unit_test(large_vectors_have_the_same_bits),
         cmocka_unit_test(solves_in_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -51,6 +51,9 @@
 #undef SLI_CASE
 #undef SLI_CASES
 #undef SLI_PREFETCH_DISTANCE
+#undef SLI_STEPS_AHEAD
+#undef SLI_ROWS_FETCHED
+#undef SLI_FETCHED_BYTES
 #undef SLI_EACH4
 #undef SLI_EACH8
 #undef SLI_IS_IN

@@ -74,6 +74,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                                              double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
+    const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
     SLV_WIDE(v, SLI_TILE)
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -81,6 +82,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
         double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
         sl_int group, j;
+        if (is_fetched && count > SLI_STEPS_AHEAD) {
+            sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
+        }
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
@@ -144,6 +148,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                                               double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
+    const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
     SLV_WIDE(v, SLI_TILE)
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -156,6 +161,9 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
         SLW_DECLARE(b)
         SLW_DECLARE(c)
         rows_end -= s->below;
+        if (is_fetched && count > SLI_STEPS_AHEAD) {
+            sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+        }
 #if SLW_ROWS == 8 || defined(SLW_HALF)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
