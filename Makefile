@@ -357,7 +357,7 @@ sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-b
 	@+$(SUB_MAKE) run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=build/sanitize/sparse-local
 
-THREADED = test_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
+THREADED = test_threads test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
 	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \

@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 61b00622a73b4879
+ * FNV-1a of the lines after this comment, without the license: d0a840bd4b73e171
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,79 +11,79 @@
  *    535 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    704 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    876 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1006 factor.h     the numerical factorization P A P' = L D L'
- *   1287 solve.h      full solves, and the workspace of all solves
- *   1400 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1494 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1607 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1720 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1856 batch.h      many independent solves by one call, distributed over threads
- *   1906 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2084 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2204 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2308 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2447 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2565 change.h     a factor that follows small changes of its matrix
- *   2652 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2744 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2877 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2926 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *   1011 factor.h     the numerical factorization P A P' = L D L'
+ *   1292 solve.h      full solves, and the workspace of all solves
+ *   1405 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1499 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1612 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1725 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1861 batch.h      many independent solves by one call, distributed over threads
+ *   1911 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2089 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2209 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2313 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2452 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2570 change.h     a factor that follows small changes of its matrix
+ *   2657 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2749 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2882 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2931 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2978 base.h   3257 status.h   3318 options.h   3376 alloc.h   3486 hash.h   3616 file_map.h
- *   3713 sort.h   3777 parallel.h
+ *   2983 base.h   3277 status.h   3338 options.h   3396 alloc.h   3506 hash.h   3636 file_map.h
+ *   3733 sort.h   3797 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3904 panel.h   3930 step.h   4005 pivot_rule.h   4079 front.h   4139 pairs.h
- *   4346 inverse_front.h   4418 table.h   4446 simd.h   4541 simd_scalar_single.h
- *   4587 simd_scalar.h   4711 simd_avx2_single.h   4765 simd_avx2.h   4979 simd_avx512_single.h
- *   5034 simd_avx512.h   5189 simd_neon_single.h   5231 simd_neon.h   5441 dispatch.h
+ *   3988 panel.h   4014 step.h   4089 pivot_rule.h   4163 front.h   4223 pairs.h
+ *   4430 inverse_front.h   4502 table.h   4530 simd.h   4625 simd_scalar_single.h
+ *   4671 simd_scalar.h   4795 simd_avx2_single.h   4849 simd_avx2.h   5063 simd_avx512_single.h
+ *   5118 simd_avx512.h   5273 simd_neon_single.h   5315 simd_neon.h   5525 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5521 csc.h   5635 csc_build.h   5769 csc64.h   5840 csc_triangle.h   5906 csc_products.h
- *   6023 permute.h   6089 sum.h   6171 output_file.h   6380 matrix_market.h
+ *   5605 csc.h   5719 csc_build.h   5853 csc64.h   5924 csc_triangle.h   5990 csc_products.h
+ *   6107 permute.h   6173 sum.h   6255 output_file.h   6464 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6826 graph.h   6975 coarsen.h   7287 labels.h   7483 subgraph.h   7678 heap.h   7738 bisect.h
- *   7965 separator.h   8227 mindeg.h   8410 dissect.h   8742 levelset.h   8862 geometric.h
- *   9037 cells.h   9217 septree.h   9277 metis.h   9426 metis_refined.h   9540 nd.h
- *   9733 compress.h   9854 quotient.h  10267 order.h
+ *   6910 graph.h   7059 coarsen.h   7371 labels.h   7592 subgraph.h   7787 heap.h   7847 bisect.h
+ *   8074 separator.h   8336 mindeg.h   8519 dissect.h   8886 levelset.h   8992 geometric.h
+ *   9167 cells.h   9347 septree.h   9423 metis.h   9572 metis_refined.h   9686 nd.h
+ *   9885 compress.h  10006 quotient.h  10419 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10549 symbolic_types.h  10586 etree.h  10659 counts.h  10716 supernodes.h  10938 structure.h
- *  11059 schedule.h  11339 symbolic.h  11749 reach.h
+ *  10712 symbolic_types.h  10749 etree.h  10822 counts.h  10879 supernodes.h  11101 structure.h
+ *  11222 schedule.h  11502 symbolic.h  11932 reach.h
  * (factor: the numbers of L and D)
- *  12020 factor_types.h  12411 storage.h  12551 pivot_search.h  12897 pivoted.h  12965 scatter.h
- *  13123 uplooking.h  13195 null_product.h  13399 null_dense.h  13476 null_basis.h
- *  13784 null_vectors.h  13926 multifrontal.h  14116 gather.h  14164 kept.h  14331 front_tasks.h
- *  14674 nullspace.h  14877 growth.h  14953 factor_setup.h  15261 factor.h  15471 leftlooking.h
- *  15611 factor_query.h  15746 combination.h
+ *  12203 factor_types.h  12594 storage.h  12734 pivot_search.h  13080 pivoted.h  13148 scatter.h
+ *  13306 uplooking.h  13378 null_product.h  13582 null_dense.h  13659 null_basis.h
+ *  13967 null_vectors.h  14109 multifrontal.h  14299 gather.h  14347 kept.h  14514 front_tasks.h
+ *  14857 nullspace.h  15060 growth.h  15136 factor_setup.h  15444 factor.h  15654 leftlooking.h
+ *  15794 factor_query.h  15929 combination.h
  * (solve: full and local solves)
- *  15807 region_types.h  15911 work.h  16011 query.h  16221 singular.h  16491 backward.h
- *  16521 sweep_tasks.h  16848 sweep.h  17060 compile.h  17253 plan.h  17360 local.h  17512 parts.h
- *  17801 refine.h  17980 refine_local.h  18196 rcond.h  18352 defects.h
+ *  15990 region_types.h  16094 work.h  16194 query.h  16404 singular.h  16674 backward.h
+ *  16704 sweep_tasks.h  17038 sweep.h  17249 compile.h  17442 plan.h  17549 local.h  17701 parts.h
+ *  17990 refine.h  18169 refine_local.h  18385 rcond.h  18541 defects.h
  * (inverse: entries of the inverse, regions)
- *  18430 traversal.h  18675 traversal_run.h  18858 row_sets.h  18885 unit_vectors.h
- *  19112 bilinear.h  19289 entries.h  19570 block.h  19810 reserve.h  20002 selected.h
- *  20212 selected_query.h  20314 region_choose.h  20538 region.h
+ *  18619 traversal.h  18864 traversal_run.h  19047 row_sets.h  19074 unit_vectors.h
+ *  19301 bilinear.h  19478 entries.h  19759 block.h  19999 reserve.h  20191 selected.h
+ *  20401 selected_query.h  20503 region_choose.h  20727 region.h
  * (change: a factor that follows changes of its matrix)
- *  20786 update.h  21136 rank.h  21465 edges.h  21619 choose.h  21813 pins_types.h
- *  21865 pins_nulls.h  22043 pins_capacitance.h  22270 pins.h  22439 pins_solve.h  22687 subset.h
- *  22794 restrict_analysis.h  23091 restrict_anew.h  23145 restrict_symbolic.h  23326 restrict.h
- *  23553 edit_match.h  23739 edit_place.h  23988 edit_separate.h  24301 edit_order.h
- *  24455 edit_graph.h  24550 edit_join.h  24826 edit.h
+ *  20975 update.h  21325 rank.h  21654 edges.h  21808 choose.h  22002 pins_types.h
+ *  22054 pins_nulls.h  22232 pins_capacitance.h  22459 pins.h  22628 pins_solve.h  22876 subset.h
+ *  22983 restrict_analysis.h  23280 restrict_anew.h  23334 restrict_symbolic.h  23515 restrict.h
+ *  23742 edit_match.h  23928 edit_place.h  24177 edit_separate.h  24490 edit_order.h
+ *  24645 edit_graph.h  24740 edit_join.h  25016 edit.h
  * (save: factors in files)
- *  24990 format.h  25286 decode.h  25434 check.h  25764 write.h  26069 load.h  26337 load_inverse.h
- *  26666 load_calls.h
+ *  25180 format.h  25476 decode.h  25624 check.h  25954 write.h  26259 load.h  26527 load_inverse.h
+ *  26856 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  26865 batch_solve.h  27074 batch_factor.h  27275 batch_diagonal.h
+ *  27055 batch_solve.h  27264 batch_factor.h  27465 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27415 hermitian.h  27577 complex_rows.h
+ *  27605 hermitian.h  27767 complex_rows.h
  * (last: undefine every internal macro)
- *  27745 undef.h
+ *  27935 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  27974 front.inl.h  27976 product.inl.h  28471 words_undef.inl.h  28553 multi_rhs.inl.h
- *  28572 multi_rhs_small.inl.h  28740 multi_rhs_tiles.inl.h  29045 sweeps.inl.h
- *  29047 unit_triangle.inl.h  29084 two_rhs.inl.h  29253 small_supernode.inl.h
- *  29412 single_rhs.inl.h  29656 kernel_set.inl.h  29658 complex_small.inl.h
- *  29822 complex_rows.inl.h  30062 inverse_front.inl.h  30347 row.inl.h  30377 change.inl.h
- *  30441 interleave.inl.h
+ *  28169 front.inl.h  28171 product.inl.h  28666 words_undef.inl.h  28748 multi_rhs.inl.h
+ *  28767 multi_rhs_small.inl.h  28935 multi_rhs_tiles.inl.h  29240 sweeps.inl.h
+ *  29242 unit_triangle.inl.h  29279 two_rhs.inl.h  29448 small_supernode.inl.h
+ *  29607 single_rhs.inl.h  29851 kernel_set.inl.h  29853 complex_small.inl.h
+ *  30017 complex_rows.inl.h  30257 inverse_front.inl.h  30542 row.inl.h  30572 change.inl.h
+ *  30636 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -425,7 +425,7 @@ typedef struct sl_allocator {
  *  | call                                       | fields that it reads                     |
  *  |--------------------------------------------|------------------------------------------|
  *  | every call with an sl_options argument     | size, allocator                          |
- *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
+ *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
  *  |   sl_batch_factor                          | null_vector .. storage                   |
@@ -556,7 +556,7 @@ typedef struct sl_symbolic_info {
     sl_int components;             /* roots of the elimination tree */
     sl_int pairs;                  /* 2x2 pivots, of sl_symbolic_create_pivoted; else 0 */
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
-    double seconds_order;          /* processor seconds of the ordering */
+    double seconds_order;          /* processor seconds of the ordering, of all threads */
     double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
     double seconds_tree;           /* elimination tree, column counts and supernodes */
     double seconds_structure;      /* rows of L and the map of A into L */
@@ -900,10 +900,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, ordering, relaxation, triangle, perm, metis_options, coordinates,
- *                dimensions, block_size, purpose; may be NULL. coordinates and purpose are used by
- *                SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
- *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
+ *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates and
+ *                purpose are used by SL_ORDERING_ND only, and block_size by all but
+ *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses invalid ones.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), an unknown ordering, purpose, relaxation or triangle,
@@ -912,8 +912,13 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           SL_ERR_NOT_FINITE: a coordinate (error.row is the first row of its block);
  *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
- *  Threads  any number of calls at once, with the same result for the same pattern however it is
+ *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
+ *           scratch of about the size of the pattern, of which it writes little.
+ *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
+ *           SL_ORDERING_METIS_REFINED, with the same result for any number of them. The call is one
+ *           call of the pool; any of its threads may call the allocator, one at a time. Small
+ *           systems use fewer threads.
+ *           Any number of calls at once, with the same result for the same pattern however it is
  *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
  *           draws from rand() of the C library and prints a line if it runs out of memory. During
  *           SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process; during
@@ -3190,6 +3195,21 @@ SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
 }
 #endif
 
+SLI_INLINE sl_int sli_shared_read(const sl_int *a) {
+#if defined(SLI_GNU)
+  return __atomic_load_n(a, __ATOMIC_RELAXED);
+#else
+  return *(const volatile sl_int *)a;
+#endif
+}
+SLI_INLINE void sli_shared_write(sl_int *a, sl_int value) {
+#if defined(SLI_GNU)
+  __atomic_store_n(a, value, __ATOMIC_RELAXED);
+#else
+  *(volatile sl_int *)a = value;
+#endif
+}
+
 #if defined(SL_VERIFY)
 #define SLI_ASSERT(condition) ((condition) ? (void)0 : abort())
 #else
@@ -3774,7 +3794,7 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
   }
 }
 
-/* src/impl/base/parallel.h: runs work items on the caller's threads; a lock and a pause for those that share */
+/* src/impl/base/parallel.h: runs work items on the caller's threads; a team of workers that share loops */
 
 SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #if !defined(_OPENMP)
@@ -3850,48 +3870,112 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
   }
 }
 
-#define SLI_PHASES_MAX 3
-
-typedef struct sli_phases {
-  void (*run)(void *data, sl_int phase, sl_int item, sl_int worker);
+typedef struct sli_team {
+  sl_int workers;
+  void (*lead)(struct sli_team *team, void *data);
+  void *lead_data;
+  sli_atomic lock;
+  sli_atomic changes;
+  sl_int begun;
+  int is_over;
+  void (*run)(void *data, sl_int item, sl_int worker);
   void *data;
-  sl_int count[SLI_PHASES_MAX];
-  sli_atomic lock, changes;
-  sl_int phase, next, done;
-} sli_phases;
+  sl_int *list;
+  sl_int next, end, done;
+} sli_team;
 
-static void sli_phases_body(void *data, sl_int worker) {
-  sli_phases *p = (sli_phases *)data;
+static void sli_team_draw(sli_team *team, sl_int worker) {
+  sl_int item, done = 0;
   for (;;) {
-    sl_int phase, item = -1;
+    void (*run)(void *data, sl_int item, sl_int worker);
+    void *data;
     sli_atomic seen;
-    int turn;
-    sli_lock(&p->lock);
-    if (p->phase < SLI_PHASES_MAX && p->done == p->count[p->phase]) {
-      p->phase++;
-      p->next = p->done = 0;
+    int is_over, turn;
+    sli_lock(&team->lock);
+    if (done > 0) {
+      team->done++;
+      sli_atomic_write(&team->changes, team->changes + 1);
     }
-    phase = p->phase;
-    if (phase < SLI_PHASES_MAX && p->next < p->count[phase]) {
-      item = p->next++;
-    }
-    seen = p->changes;
-    sli_unlock(&p->lock);
-    if (phase == SLI_PHASES_MAX || p->count[phase] == 0) {
+    done = team->next < team->end;
+    item = !done ? 0 : team->list != NULL ? team->list[team->next] : team->next;
+    team->next += done;
+    is_over = worker == 0 ? team->done == team->end : team->is_over;
+    run = team->run;
+    data = team->data;
+    seen = team->changes;
+    sli_unlock(&team->lock);
+    if (done) {
+      run(data, item, worker);
+    } else if (is_over) {
       return;
-    }
-    if (item >= 0) {
-      p->run(p->data, phase, item, worker);
-      sli_lock(&p->lock);
-      p->done++;
-      sli_atomic_write(&p->changes, p->changes + 1);
-      sli_unlock(&p->lock);
-      continue;
-    }
-    for (turn = 0; sli_atomic_read(&p->changes) == seen; turn++) {
-      sli_pause(turn);
+    } else {
+      for (turn = 0; sli_atomic_read(&team->changes) == seen; turn++) {
+        sli_pause(turn);
+      }
     }
   }
+}
+
+static void sli_team_loop(sli_team *team, sl_int count, sl_int *list,
+              void (*run)(void *data, sl_int item, sl_int worker), void *data) {
+  if (team->workers == 1) {
+    sl_int k;
+    team->list = list;
+    team->end = count;
+    for (k = 0; k < team->end; k++) {
+      run(data, list != NULL ? list[k] : k, 0);
+    }
+    return;
+  }
+  sli_lock(&team->lock);
+  team->run = run;
+  team->data = data;
+  team->list = list;
+  team->next = team->done = 0;
+  team->end = count;
+  sli_atomic_write(&team->changes, team->changes + 1);
+  sli_unlock(&team->lock);
+  sli_team_draw(team, 0);
+}
+
+static void sli_team_add(sli_team *team, sl_int item) {
+  sli_lock(&team->lock);
+  team->list[team->end++] = item;
+  sli_atomic_write(&team->changes, team->changes + 1);
+  sli_unlock(&team->lock);
+}
+
+static void sli_team_body(void *data, sl_int k) {
+  sli_team *team = (sli_team *)data;
+  sl_int worker;
+  (void)k;
+  sli_lock(&team->lock);
+  worker = team->begun++;
+  sli_unlock(&team->lock);
+  if (worker > 0) {
+    sli_team_draw(team, worker);
+    return;
+  }
+  team->lead(team, team->lead_data);
+  sli_lock(&team->lock);
+  team->is_over = 1;
+  sli_atomic_write(&team->changes, team->changes + 1);
+  sli_unlock(&team->lock);
+}
+
+SLI_INLINE sli_team sli_team_of(sl_int workers) {
+  sli_team team;
+  memset(&team, 0, sizeof team);
+  team.workers = workers;
+  return team;
+}
+
+static void sli_team_run(const sl_threads *t, sl_int workers,
+             void (*lead)(sli_team *team, void *data), void *data) {
+  sli_team team = sli_team_of(workers);
+  team.lead = lead;
+  team.lead_data = data;
+  sli_parallel(t, workers, sli_team_body, &team);
 }
 
 static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
@@ -7389,70 +7473,96 @@ static void sli_label_tree_number(sli_label_tree *t, sl_int n, sl_int *label) {
   }
 }
 
-static void sli_label_tree_breadth_first(const sli_label_tree *t, sl_int *order) {
-  sl_int head, tail = 0;
-  order[tail++] = t->root;
-  for (head = 0; head < tail; head++) {
-    if (!sli_label_tree_is_leaf(t, order[head])) {
-      order[tail++] = t->left[order[head]];
-      order[tail++] = t->right[order[head]];
-    }
+SLI_INLINE sl_int sli_label_tree_below(const sli_label_tree *t, sl_int top, sl_int node) {
+  if (!sli_label_tree_is_leaf(t, node)) {
+    return t->left[node];
   }
+  while (node != top && node == t->right[t->parent[node]]) {
+    node = t->parent[node];
+  }
+  return node == top ? -1 : t->right[t->parent[node]];
 }
+
+#define SLI_BORDERS_FIRST 1024
+#define SLI_BORDERS_RANGE 256
+#define SLI_BORDERS_CHUNKS 21
+
+typedef struct sli_border {
+  sl_int vertex, next;
+} sli_border;
+
+typedef struct sli_border_pool {
+  sli_border *chunk[SLI_BORDERS_CHUNKS];
+  sl_int count;
+  int failed;
+  sli_atomic lock;
+  const sl_allocator *a;
+} sli_border_pool;
 
 typedef struct sli_borders {
   sl_int *head;
-  sl_int count, room;
-  sl_int *vertex, *next;
-  void *block;
-  int failed;
-  const sl_allocator *a;
+  sli_border_pool *pool;
+  sl_int at, end;
 } sli_borders;
 
-SLI_INLINE void sli_borders_init(sli_borders *l, const sl_allocator *a) {
-  l->count = l->room = 0;
-  l->vertex = l->next = NULL;
-  l->block = NULL;
-  l->failed = 0;
-  l->a = a;
+SLI_INLINE void sli_border_pool_free(sli_border_pool *p) {
+  int k;
+  for (k = 0; k < SLI_BORDERS_CHUNKS; k++) {
+    sli_free(p->a, p->chunk[k]);
+  }
 }
 
-static void sli_borders_grow(sli_borders *l) {
-  sli_block b = {NULL, 0, 0};
-  sl_int *vertex = NULL, *next = NULL;
-  const sl_int room =
-    l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX; /* untested: 2^30 */
-  int pass;
-  for (pass = 0; pass < 2 && !l->failed; pass++) {
-    vertex = SLI_TAKE(&b, sl_int, room);
-    next = SLI_TAKE(&b, sl_int, room);
-    l->failed = pass == 0 &&
-          (room == l->room || /* untested: 2^31 */
-           sli_block_alloc(&b, l->a) != SL_OK);
+SLI_INLINE int sli_border_chunk(sl_int entry, sl_int *first) {
+  const uint32_t units = (uint32_t)entry / SLI_BORDERS_FIRST + 1;
+#if defined(SLI_GNU)
+  const int chunk = 31 - __builtin_clz(units);
+#else
+  int chunk = 0;
+  while (units >> (chunk + 1) != 0) {
+    chunk++;
   }
-  if (!l->failed) {
-    if (l->count > 0) {
-      memcpy(vertex, l->vertex, (size_t)l->count * sizeof(sl_int));
-      memcpy(next, l->next, (size_t)l->count * sizeof(sl_int));
-    }
-    sli_free(l->a, l->block);
-    l->vertex = vertex;
-    l->next = next;
-    l->room = room;
-    l->block = b.base;
+#endif
+  *first = (sl_int)(((uint32_t)1 << chunk) - 1) * SLI_BORDERS_FIRST;
+  return chunk;
+}
+
+SLI_INLINE sli_border *sli_border_at(const sli_border_pool *p, sl_int entry) {
+  sl_int first;
+  const int chunk = sli_border_chunk(entry, &first);
+  return p->chunk[chunk] + (entry - first);
+}
+
+static int sli_borders_take(sli_borders *l) {
+  sli_border_pool *p = l->pool;
+  sl_int first;
+  int chunk;
+  sli_lock(&p->lock);
+  chunk = p->failed ? 0 : sli_border_chunk(p->count, &first);
+  if (!p->failed && chunk == SLI_BORDERS_CHUNKS) { /* untested: 2^31 */
+    p->failed = 1;
   }
+  if (!p->failed && p->chunk[chunk] == NULL) {
+    p->chunk[chunk] = (sli_border *)sli_alloc(p->a, ((size_t)SLI_BORDERS_FIRST << chunk) *
+                              sizeof(sli_border));
+    p->failed = p->chunk[chunk] == NULL;
+  }
+  if (!p->failed) {
+    l->at = p->count;
+    l->end = p->count += SLI_BORDERS_RANGE;
+  }
+  sli_unlock(&p->lock);
+  return l->at < l->end;
 }
 
 static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
-  if (l->count == l->room) {
-    sli_borders_grow(l);
-    if (l->failed) {
-      return;
-    }
+  sli_border *b;
+  if (l->at == l->end && !sli_borders_take(l)) {
+    return;
   }
-  l->vertex[l->count] = v;
-  l->next[l->count] = l->head[node];
-  l->head[node] = l->count++;
+  b = sli_border_at(l->pool, l->at);
+  b->vertex = v;
+  b->next = l->head[node];
+  l->head[node] = l->at++;
 }
 
 static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
@@ -7462,7 +7572,6 @@ static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_
   for (k = 0; k < t->count; k++) {
     l->head[k] = -1;
   }
-  l->count = 0;
   for (v = 0; v < g->n; v++) {
     const sl_int own = label[v];
     sl_int last = own, listed = -1;
@@ -7537,13 +7646,13 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_
     sub->begin[k] = count;
     sub->weight[k] = sli_level_weight(g, v);
     sub->external[k] = 0;
-    sub->side[k] = sub->home[k] = label[v] > node;
+    sub->side[k] = sub->home[k] = sli_shared_read(label + v) > node;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
       const sl_int u = g->to[e];
       if (sub->local[u] != -1) {
         sub->to[count] = sub->local[u];
         sub->edge[count++] = sli_level_edge(g, e);
-      } else if (sli_label_tree_is_below(t, node, label[u])) {
+      } else if (sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
         sub->external[k] += sli_level_edge(g, e);
       }
     }
@@ -7573,16 +7682,15 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
   sl_off e;
   int layer;
   sub->n = 0;
-  for (entry = l->head[node]; entry != -1; entry = l->next[entry]) {
-    const sl_int v = l->vertex[entry];
-    const int side = label[v] > node;
+  for (entry = l->head[node]; entry != -1; entry = sli_border_at(l->pool, entry)->next) {
+    const sl_int v = sli_border_at(l->pool, entry)->vertex, own = sli_shared_read(label + v);
+    const int side = own > node;
     int crosses = 0;
-    if (sub->local[v] != -1 || label[v] == node ||
-      !sli_label_tree_is_below(t, node, label[v])) {
+    if (sub->local[v] != -1 || own == node || !sli_label_tree_is_below(t, node, own)) {
       continue;
     }
     for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
-      const sl_int other = label[g->to[e]];
+      const sl_int other = sli_shared_read(label + g->to[e]);
       crosses =
         other != node && sli_label_tree_is_below(t, node, other) && (other > node) != side;
     }
@@ -7595,7 +7703,8 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
     for (; head < end; head++) {
       for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
         const sl_int u = g->to[e];
-        if (sub->local[u] == -1 && sli_label_tree_is_below(t, node, label[u])) {
+        if (sub->local[u] == -1 &&
+          sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
           sli_subgraph_add(sub, u, layer);
         }
       }
@@ -7608,7 +7717,7 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
 
 static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
                  sli_label_tree *t, sl_int *label, sli_borders *l) {
-  const sl_int from = label[v], weight = sli_level_weight(g, v);
+  const sl_int from = sli_shared_read(label + v), weight = sli_level_weight(g, v);
   sl_int up, last = to;
   sl_off e;
   for (up = from; up != node; up = t->parent[up]) {
@@ -7617,12 +7726,12 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
   for (up = to; up != node; up = t->parent[up]) {
     t->weight[up] += weight;
   }
-  label[v] = to;
+  sli_shared_write(label + v, to);
   if (to == node) {
     return;
   }
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-    const sl_int other = label[g->to[e]];
+    const sl_int other = sli_shared_read(label + g->to[e]);
     if (other != to && other != last && other != node && (other > node) == (to > node) &&
       sli_label_tree_is_below(t, node, other)) {
       const sl_int border = sli_label_tree_lca(t, to, other);
@@ -7637,7 +7746,7 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tre
   sl_int best = -1, most = 0;
   sl_off e;
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-    const sl_int other = label[g->to[e]];
+    const sl_int other = sli_shared_read(label + g->to[e]);
     if (other != node && sli_label_tree_is_below(t, node, other) && (other > node) == side &&
       sli_level_edge(g, e) > most) {
       most = sli_level_edge(g, e);
@@ -8421,39 +8530,56 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 #define SLI_DISSECT_BAND_FROM 1000
 #define SLI_SEPARATOR_BALANCE 70
 
+#define SLI_DISSECT_TASKS 8
+
+typedef struct sli_dissect_worker {
+  sli_borders borders;
+  sli_subgraph subgraph;
+  sli_mindeg mindeg;
+  sl_off *next;
+} sli_dissect_worker;
+
 typedef struct sli_dissection {
   const sl_allocator *a;
+  sli_team *team;
   sli_level levels[SLI_LEVELS_MAX];
   int n_levels, level;
   sl_int total;
   sl_int leaf_size;
   int band_growth;
   sli_label_tree tree;
-  sli_borders borders;
-  sli_subgraph subgraph;
-  sli_mindeg mindeg;
+  sli_border_pool pool;
+  sli_dissect_worker *workers;
   sl_int *label, *other;
   sl_int *begin;
   sl_int *order;
   sl_int *nodes;
-  sl_off *next;
+  void (*bisect)(sli_subgraph *sub, sl_int nodes);
+  void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
 } sli_dissection;
 
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
   const sl_int room = n + 1;
+  sl_int k, *head;
   d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
   sli_label_tree_layout(&d->tree, b, room);
-  d->borders.head = SLI_TAKE(b, sl_int, room);
-  sli_subgraph_layout(&d->subgraph, b, n, edges);
+  head = SLI_TAKE(b, sl_int, room);
   d->label = SLI_TAKE(b, sl_int, n);
   d->other = SLI_TAKE(b, sl_int, n);
   d->begin = SLI_TAKE(b, sl_int, (size_t)room + 1);
   d->order = SLI_TAKE(b, sl_int, n);
   d->nodes = SLI_TAKE(b, sl_int, room);
-  d->next = SLI_TAKE(b, sl_off, n);
-  d->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
-  d->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
-  d->mindeg.rows = SLI_TAKE(b, uint64_t, d->mindeg.room);
+  d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
+  for (k = 0; k < d->team->workers; k++) {
+    sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
+    sli_subgraph_layout(&w->subgraph, b, n, edges);
+    w->next = SLI_TAKE(b, sl_off, n);
+    w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
+    w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
+    w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
+    w->borders.head = head;
+    w->borders.pool = &d->pool;
+  }
 }
 
 static void sli_dissect_sort(sli_dissection *d) {
@@ -8484,67 +8610,92 @@ static void sli_dissect_start(sli_dissection *d) {
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
-static void sli_dissect_assign(sli_dissection *d, sl_int node) {
-  const sli_subgraph *sub = &d->subgraph;
-  sl_int k, weight[2] = {0, 0};
-  sli_label_tree_split(&d->tree, node);
-  for (k = 0; k < sub->n; k++) {
-    const int side = sub->side[k];
-    d->label[sub->vertex[k]] = side == 0 ? d->tree.left[node] : d->tree.right[node];
-    weight[side] += sub->weight[k];
-  }
-  d->tree.weight[d->tree.left[node]] = weight[0];
-  d->tree.weight[d->tree.right[node]] = weight[1];
+static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
+  const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN;
+  sli_subgraph_bisect(sub,
+            few           ? SLI_DISSECT_TRIES_FIRST
+            : sub->n > 50 ? SLI_DISSECT_TRIES
+                    : 1,
+            2);
 }
 
-static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
-  const sli_level *g = &d->levels[d->level];
+static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
+  sli_dissection *d = (sli_dissection *)data;
+  sli_subgraph *sub = &d->workers[worker].subgraph;
+  const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
+  sl_int k, weight[2] = {0, 0};
+  sli_subgraph_leaf(sub, &d->levels[d->level], &d->tree, node, d->label,
+            d->order + d->begin[node], d->begin[node + 1] - d->begin[node]);
+  d->bisect(sub, leaf[0]);
+  for (k = 0; k < sub->n; k++) {
+    const int side = sub->side[k];
+    sli_shared_write(d->label + sub->vertex[k], leaf[side]);
+    weight[side] += sub->weight[k];
+  }
+  d->tree.weight[leaf[0]] = weight[0];
+  d->tree.weight[leaf[1]] = weight[1];
+  sli_subgraph_clear(sub);
+}
+
+static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
+                void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
   const sl_int nodes = d->tree.count;
   sl_int node, split = 0;
   sli_dissect_sort(d);
   for (node = 0; node < nodes; node++) {
-    const sl_int count = d->begin[node + 1] - d->begin[node];
-    if (sli_label_tree_is_leaf(&d->tree, node) && count > most &&
+    if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
       d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
-      const int few =
-        d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_BISECT_MIN;
-      sli_subgraph_leaf(&d->subgraph, g, &d->tree, node, d->label, d->order + d->begin[node],
-                count);
-      sli_subgraph_bisect(&d->subgraph,
-                few          ? SLI_DISSECT_TRIES_FIRST
-                : count > 50 ? SLI_DISSECT_TRIES
-                       : 1,
-                2);
-      sli_dissect_assign(d, node);
-      sli_subgraph_clear(&d->subgraph);
-      split++;
+      sli_label_tree_split(&d->tree, node);
+      d->nodes[split++] = node;
     }
   }
   if (split > 0) {
-    sli_label_tree_number(&d->tree, g->n, d->label);
+    d->bisect = bisect;
+    sli_team_loop(d->team, split, d->nodes, sli_dissect_split_item, d);
+    sli_label_tree_number(&d->tree, d->levels[d->level].n, d->label);
   }
   return split;
 }
 
-static void sli_dissect_refine(sli_dissection *d) {
-  const sli_level *g = &d->levels[d->level];
-  sl_int k;
-  sli_borders_fill(&d->borders, &d->tree, g, d->label);
-  sli_label_tree_breadth_first(&d->tree, d->nodes);
-  for (k = 0; k < d->tree.count; k++) {
-    const sl_int node = d->nodes[k];
-    if (!sli_label_tree_is_leaf(&d->tree, node) && d->borders.head[node] != -1) {
-      sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders,
-                SLI_DISSECT_LAYERS);
-      sli_subgraph_refine(&d->subgraph, 2);
-      sli_subgraph_apply(&d->subgraph, g, &d->tree, node, d->label, &d->borders);
-      sli_subgraph_clear(&d->subgraph);
+static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
+  sli_dissection *d = (sli_dissection *)data;
+  const sli_label_tree *t = &d->tree;
+  const int is_large = t->weight[top] > d->total / SLI_DISSECT_TASKS / d->team->workers;
+  sl_int node;
+  for (node = top; node != -1; node = is_large ? -1 : sli_label_tree_below(t, top, node)) {
+    if (!sli_label_tree_is_leaf(t, node) && d->workers->borders.head[node] != -1) {
+      d->visit(d, &d->workers[worker], node);
     }
+  }
+  if (is_large && !sli_label_tree_is_leaf(t, top)) {
+    sli_team_add(d->team, t->left[top]);
+    sli_team_add(d->team, t->right[top]);
   }
 }
 
-static int sli_dissect_is_balanced(const sli_dissection *d) {
-  const sli_subgraph *sub = &d->subgraph;
+static void sli_dissect_visit(sli_dissection *d,
+                void (*visit)(sli_dissection *d, sli_dissect_worker *w,
+                      sl_int node)) {
+  sl_int k;
+  d->pool.count = 0;
+  for (k = 0; k < d->team->workers; k++) {
+    d->workers[k].borders.at = d->workers[k].borders.end = 0;
+  }
+  sli_borders_fill(&d->workers->borders, &d->tree, &d->levels[d->level], d->label);
+  d->visit = visit;
+  d->nodes[0] = d->tree.root;
+  sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
+}
+
+static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
+  const sli_level *g = &d->levels[d->level];
+  sli_subgraph_band(&w->subgraph, g, &d->tree, node, d->label, &w->borders, SLI_DISSECT_LAYERS);
+  sli_subgraph_refine(&w->subgraph, 2);
+  sli_subgraph_apply(&w->subgraph, g, &d->tree, node, d->label, &w->borders);
+  sli_subgraph_clear(&w->subgraph);
+}
+
+static int sli_dissect_is_balanced(const sli_subgraph *sub) {
   int64_t total[2], sum, before = sub->total[0] > sub->total[1] ? sub->total[0] : sub->total[1];
   sl_int v;
   total[0] = sub->total[0];
@@ -8571,28 +8722,20 @@ static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
   return layers;
 }
 
-static void sli_dissect_separate(sli_dissection *d) {
+static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
   const sli_level *g = &d->levels[0];
-  sl_int k;
-  sli_borders_fill(&d->borders, &d->tree, g, d->label);
-  sli_label_tree_breadth_first(&d->tree, d->nodes);
-  for (k = 0; k < d->tree.count; k++) {
-    const sl_int node = d->nodes[k];
-    int layers = sli_dissect_layers(d, d->tree.weight[node]);
-    if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
-      continue;
+  sli_subgraph *sub = &w->subgraph;
+  int layers = sli_dissect_layers(d, d->tree.weight[node]);
+  for (;; layers /= 2) {
+    sli_subgraph_band(sub, g, &d->tree, node, d->label, &w->borders, layers);
+    sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
+    if (layers == 0 || sli_dissect_is_balanced(sub)) {
+      break;
     }
-    for (;; layers /= 2) {
-      sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders, layers);
-      sli_subgraph_separate(&d->subgraph, d->subgraph.locked, d->subgraph.scratch, d->next);
-      if (layers == 0 || sli_dissect_is_balanced(d)) {
-        break;
-      }
-      sli_subgraph_clear(&d->subgraph);
-    }
-    sli_subgraph_apply(&d->subgraph, g, &d->tree, node, d->label, &d->borders);
-    sli_subgraph_clear(&d->subgraph);
+    sli_subgraph_clear(sub);
   }
+  sli_subgraph_apply(sub, g, &d->tree, node, d->label, &w->borders);
+  sli_subgraph_clear(sub);
 }
 
 static void sli_dissect_project(sli_dissection *d) {
@@ -8611,9 +8754,9 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
   w.member = d->order;
   w.start = d->nodes;
   w.seen = d->begin;
-  w.to = d->subgraph.to;
-  w.count = d->subgraph.edge;
-  w.at = d->next;
+  w.to = d->workers->subgraph.to;
+  w.count = d->workers->subgraph.edge;
+  w.at = d->workers->next;
   sli_weigh_edges(d->levels, l, &w);
 }
 
@@ -8639,8 +8782,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
       break;
     }
-    status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, d->next,
-               &shrunk, d->a);
+    status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters,
+               d->workers->next, &shrunk, d->a);
     if (status != SL_OK || !shrunk) {
       break;
     }
@@ -8667,15 +8810,16 @@ static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
   d->level = d->n_levels - 1;
   sli_dissect_start(d);
   for (;;) {
-    while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
+    while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN,
+                 sli_dissect_bisect) > 0) {
     }
     if (d->level == working) {
       break;
     }
     sli_dissect_project(d);
-    sli_dissect_refine(d);
+    sli_dissect_visit(d, sli_dissect_refine);
   }
-  return d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+  return d->pool.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
 static sl_status sli_dissect_multilevel(sli_dissection *d) {
@@ -8772,7 +8916,7 @@ static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *
   }
 }
 
-static void sli_levelset_bisect(sli_subgraph *sub) {
+static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
   const sl_int n = sub->n;
   sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
        *size = sub->scratch + 2 * (size_t)n;
@@ -8782,6 +8926,7 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
   const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
   n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                  distance);
+  (void)nodes;
   memset(size, 0, (size_t)n_sets * sizeof(sl_int));
   for (k = 0; k < n; k++) {
     size[distance[k]]++;
@@ -8800,25 +8945,10 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
 }
 
 static void sli_dissect_levelset(sli_dissection *d) {
-  const sli_level *g = &d->levels[0];
-  sl_int node, nodes;
   d->level = 0;
   sli_dissect_start(d);
-  do {
-    nodes = d->tree.count;
-    sli_dissect_sort(d);
-    for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
-      const sl_int count = d->begin[node + 1] - d->begin[node];
-      if (count > d->leaf_size) {
-        sli_subgraph_leaf(&d->subgraph, g, &d->tree, node, d->label,
-                  d->order + d->begin[node], count);
-        sli_levelset_bisect(&d->subgraph);
-        sli_dissect_assign(d, node);
-        sli_subgraph_clear(&d->subgraph);
-      }
-    }
-    sli_label_tree_number(&d->tree, g->n, d->label);
-  } while (d->tree.count > nodes);
+  while (sli_dissect_split(d, d->leaf_size, sli_levelset_bisect) > 0) {
+  }
 }
 
 static sl_int sli_dissect_root_border(const sli_dissection *d) {
@@ -9172,7 +9302,7 @@ static sl_status sli_dissect_try_points(sli_dissection *d, const sl_int *sorted,
   if (count > g->n / SLI_CELLS_SHARE) {
     return SL_OK;
   }
-  status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], d->next, d->a);
+  status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], d->workers->next, d->a);
   if (status == SL_OK) {
     d->n_levels = 2;
     status = sli_cells_compare(d, sorted, is_good);
@@ -9216,16 +9346,19 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
 
 /* src/impl/ordering/septree.h: from labels to the elimination order and the separator tree of all rows */
 
+#define SLI_SEPTREE_NODES 16
+
 typedef struct sli_septree {
   sl_int count;
   sl_int *node_of;
   sl_int *parent;
 } sli_septree;
 
-static void sli_septree_sort_separator(sli_dissection *d, sl_int node, sl_int *vertices,
-                     sl_int count) {
+static void sli_septree_sort_separator(const sli_dissection *d, sli_dissect_worker *w, sl_int node,
+                     sl_int *vertices, sl_int count) {
   const sli_level *g = &d->levels[0];
-  uint64_t *list = (uint64_t *)(void *)d->next, *scratch = (uint64_t *)(void *)d->subgraph.begin;
+  uint64_t *list = (uint64_t *)(void *)w->next;
+  uint64_t *scratch = (uint64_t *)(void *)w->subgraph.begin;
   sl_int k;
   sl_off e;
   for (k = 0; k < count; k++) {
@@ -9245,19 +9378,32 @@ static void sli_septree_sort_separator(sli_dissection *d, sl_int node, sl_int *v
   }
 }
 
+static void sli_septree_item(void *data, sl_int item, sl_int worker) {
+  sli_dissection *d = (sli_dissection *)data;
+  sli_dissect_worker *w = &d->workers[worker];
+  const sl_int last = sli_min(d->tree.count, (item + 1) * SLI_SEPTREE_NODES);
+  sl_int node;
+  for (node = item * SLI_SEPTREE_NODES; node < last; node++) {
+    const sl_int count = d->begin[node + 1] - d->begin[node];
+    sl_int *mine = d->order + d->begin[node];
+    if (!sli_label_tree_is_leaf(&d->tree, node)) {
+      sli_septree_sort_separator(d, w, node, mine, count);
+    } else if (count > 1) {
+      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
+               w->subgraph.scratch);
+    }
+  }
+}
+
 static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
                  sli_septree *septree) {
   const sli_label_tree *t = &d->tree;
   sl_int node, k, up, *number = d->nodes;
   sli_dissect_sort(d);
+  sli_team_loop(d->team, (t->count - 1) / SLI_SEPTREE_NODES + 1, NULL, sli_septree_item, d);
   for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
     const sl_int count = d->begin[node + 1] - d->begin[node];
-    sl_int *mine = d->order + d->begin[node];
-    if (!sli_label_tree_is_leaf(t, node)) {
-      sli_septree_sort_separator(d, node, mine, count);
-    } else if (count > 1) {
-      sli_mindeg_order(&d->mindeg, &d->levels[0], mine, count, d->subgraph.local, d->other);
-    }
+    const sl_int *mine = d->order + d->begin[node];
     number[node] = count > 0 ? septree->count++ : -1;
     for (k = 0; k < count; k++) {
       perm[at++] = row[mine[k]];
@@ -9641,9 +9787,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
   status = sli_nd_label(w);
   if (status == SL_OK) {
     do {
-      sli_dissect_separate(d);
-    } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->leaf_size) > 0);
-    status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+      sli_dissect_visit(d, sli_dissect_separate);
+    } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
+    status = d->pool.failed ? SL_ERR_MEMORY : SL_OK;
   }
   return status;
 }
@@ -9666,8 +9812,10 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   sl_int v, k, at = 0;
   sl_status status = SL_OK;
   septree->count = 0;
-  for (v = 0; v < n; v++) {
-    w->d.subgraph.local[v] = -1;
+  for (k = 0; k < w->d.team->workers; k++) {
+    for (v = 0; v < n; v++) {
+      w->d.workers[k].subgraph.local[v] = -1;
+    }
   }
   for (v = 0; v < n && status == SL_OK; v++) {
     if (w->local[v] == -1) {
@@ -9700,10 +9848,11 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
 
 static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_metis,
                 const double *xyz, sl_int dimensions, sl_int *perm,
-                sli_septree *septree, const sl_allocator *a) {
+                sli_septree *septree, sli_team *team, const sl_allocator *a) {
   sli_nd w;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
+  sl_int k;
   int pass;
   memset(&w, 0, sizeof w);
   w.G = G;
@@ -9713,18 +9862,21 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
   w.points.unit = xyz != NULL ? sli_points_unit(xyz, (size_t)G->n * (size_t)dimensions) : 1.0;
   w.by_metis = by_metis;
   w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
-  w.d.a = a;
-  w.d.mindeg.has_popcnt =
-    G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+  w.d.team = team;
+  w.d.a = w.d.pool.a = a;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_nd_layout(&w, &b);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   w.points.row = w.row;
   if (status == SL_OK) {
-    sli_borders_init(&w.d.borders, a);
+    const int has_popcnt =
+      G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+    for (k = 0; k < team->workers; k++) {
+      w.d.workers[k].mindeg.has_popcnt = has_popcnt;
+    }
     status = sli_nd_run(&w, perm, septree);
-    sli_free(a, w.d.borders.block);
+    sli_border_pool_free(&w.d.pool);
     sli_free(a, b.base);
   }
   return status;
@@ -9819,7 +9971,7 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
 }
 
 static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
-                    sl_int *scratch, sli_septree *septree,
+                    sl_int *scratch, sli_septree *septree, sli_team *team,
                     const sl_allocator *a) {
   sli_compressed c;
   sli_block b = {NULL, 0, 0};
@@ -9828,7 +9980,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
   memset(&c, 0, sizeof c);
   c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
   if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-    return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, a);
+    return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, team, a);
   }
   c.first = scratch;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -9843,7 +9995,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
     return status;
   }
   sli_compress_fill(&c, G);
-  status = sli_order_nd(&c.G, c.weight, by_metis, NULL, 0, c.perm, septree, a);
+  status = sli_order_nd(&c.G, c.weight, by_metis, NULL, 0, c.perm, septree, team, a);
   if (status == SL_OK) {
     sli_compress_expand(&c, G->n, perm, septree, (sl_int *)(void *)c.G.begin);
   }
@@ -10364,7 +10516,7 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
 
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                 const sl_allocator *a) {
+                 sli_team *team, const sl_allocator *a) {
   const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
   const int is_hurried = ordering == SL_ORDERING_ND && opt != NULL && xyz == NULL &&
                opt->purpose == SL_PURPOSE_ONE_FACTOR;
@@ -10381,9 +10533,9 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
       return status;
     }
   }
-  return xyz != NULL ? sli_order_nd(G, NULL, 0, xyz, opt->dimensions, perm, septree, a)
+  return xyz != NULL ? sli_order_nd(G, NULL, 0, xyz, opt->dimensions, perm, septree, team, a)
              : sli_order_compressed(G, ordering == SL_ORDERING_METIS_REFINED, perm,
-                        scratch, septree, a);
+                        scratch, septree, team, a);
 }
 
 static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
@@ -10446,7 +10598,7 @@ static int sli_order_is_irregular(const sli_graph *G) {
 
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                   const sl_options *opt, sl_int *perm, sl_int *scratch,
-                  sli_septree *septree, sli_order_choice *choice,
+                  sli_septree *septree, sli_order_choice *choice, sli_team *team,
                   const sl_allocator *a) {
   const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   sli_graph G;
@@ -10466,7 +10618,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
   sli_graph_fill(&G, A, triangle, block);
   status = sli_order_canonical(&G, a);
   if (status == SL_OK) {
-    status = sli_order_graph(&G, ordering, opt, perm, scratch, septree, a);
+    status = sli_order_graph(&G, ordering, opt, perm, scratch, septree, team, a);
   }
   if (status == SL_OK && block > 1) {
     sli_order_expand(G.n, block, perm, septree);
@@ -10508,9 +10660,19 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
   return 1;
 }
 
+#define SLI_ORDER_WORKERS 16
+
+static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
+  const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
+                      opt->ordering == SL_ORDERING_METIS_REFINED);
+  const double flops = 2 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
+  return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_ORDER_WORKERS) : 1;
+}
+
 static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
                sl_int *perm, sl_int *scratch, sli_septree *septree,
-               sli_order_choice *choice, const sl_allocator *a, sl_stats *stats) {
+               sli_order_choice *choice, sli_team *team, const sl_allocator *a,
+               sl_stats *stats) {
   const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
   sl_int bad;
   septree->count = 0;
@@ -10529,7 +10691,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
     return SL_OK;
   case SL_ORDERING_ND:
   case SL_ORDERING_MINDEG:
-    return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, a);
+    return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, team,
+                  a);
   case SL_ORDERING_METIS:
   case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
@@ -10538,7 +10701,7 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
     return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
            ? SL_ERR_ARGUMENT
            : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice,
-                    a);
+                    team, a);
 #endif
   default:
     return SL_ERR_ARGUMENT;
@@ -11594,7 +11757,8 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
 }
 
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                   sli_analysis *w, const sl_allocator *a, sl_stats *stats) {
+                   sli_analysis *w, sli_team *team, const sl_allocator *a,
+                   sl_stats *stats) {
   double started;
   sl_symbolic draft;
   sli_block b = {NULL, 0, 0};
@@ -11604,7 +11768,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   sl_status status;
   started = sli_seconds();
   status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
-             &w->choice, a, stats);
+             &w->choice, team, a, stats);
   stats->symbolic.seconds_order = sli_seconds() - started;
   if (status != SL_OK) {
     return status;
@@ -11646,6 +11810,21 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   *out = (sl_symbolic *)(void *)b.base;
   **out = draft;
   return SL_OK;
+}
+
+typedef struct sli_symbolic_job {
+  sl_symbolic **out;
+  const sl_csc *A;
+  const sl_options *opt;
+  sli_analysis *w;
+  const sl_allocator *a;
+  sl_stats *stats;
+  sl_status status;
+} sli_symbolic_job;
+
+static void sli_symbolic_lead(sli_team *team, void *data) {
+  sli_symbolic_job *j = (sli_symbolic_job *)data;
+  j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->stats);
 }
 
 static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
@@ -11690,7 +11869,11 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   }
   if (status == SL_OK) {
     found.symbolic.seconds_analyze = sli_seconds() - started;
-    status = sli_symbolic_make(out, A, opt, &w, &a, &found);
+    sli_symbolic_job job = {out, A, opt, &w, &a, &found, SL_OK};
+    const sl_options none = sli_options_with(&a);
+    sli_team_run(opt != NULL ? &opt->threads : &none.threads, sli_order_workers(A, opt),
+           sli_symbolic_lead, &job);
+    status = job.status;
     if (stats != NULL && status == SL_OK) {
       sli_symbolic_stats_copy(&found, stats);
     } else if (stats != NULL) {
@@ -16544,6 +16727,7 @@ typedef struct sli_sweep_tasks {
   double *X;
   const double *B;
   sli_dense x_at, b_at;
+  void (*run_block)(void *data, sl_int item, sl_int worker);
   void *memory;
   size_t bytes, total;
   double *y, *scratch;
@@ -16677,7 +16861,7 @@ static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
   t->y = SLI_TAKE(b, double, (uint64_t)S->n + (uint64_t)t->n_slots);
   t->scratch = SLI_TAKE(b, double, workers *sli_sweep_scratch(S->tallest, S->widest, 1));
   t->slot_row = SLI_TAKE(b, sl_int, t->n_slots);
-  t->rows = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+  t->rows = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
 }
 
 static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
@@ -16809,40 +16993,46 @@ static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
   }
 }
 
-static void sli_sweep_tasks_item(void *data, sl_int phase, sl_int item, sl_int worker) {
+static void sli_sweep_tasks_forward_item(void *data, sl_int item, sl_int worker) {
+  const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+  const sl_symbolic *S = t->F->S;
+  sli_sweep_tasks_forward(t, &t->tasks[t->order[item]],
+              t->scratch +
+                (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1),
+              t->rows + (size_t)worker * (size_t)S->tallest);
+}
+
+static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker) {
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
   const sl_symbolic *S = t->F->S;
   const sli_sweep_task *task = &t->tasks[t->order[item]];
-  double *scratch = t->scratch + (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1);
-  if (phase == 0) {
-    sli_sweep_tasks_forward(t, task, scratch, t->rows + (size_t)worker * (size_t)S->tallest);
-  } else if (phase == 1) {
-    sli_sweep_tasks_tops(t, scratch);
-  } else {
-    sli_sweep_tasks_backward(t, task->first, task->last, scratch);
-    sli_sweep_tasks_unpack(t, task->first, task->last);
+  sli_sweep_tasks_backward(t, task->first, task->last,
+               t->scratch +
+                 (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1));
+  sli_sweep_tasks_unpack(t, task->first, task->last);
+}
+
+static void sli_sweep_tasks_lead(sli_team *team, void *data) {
+  sli_sweep_tasks *t = (sli_sweep_tasks *)data;
+  if (t->nrhs > 8) {
+    sli_team_loop(team, (t->nrhs - 1) / t->share + 1, NULL, t->run_block, t);
+    return;
   }
+  sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
+  sli_sweep_tasks_tops(t, t->scratch);
+  sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
 }
 
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
-                void (*run_block)(void *data, sl_int phase, sl_int item,
-                          sl_int worker)) {
+                void (*run_block)(void *data, sl_int item, sl_int worker)) {
   sli_block b = {NULL, 0, 0};
-  sli_phases phases;
-  memset(&phases, 0, sizeof phases);
-  phases.data = t;
   t->memory = memory;
-  if (t->nrhs > 8) {
-    phases.run = run_block;
-    phases.count[0] = (t->nrhs - 1) / t->share + 1;
-  } else {
+  t->run_block = run_block;
+  if (t->nrhs <= 8) {
     b.base = (unsigned char *)memory;
     sli_sweep_tasks_layout(t, &b);
-    phases.run = sli_sweep_tasks_item;
-    phases.count[0] = phases.count[2] = t->n_tasks;
-    phases.count[1] = 1;
   }
-  sli_parallel(threads, t->workers, sli_phases_body, &phases);
+  sli_team_run(threads, t->workers, sli_sweep_tasks_lead, t);
 }
 
 /* src/impl/solve/sweep.h: full solves, and the sweeps of any query, in blocks of right-hand sides */
@@ -16968,10 +17158,9 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
   return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
 }
 
-static void sli_sweep_tasks_block(void *data, sl_int phase, sl_int m, sl_int worker) {
+static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
   const sl_int first = m * t->share, count = sli_min(t->share, t->nrhs - first);
-  (void)phase;
   (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)first * t->x_at.column, t->x_at,
                t->B + (size_t)first * t->b_at.column, t->b_at, count,
                (unsigned char *)t->memory + (size_t)worker * t->bytes);
@@ -16988,8 +17177,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
-  status = sli_work_grow(W, t.workers > 1 ? t.total
-                      : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
+  status =
+    sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
   if (status == SL_OK && t.workers > 1) {
     t.X = X;
     t.x_at = x_at;
@@ -24390,6 +24579,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   sli_graph G;
   sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
   sli_septree septree;
+  sli_team alone = sli_team_of(1);
   sl_int *perm = NULL, *scratch = NULL, k, pass;
   sl_off total = 0;
   double flops;
@@ -24437,7 +24627,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   if (status == SL_OK) {
     status = sli_order_is_irregular(&G)
            ? sli_order_mindeg(&G, perm, &flops, a)
-           : sli_order_compressed(&G, 0, perm, scratch, &septree, a);
+           : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
   }
   if (status == SL_OK) {
     for (k = 0; k < count; k++) {
@@ -27765,7 +27955,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_USLEEP
 #undef SLI_WORKER_FLOPS
 #undef SLI_SMALL_TASKS
-#undef SLI_PHASES_MAX
+#undef SLI_ORDER_WORKERS
+#undef SLI_BORDERS_FIRST
+#undef SLI_BORDERS_RANGE
+#undef SLI_BORDERS_CHUNKS
+#undef SLI_DISSECT_TASKS
+#undef SLI_SEPTREE_NODES
 #undef SLI_SOLVE_ENTRIES
 #undef SLI_SOLVE_TASKS
 #undef SLI_ASSERT

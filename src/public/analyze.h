@@ -30,10 +30,10 @@
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
- *  opt    [in]   allocator, ordering, relaxation, triangle, perm, metis_options, coordinates,
- *                dimensions, block_size, purpose; may be NULL. coordinates and purpose are used by
- *                SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
- *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
+ *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
+ *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates and
+ *                purpose are used by SL_ORDERING_ND only, and block_size by all but
+ *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses invalid ones.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), an unknown ordering, purpose, relaxation or triangle,
@@ -42,8 +42,13 @@
  *           SL_ERR_NOT_FINITE: a coordinate (error.row is the first row of its block);
  *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes).
- *  Threads  any number of calls at once, with the same result for the same pattern however it is
+ *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
+ *           scratch of about the size of the pattern, of which it writes little.
+ *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
+ *           SL_ORDERING_METIS_REFINED, with the same result for any number of them. The call is one
+ *           call of the pool; any of its threads may call the allocator, one at a time. Small
+ *           systems use fewer threads.
+ *           Any number of calls at once, with the same result for the same pattern however it is
  *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
  *           draws from rand() of the C library and prints a line if it runs out of memory. During
  *           SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process; during

@@ -35,7 +35,7 @@ typedef struct sl_allocator {
  *  | call                                       | fields that it reads                     |
  *  |--------------------------------------------|------------------------------------------|
  *  | every call with an sl_options argument     | size, allocator                          |
- *  | sl_symbolic_create, _create_pivoted        | ordering .. purpose                      |
+ *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
  *  |   sl_batch_factor                          | null_vector .. storage                   |

@@ -2,39 +2,8 @@
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SLI_SMALL_TASKS 1 /* small systems are divided too, small fronts into pieces */
-#include "tests/lib/parallel_for.h"
+#include "tests/lib/pools.h"
 #include "tests/lib/factored.h"
-#include <time.h>
-
-/* One after the other: the first index does all work. */
-static void run_in_order(void *context, sl_int count, void (*body)(void *data, sl_int k),
-                         void *data) {
-    ++*(int *)context;
-    for (sl_int k = 0; k < count; k++) {
-        body(data, k);
-    }
-}
-
-typedef struct late_t {
-    void (*body)(void *data, sl_int k);
-    void *data;
-} late_t;
-
-static void late_body(void *data, sl_int k) {
-    const late_t *late = (const late_t *)data;
-    const struct timespec delay = {0, 100000 * (k % 4)};
-    nanosleep(&delay, NULL);
-    late->body(late->data, k);
-}
-
-/* Threads that begin one after the other, when others are done or amid their work. */
-static void run_late(void *context, sl_int count, void (*body)(void *data, sl_int k), void *data) {
-    late_t late = {body, data};
-    run_threads(context, count, late_body, &late);
-}
-
-enum { RUNS = 4 };
-static const sl_parallel_for runs[RUNS] = {run_threads, run_backwards, run_in_order, run_late};
 
 static sl_options options_with_threads(sl_parallel_for run, sl_int count, int *calls) {
     sl_options opt = options_none();

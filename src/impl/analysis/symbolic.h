@@ -283,7 +283,8 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
 }
 
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                                   sli_analysis *w, const sl_allocator *a, sl_stats *stats) {
+                                   sli_analysis *w, sli_team *team, const sl_allocator *a,
+                                   sl_stats *stats) {
     double started;
     sl_symbolic draft;
     sli_block b = {NULL, 0, 0};
@@ -293,7 +294,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     sl_status status;
     started = sli_seconds();
     status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
-                       &w->choice, a, stats);
+                       &w->choice, team, a, stats);
     stats->symbolic.seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
@@ -335,6 +336,22 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     *out = (sl_symbolic *)(void *)b.base;
     **out = draft;
     return SL_OK;
+}
+
+/* The arguments of an analysis by a team. */
+typedef struct sli_symbolic_job {
+    sl_symbolic **out;
+    const sl_csc *A;
+    const sl_options *opt;
+    sli_analysis *w;
+    const sl_allocator *a;
+    sl_stats *stats;
+    sl_status status;
+} sli_symbolic_job;
+
+static void sli_symbolic_lead(sli_team *team, void *data) {
+    sli_symbolic_job *j = (sli_symbolic_job *)data;
+    j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->stats);
 }
 
 /* Copies the symbolic group. */
@@ -383,7 +400,11 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     }
     if (status == SL_OK) {
         found.symbolic.seconds_analyze = sli_seconds() - started;
-        status = sli_symbolic_make(out, A, opt, &w, &a, &found);
+        sli_symbolic_job job = {out, A, opt, &w, &a, &found, SL_OK};
+        const sl_options none = sli_options_with(&a);
+        sli_team_run(opt != NULL ? &opt->threads : &none.threads, sli_order_workers(A, opt),
+                     sli_symbolic_lead, &job);
+        status = job.status;
         if (stats != NULL && status == SL_OK) {
             sli_symbolic_stats_copy(&found, stats);
         } else if (stats != NULL) {

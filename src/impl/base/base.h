@@ -232,6 +232,22 @@ SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
 }
 #endif
 
+/* A number that one thread writes while another reads it, and that either value suits. */
+SLI_INLINE sl_int sli_shared_read(const sl_int *a) {
+#if defined(SLI_GNU)
+    return __atomic_load_n(a, __ATOMIC_RELAXED);
+#else
+    return *(const volatile sl_int *)a;
+#endif
+}
+SLI_INLINE void sli_shared_write(sl_int *a, sl_int value) {
+#if defined(SLI_GNU)
+    __atomic_store_n(a, value, __ATOMIC_RELAXED);
+#else
+    *(volatile sl_int *)a = value;
+#endif
+}
+
 /* A precondition. SL_VERIFY builds check it. */
 #if defined(SL_VERIFY)
 #define SLI_ASSERT(condition) ((condition) ? (void)0 : abort())

@@ -1,4 +1,4 @@
-/* parallel.h: runs work items on the caller's threads; a lock and a pause for those that share */
+/* parallel.h: runs work items on the caller's threads; a team of workers that share loops */
 #ifndef SLI_BASE_PARALLEL_H
 #define SLI_BASE_PARALLEL_H
 
@@ -90,50 +90,122 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     }
 }
 
-#define SLI_PHASES_MAX 3
-
-/* Items that workers draw, phase after phase: a phase begins when all items of the one before are
- * done. */
-typedef struct sli_phases {
-    void (*run)(void *data, sl_int phase, sl_int item, sl_int worker);
+/* Workers of one parallel call. The first to begin leads: it runs the whole computation, and the
+ * others help with its loops, of which they draw items. So a worker alone does everything, whether
+ * the others begin late or never. Workers are numbered as they begin, and the leader is 0. */
+typedef struct sli_team {
+    sl_int workers;
+    void (*lead)(struct sli_team *team, void *data);
+    void *lead_data;
+    sli_atomic lock;    /* of what follows */
+    sli_atomic changes; /* counts what the others may wait for */
+    sl_int begun;       /* workers that have begun */
+    int is_over;
+    /* the loop under way */
+    void (*run)(void *data, sl_int item, sl_int worker);
     void *data;
-    sl_int count[SLI_PHASES_MAX]; /* items of each phase; 0: there are no more phases */
-    sli_atomic lock, changes;     /* lock: of what follows, and of changes, which counts items */
-    sl_int phase, next, done;
-} sli_phases;
+    sl_int *list; /* end: the items in the order in which they are drawn; NULL: 0 .. end-1 */
+    sl_int next, end, done;
+} sli_team;
 
-static void sli_phases_body(void *data, sl_int worker) {
-    sli_phases *p = (sli_phases *)data;
+/* Draws and runs items until the loop is done, or for those who help, the whole computation. */
+static void sli_team_draw(sli_team *team, sl_int worker) {
+    sl_int item, done = 0;
     for (;;) {
-        sl_int phase, item = -1;
+        void (*run)(void *data, sl_int item, sl_int worker);
+        void *data;
         sli_atomic seen;
-        int turn;
-        sli_lock(&p->lock);
-        if (p->phase < SLI_PHASES_MAX && p->done == p->count[p->phase]) {
-            p->phase++;
-            p->next = p->done = 0;
+        int is_over, turn;
+        sli_lock(&team->lock);
+        if (done > 0) {
+            team->done++;
+            sli_atomic_write(&team->changes, team->changes + 1);
         }
-        phase = p->phase;
-        if (phase < SLI_PHASES_MAX && p->next < p->count[phase]) {
-            item = p->next++;
-        }
-        seen = p->changes;
-        sli_unlock(&p->lock);
-        if (phase == SLI_PHASES_MAX || p->count[phase] == 0) {
+        done = team->next < team->end;
+        item = !done ? 0 : team->list != NULL ? team->list[team->next] : team->next;
+        team->next += done;
+        is_over = worker == 0 ? team->done == team->end : team->is_over;
+        run = team->run;
+        data = team->data;
+        seen = team->changes;
+        sli_unlock(&team->lock);
+        if (done) {
+            run(data, item, worker);
+        } else if (is_over) {
             return;
-        }
-        if (item >= 0) {
-            p->run(p->data, phase, item, worker);
-            sli_lock(&p->lock);
-            p->done++;
-            sli_atomic_write(&p->changes, p->changes + 1);
-            sli_unlock(&p->lock);
-            continue;
-        }
-        for (turn = 0; sli_atomic_read(&p->changes) == seen; turn++) {
-            sli_pause(turn);
+        } else {
+            for (turn = 0; sli_atomic_read(&team->changes) == seen; turn++) {
+                sli_pause(turn);
+            }
         }
     }
+}
+
+/* The leader runs a loop: run(data, item, worker) for `count` items, 0 .. count-1 or those of a
+ * list, in any order and concurrently. */
+static void sli_team_loop(sli_team *team, sl_int count, sl_int *list,
+                          void (*run)(void *data, sl_int item, sl_int worker), void *data) {
+    if (team->workers == 1) {
+        sl_int k;
+        team->list = list;
+        team->end = count;
+        for (k = 0; k < team->end; k++) {
+            run(data, list != NULL ? list[k] : k, 0);
+        }
+        return;
+    }
+    sli_lock(&team->lock);
+    team->run = run;
+    team->data = data;
+    team->list = list;
+    team->next = team->done = 0;
+    team->end = count;
+    sli_atomic_write(&team->changes, team->changes + 1);
+    sli_unlock(&team->lock);
+    sli_team_draw(team, 0);
+}
+
+/* Adds an item to the list of the loop under way. */
+static void sli_team_add(sli_team *team, sl_int item) {
+    sli_lock(&team->lock);
+    team->list[team->end++] = item;
+    sli_atomic_write(&team->changes, team->changes + 1);
+    sli_unlock(&team->lock);
+}
+
+static void sli_team_body(void *data, sl_int k) {
+    sli_team *team = (sli_team *)data;
+    sl_int worker;
+    (void)k;
+    sli_lock(&team->lock);
+    worker = team->begun++;
+    sli_unlock(&team->lock);
+    if (worker > 0) {
+        sli_team_draw(team, worker);
+        return;
+    }
+    team->lead(team, team->lead_data);
+    sli_lock(&team->lock);
+    team->is_over = 1;
+    sli_atomic_write(&team->changes, team->changes + 1);
+    sli_unlock(&team->lock);
+}
+
+/* A team of so many workers, 1 if nobody calls sli_team_run. */
+SLI_INLINE sli_team sli_team_of(sl_int workers) {
+    sli_team team;
+    memset(&team, 0, sizeof team);
+    team.workers = workers;
+    return team;
+}
+
+/* Runs lead(team, data) by so many workers. */
+static void sli_team_run(const sl_threads *t, sl_int workers,
+                         void (*lead)(sli_team *team, void *data), void *data) {
+    sli_team team = sli_team_of(workers);
+    team.lead = lead;
+    team.lead_data = data;
+    sli_parallel(t, workers, sli_team_body, &team);
 }
 
 /* Where the range of worker k begins among the row tiles first .. last-1: the ranges have equal

@@ -102,6 +102,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     sli_graph G;
     sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
     sli_septree septree;
+    sli_team alone = sli_team_of(1);
     sl_int *perm = NULL, *scratch = NULL, k, pass;
     sl_off total = 0;
     double flops;
@@ -149,7 +150,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     if (status == SL_OK) {
         status = sli_order_is_irregular(&G)
                      ? sli_order_mindeg(&G, perm, &flops, a)
-                     : sli_order_compressed(&G, 0, perm, scratch, &septree, a);
+                     : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
     }
     if (status == SL_OK) {
         for (k = 0; k < count; k++) {

@@ -99,7 +99,7 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
 
 /* Orders a graph, compressed if that is worthwhile. scratch: n. */
 static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
-                                      sl_int *scratch, sli_septree *septree,
+                                      sl_int *scratch, sli_septree *septree, sli_team *team,
                                       const sl_allocator *a) {
     sli_compressed c;
     sli_block b = {NULL, 0, 0};
@@ -108,7 +108,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
     memset(&c, 0, sizeof c);
     c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
     if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-        return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, a);
+        return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, team, a);
     }
     c.first = scratch;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -123,7 +123,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
         return status;
     }
     sli_compress_fill(&c, G);
-    status = sli_order_nd(&c.G, c.weight, by_metis, NULL, 0, c.perm, septree, a);
+    status = sli_order_nd(&c.G, c.weight, by_metis, NULL, 0, c.perm, septree, team, a);
     if (status == SL_OK) {
         sli_compress_expand(&c, G->n, perm, septree, (sl_int *)(void *)c.G.begin);
     }

@@ -27,41 +27,63 @@
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
 #define SLI_SEPARATOR_BALANCE 70
 
+/* Subtrees of at most this share of the weight, for each worker, are one task. */
+#define SLI_DISSECT_TASKS 8
+
+/* The scratch of one worker. All arrays have room for the largest graph. */
+typedef struct sli_dissect_worker {
+    sli_borders borders;
+    sli_subgraph subgraph;
+    sli_mindeg mindeg;
+    sl_off *next; /* n */
+} sli_dissect_worker;
+
 /* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
- * the largest. */
+ * the largest. Bisections, refinements of borders and separators are shared by the workers of a
+ * team: what happens below a node depends only on what has happened there and at the nodes above,
+ * so that the result does not depend on the workers. */
 typedef struct sli_dissection {
     const sl_allocator *a;
+    sli_team *team;
     sli_level levels[SLI_LEVELS_MAX]; /* finest first; the arrays of the finest are borrowed */
     int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
     sli_label_tree tree;
-    sli_borders borders;
-    sli_subgraph subgraph;
-    sli_mindeg mindeg;
-    sl_int *label, *other; /* n: the node of each vertex; `other` is scratch */
-    sl_int *begin;         /* room + 1: where each node's vertices begin in order */
-    sl_int *order;         /* n */
-    sl_int *nodes;         /* room */
-    sl_off *next;          /* n */
+    sli_border_pool pool;
+    sli_dissect_worker *workers; /* team->workers; the first is the leader */
+    sl_int *label, *other;       /* n: the node of each vertex; `other` is scratch */
+    sl_int *begin;               /* room + 1: where each node's vertices begin in order */
+    sl_int *order;               /* n */
+    sl_int *nodes;               /* room */
+    /* the loop under way: bisects a subgraph when the tree has so many nodes, or visits a node */
+    void (*bisect)(sli_subgraph *sub, sl_int nodes);
+    void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
 } sli_dissection;
 
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
     const sl_int room = n + 1; /* there are never more nodes than vertices */
+    sl_int k, *head;
     d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
     sli_label_tree_layout(&d->tree, b, room);
-    d->borders.head = SLI_TAKE(b, sl_int, room);
-    sli_subgraph_layout(&d->subgraph, b, n, edges);
+    head = SLI_TAKE(b, sl_int, room);
     d->label = SLI_TAKE(b, sl_int, n);
     d->other = SLI_TAKE(b, sl_int, n);
     d->begin = SLI_TAKE(b, sl_int, (size_t)room + 1);
     d->order = SLI_TAKE(b, sl_int, n);
     d->nodes = SLI_TAKE(b, sl_int, room);
-    d->next = SLI_TAKE(b, sl_off, n);
-    d->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
-    d->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
-    d->mindeg.rows = SLI_TAKE(b, uint64_t, d->mindeg.room);
+    d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
+    for (k = 0; k < d->team->workers; k++) {
+        sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
+        sli_subgraph_layout(&w->subgraph, b, n, edges);
+        w->next = SLI_TAKE(b, sl_off, n);
+        w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
+        w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
+        w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
+        w->borders.head = head;
+        w->borders.pool = &d->pool;
+    }
 }
 
 /* Sorts the vertices by node: those of node t become order[begin[t]] .. order[begin[t + 1] - 1]. */
@@ -94,73 +116,101 @@ static void sli_dissect_start(sli_dissection *d) {
     sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* Gives the two sides of the subgraph to two new leaves below node. */
-static void sli_dissect_assign(sli_dissection *d, sl_int node) {
-    const sli_subgraph *sub = &d->subgraph;
+/* Bisects a subgraph when the tree has so many nodes. */
+static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
+    const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN;
+    sli_subgraph_bisect(sub,
+                        few           ? SLI_DISSECT_TRIES_FIRST
+                        : sub->n > 50 ? SLI_DISSECT_TRIES
+                                      : 1,
+                        2);
+}
+
+/* Gives the two sides of the subgraph of a former leaf to the new leaves below it. */
+static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
+    sli_dissection *d = (sli_dissection *)data;
+    sli_subgraph *sub = &d->workers[worker].subgraph;
+    const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
     sl_int k, weight[2] = {0, 0};
-    sli_label_tree_split(&d->tree, node);
+    sli_subgraph_leaf(sub, &d->levels[d->level], &d->tree, node, d->label,
+                      d->order + d->begin[node], d->begin[node + 1] - d->begin[node]);
+    d->bisect(sub, leaf[0]);
     for (k = 0; k < sub->n; k++) {
         const int side = sub->side[k];
-        d->label[sub->vertex[k]] = side == 0 ? d->tree.left[node] : d->tree.right[node];
+        sli_shared_write(d->label + sub->vertex[k], leaf[side]);
         weight[side] += sub->weight[k];
     }
-    d->tree.weight[d->tree.left[node]] = weight[0];
-    d->tree.weight[d->tree.right[node]] = weight[1];
+    d->tree.weight[leaf[0]] = weight[0];
+    d->tree.weight[leaf[1]] = weight[1];
+    sli_subgraph_clear(sub);
 }
 
 /* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
  * finest. Returns the number of leaves bisected. */
-static sl_int sli_dissect_split(sli_dissection *d, sl_int most) {
-    const sli_level *g = &d->levels[d->level];
+static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
+                                void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
     const sl_int nodes = d->tree.count;
     sl_int node, split = 0;
     sli_dissect_sort(d);
     for (node = 0; node < nodes; node++) {
-        const sl_int count = d->begin[node + 1] - d->begin[node];
-        if (sli_label_tree_is_leaf(&d->tree, node) && count > most &&
+        if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
             d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
-            const int few =
-                d->tree.count < SLI_DISSECT_FIRST && count <= 2 * SLI_DISSECT_BISECT_MIN;
-            sli_subgraph_leaf(&d->subgraph, g, &d->tree, node, d->label, d->order + d->begin[node],
-                              count);
-            sli_subgraph_bisect(&d->subgraph,
-                                few          ? SLI_DISSECT_TRIES_FIRST
-                                : count > 50 ? SLI_DISSECT_TRIES
-                                             : 1,
-                                2);
-            sli_dissect_assign(d, node);
-            sli_subgraph_clear(&d->subgraph);
-            split++;
+            sli_label_tree_split(&d->tree, node);
+            d->nodes[split++] = node;
         }
     }
     if (split > 0) {
-        sli_label_tree_number(&d->tree, g->n, d->label);
+        d->bisect = bisect;
+        sli_team_loop(d->team, split, d->nodes, sli_dissect_split_item, d);
+        sli_label_tree_number(&d->tree, d->levels[d->level].n, d->label);
     }
     return split;
 }
 
-/* Refines the borders of all nodes on this level, the root's first. */
-static void sli_dissect_refine(sli_dissection *d) {
-    const sli_level *g = &d->levels[d->level];
-    sl_int k;
-    sli_borders_fill(&d->borders, &d->tree, g, d->label);
-    sli_label_tree_breadth_first(&d->tree, d->nodes);
-    for (k = 0; k < d->tree.count; k++) {
-        const sl_int node = d->nodes[k];
-        if (!sli_label_tree_is_leaf(&d->tree, node) && d->borders.head[node] != -1) {
-            sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders,
-                              SLI_DISSECT_LAYERS);
-            sli_subgraph_refine(&d->subgraph, 2);
-            sli_subgraph_apply(&d->subgraph, g, &d->tree, node, d->label, &d->borders);
-            sli_subgraph_clear(&d->subgraph);
+/* Visits the inner nodes of a subtree, or if it is large, the node, and adds what is below it. */
+static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
+    sli_dissection *d = (sli_dissection *)data;
+    const sli_label_tree *t = &d->tree;
+    const int is_large = t->weight[top] > d->total / SLI_DISSECT_TASKS / d->team->workers;
+    sl_int node;
+    for (node = top; node != -1; node = is_large ? -1 : sli_label_tree_below(t, top, node)) {
+        if (!sli_label_tree_is_leaf(t, node) && d->workers->borders.head[node] != -1) {
+            d->visit(d, &d->workers[worker], node);
         }
     }
+    if (is_large && !sli_label_tree_is_leaf(t, top)) {
+        sli_team_add(d->team, t->left[top]);
+        sli_team_add(d->team, t->right[top]);
+    }
+}
+
+/* Visits all inner nodes that have a border, each after the nodes above it. */
+static void sli_dissect_visit(sli_dissection *d,
+                              void (*visit)(sli_dissection *d, sli_dissect_worker *w,
+                                            sl_int node)) {
+    sl_int k;
+    d->pool.count = 0;
+    for (k = 0; k < d->team->workers; k++) {
+        d->workers[k].borders.at = d->workers[k].borders.end = 0;
+    }
+    sli_borders_fill(&d->workers->borders, &d->tree, &d->levels[d->level], d->label);
+    d->visit = visit;
+    d->nodes[0] = d->tree.root;
+    sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
+}
+
+/* Refines the border of a node on this level. */
+static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
+    const sli_level *g = &d->levels[d->level];
+    sli_subgraph_band(&w->subgraph, g, &d->tree, node, d->label, &w->borders, SLI_DISSECT_LAYERS);
+    sli_subgraph_refine(&w->subgraph, 2);
+    sli_subgraph_apply(&w->subgraph, g, &d->tree, node, d->label, &w->borders);
+    sli_subgraph_clear(&w->subgraph);
 }
 
 /* Returns whether the sides are balanced now that the subgraph has a separator, or at least no less
  * balanced than before. */
-static int sli_dissect_is_balanced(const sli_dissection *d) {
-    const sli_subgraph *sub = &d->subgraph;
+static int sli_dissect_is_balanced(const sli_subgraph *sub) {
     int64_t total[2], sum, before = sub->total[0] > sub->total[1] ? sub->total[0] : sub->total[1];
     sl_int v;
     total[0] = sub->total[0];
@@ -190,31 +240,23 @@ static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
     return layers;
 }
 
-/* Finds a minimum vertex separator in the band of each node, the root's first. The larger a
- * subgraph, the wider its band: the first separators decide most of the fill, and there are few of
- * them. If a separator is unbalanced, narrower bands are tried, finally only the border. */
-static void sli_dissect_separate(sli_dissection *d) {
+/* Finds a minimum vertex separator in the band of a node. The larger a subgraph, the wider its
+ * band: the first separators decide most of the fill, and there are few of them. If a separator is
+ * unbalanced, narrower bands are tried, finally only the border. */
+static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
     const sli_level *g = &d->levels[0];
-    sl_int k;
-    sli_borders_fill(&d->borders, &d->tree, g, d->label);
-    sli_label_tree_breadth_first(&d->tree, d->nodes);
-    for (k = 0; k < d->tree.count; k++) {
-        const sl_int node = d->nodes[k];
-        int layers = sli_dissect_layers(d, d->tree.weight[node]);
-        if (sli_label_tree_is_leaf(&d->tree, node) || d->borders.head[node] == -1) {
-            continue;
+    sli_subgraph *sub = &w->subgraph;
+    int layers = sli_dissect_layers(d, d->tree.weight[node]);
+    for (;; layers /= 2) {
+        sli_subgraph_band(sub, g, &d->tree, node, d->label, &w->borders, layers);
+        sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
+        if (layers == 0 || sli_dissect_is_balanced(sub)) {
+            break;
         }
-        for (;; layers /= 2) {
-            sli_subgraph_band(&d->subgraph, g, &d->tree, node, d->label, &d->borders, layers);
-            sli_subgraph_separate(&d->subgraph, d->subgraph.locked, d->subgraph.scratch, d->next);
-            if (layers == 0 || sli_dissect_is_balanced(d)) {
-                break;
-            }
-            sli_subgraph_clear(&d->subgraph);
-        }
-        sli_subgraph_apply(&d->subgraph, g, &d->tree, node, d->label, &d->borders);
-        sli_subgraph_clear(&d->subgraph);
+        sli_subgraph_clear(sub);
     }
+    sli_subgraph_apply(sub, g, &d->tree, node, d->label, &w->borders);
+    sli_subgraph_clear(sub);
 }
 
 /* Projects the labels to the next finer level. */
@@ -235,9 +277,9 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
     w.member = d->order;
     w.start = d->nodes;
     w.seen = d->begin;
-    w.to = d->subgraph.to;
-    w.count = d->subgraph.edge;
-    w.at = d->next;
+    w.to = d->workers->subgraph.to;
+    w.count = d->workers->subgraph.edge;
+    w.at = d->workers->next;
     sli_weigh_edges(d->levels, l, &w);
 }
 
@@ -267,8 +309,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
         if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
             break;
         }
-        status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, d->next,
-                             &shrunk, d->a);
+        status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters,
+                             d->workers->next, &shrunk, d->a);
         if (status != SL_OK || !shrunk) {
             break;
         }
@@ -298,15 +340,16 @@ static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
     d->level = d->n_levels - 1;
     sli_dissect_start(d);
     for (;;) {
-        while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN) > 0) {
+        while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN,
+                                 sli_dissect_bisect) > 0) {
         }
         if (d->level == working) {
             break;
         }
         sli_dissect_project(d);
-        sli_dissect_refine(d);
+        sli_dissect_visit(d, sli_dissect_refine);
     }
-    return d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+    return d->pool.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
 /* Finds labels of the finest level by levels of matched vertices. */

@@ -3,6 +3,7 @@
 #define SLI_ORDERING_LABELS_H
 
 #include "coarsen.h"
+#include "../base/parallel.h"
 
 /* The separator tree of one graph. An inner node is a separator, a leaf is a subgraph that is not
  * dissected. The label of a vertex is its node. After sli_label_tree_number the nodes are numbered
@@ -120,75 +121,104 @@ static void sli_label_tree_number(sli_label_tree *t, sl_int n, sl_int *label) {
     }
 }
 
-/* order := the nodes in breadth-first order, parents first. */
-static void sli_label_tree_breadth_first(const sli_label_tree *t, sl_int *order) {
-    sl_int head, tail = 0;
-    order[tail++] = t->root;
-    for (head = 0; head < tail; head++) {
-        if (!sli_label_tree_is_leaf(t, order[head])) {
-            order[tail++] = t->left[order[head]];
-            order[tail++] = t->right[order[head]];
-        }
+/* The next node of the subtree of `top` in preorder, parents first, or -1. */
+SLI_INLINE sl_int sli_label_tree_below(const sli_label_tree *t, sl_int top, sl_int node) {
+    if (!sli_label_tree_is_leaf(t, node)) {
+        return t->left[node];
     }
+    while (node != top && node == t->right[t->parent[node]]) {
+        node = t->parent[node];
+    }
+    return node == top ? -1 : t->right[t->parent[node]];
 }
 
 /* Borders: for each inner node, a list of the vertices that may have a neighbor on its other side.
- * The lists share one pool of entries that grows on demand. */
+ * The lists of all workers share a pool of entries, in chunks of which each has twice as many as
+ * the one before. A worker takes SLI_BORDERS_RANGE entries at a time. */
+#define SLI_BORDERS_FIRST 1024
+#define SLI_BORDERS_RANGE 256
+#define SLI_BORDERS_CHUNKS 21
 
+typedef struct sli_border {
+    sl_int vertex, next; /* next: an entry, or -1 */
+} sli_border;
+
+typedef struct sli_border_pool {
+    sli_border *chunk[SLI_BORDERS_CHUNKS]; /* NULL: not needed so far */
+    sl_int count;
+    int failed; /* an allocation failed */
+    sli_atomic lock;
+    const sl_allocator *a;
+} sli_border_pool;
+
+/* The borders as one worker adds to them. */
 typedef struct sli_borders {
     sl_int *head; /* by node: its first entry, or -1 */
-    sl_int count, room;
-    sl_int *vertex, *next; /* room */
-    void *block;
-    int failed; /* an allocation failed */
-    const sl_allocator *a;
+    sli_border_pool *pool;
+    sl_int at, end; /* the range of entries that it fills */
 } sli_borders;
 
-SLI_INLINE void sli_borders_init(sli_borders *l, const sl_allocator *a) {
-    l->count = l->room = 0;
-    l->vertex = l->next = NULL;
-    l->block = NULL;
-    l->failed = 0;
-    l->a = a;
-}
-
-static void sli_borders_grow(sli_borders *l) {
-    sli_block b = {NULL, 0, 0};
-    sl_int *vertex = NULL, *next = NULL;
-    const sl_int room =
-        l->room < INT32_MAX / 2 ? sli_max(2 * l->room, 1024) : INT32_MAX; /* untested: 2^30 */
-    int pass;
-    for (pass = 0; pass < 2 && !l->failed; pass++) {
-        vertex = SLI_TAKE(&b, sl_int, room);
-        next = SLI_TAKE(&b, sl_int, room);
-        l->failed = pass == 0 &&
-                    (room == l->room || /* untested: 2^31 */
-                     sli_block_alloc(&b, l->a) != SL_OK);
-    }
-    if (!l->failed) {
-        if (l->count > 0) {
-            memcpy(vertex, l->vertex, (size_t)l->count * sizeof(sl_int));
-            memcpy(next, l->next, (size_t)l->count * sizeof(sl_int));
-        }
-        sli_free(l->a, l->block);
-        l->vertex = vertex;
-        l->next = next;
-        l->room = room;
-        l->block = b.base;
+SLI_INLINE void sli_border_pool_free(sli_border_pool *p) {
+    int k;
+    for (k = 0; k < SLI_BORDERS_CHUNKS; k++) {
+        sli_free(p->a, p->chunk[k]);
     }
 }
 
-/* Enters v into the border list of node. Sets `failed` if memory runs out. */
+/* The chunk of an entry; *first := its first entry. */
+SLI_INLINE int sli_border_chunk(sl_int entry, sl_int *first) {
+    const uint32_t units = (uint32_t)entry / SLI_BORDERS_FIRST + 1;
+#if defined(SLI_GNU)
+    const int chunk = 31 - __builtin_clz(units);
+#else
+    int chunk = 0;
+    while (units >> (chunk + 1) != 0) {
+        chunk++;
+    }
+#endif
+    *first = (sl_int)(((uint32_t)1 << chunk) - 1) * SLI_BORDERS_FIRST;
+    return chunk;
+}
+
+SLI_INLINE sli_border *sli_border_at(const sli_border_pool *p, sl_int entry) {
+    sl_int first;
+    const int chunk = sli_border_chunk(entry, &first);
+    return p->chunk[chunk] + (entry - first);
+}
+
+/* Takes a range of entries from the pool. Returns whether there is one. */
+static int sli_borders_take(sli_borders *l) {
+    sli_border_pool *p = l->pool;
+    sl_int first;
+    int chunk;
+    sli_lock(&p->lock);
+    chunk = p->failed ? 0 : sli_border_chunk(p->count, &first);
+    if (!p->failed && chunk == SLI_BORDERS_CHUNKS) { /* untested: 2^31 */
+        p->failed = 1;
+    }
+    if (!p->failed && p->chunk[chunk] == NULL) {
+        p->chunk[chunk] = (sli_border *)sli_alloc(p->a, ((size_t)SLI_BORDERS_FIRST << chunk) *
+                                                            sizeof(sli_border));
+        p->failed = p->chunk[chunk] == NULL;
+    }
+    if (!p->failed) {
+        l->at = p->count;
+        l->end = p->count += SLI_BORDERS_RANGE;
+    }
+    sli_unlock(&p->lock);
+    return l->at < l->end;
+}
+
+/* Enters v into the border list of node. Without memory, the pool has failed. */
 static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
-    if (l->count == l->room) {
-        sli_borders_grow(l);
-        if (l->failed) {
-            return;
-        }
+    sli_border *b;
+    if (l->at == l->end && !sli_borders_take(l)) {
+        return;
     }
-    l->vertex[l->count] = v;
-    l->next[l->count] = l->head[node];
-    l->head[node] = l->count++;
+    b = sli_border_at(l->pool, l->at);
+    b->vertex = v;
+    b->next = l->head[node];
+    l->head[node] = l->at++;
 }
 
 /* Enters each vertex of a level into the lists of the nodes that separate it from a neighbor. */
@@ -199,7 +229,6 @@ static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_
     for (k = 0; k < t->count; k++) {
         l->head[k] = -1;
     }
-    l->count = 0;
     for (v = 0; v < g->n; v++) {
         const sl_int own = label[v];
         sl_int last = own, listed = -1;

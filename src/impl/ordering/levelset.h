@@ -42,7 +42,7 @@ static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *
 
 /* Bisects along a level set of a vertex at the end of a long path. The smallest level set near the
  * middle becomes the border; the imbalance of the sides increases its cost. */
-static void sli_levelset_bisect(sli_subgraph *sub) {
+static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
     const sl_int n = sub->n;
     sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
            *size = sub->scratch + 2 * (size_t)n;
@@ -52,6 +52,7 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
     const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
     n_sets = sli_levelset_search(sub, sli_subgraph_farthest(sub, end, order, sub->locked), order,
                                  distance);
+    (void)nodes;
     memset(size, 0, (size_t)n_sets * sizeof(sl_int));
     for (k = 0; k < n; k++) {
         size[distance[k]]++;
@@ -72,25 +73,10 @@ static void sli_levelset_bisect(sli_subgraph *sub) {
 
 /* Finds labels only by level sets, down to the size of leaves. */
 static void sli_dissect_levelset(sli_dissection *d) {
-    const sli_level *g = &d->levels[0];
-    sl_int node, nodes;
     d->level = 0;
     sli_dissect_start(d);
-    do {
-        nodes = d->tree.count;
-        sli_dissect_sort(d);
-        for (node = 0; node < nodes && d->tree.count < d->tree.room - 1; node++) {
-            const sl_int count = d->begin[node + 1] - d->begin[node];
-            if (count > d->leaf_size) {
-                sli_subgraph_leaf(&d->subgraph, g, &d->tree, node, d->label,
-                                  d->order + d->begin[node], count);
-                sli_levelset_bisect(&d->subgraph);
-                sli_dissect_assign(d, node);
-                sli_subgraph_clear(&d->subgraph);
-            }
-        }
-        sli_label_tree_number(&d->tree, g->n, d->label);
-    } while (d->tree.count > nodes);
+    while (sli_dissect_split(d, d->leaf_size, sli_levelset_bisect) > 0) {
+    }
 }
 
 /* The number of vertices on the left side of the root's border. */

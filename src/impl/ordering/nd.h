@@ -120,9 +120,9 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     status = sli_nd_label(w);
     if (status == SL_OK) {
         do {
-            sli_dissect_separate(d);
-        } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->leaf_size) > 0);
-        status = d->borders.failed ? SL_ERR_MEMORY : SL_OK;
+            sli_dissect_visit(d, sli_dissect_separate);
+        } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
+        status = d->pool.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;
 }
@@ -147,8 +147,10 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
     sl_int v, k, at = 0;
     sl_status status = SL_OK;
     septree->count = 0;
-    for (v = 0; v < n; v++) {
-        w->d.subgraph.local[v] = -1;
+    for (k = 0; k < w->d.team->workers; k++) {
+        for (v = 0; v < n; v++) {
+            w->d.workers[k].subgraph.local[v] = -1;
+        }
     }
     for (v = 0; v < n && status == SL_OK; v++) {
         if (w->local[v] == -1) {
@@ -183,10 +185,11 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
  * the balance of bisections; NULL: 1 each. */
 static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_metis,
                               const double *xyz, sl_int dimensions, sl_int *perm,
-                              sli_septree *septree, const sl_allocator *a) {
+                              sli_septree *septree, sli_team *team, const sl_allocator *a) {
     sli_nd w;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
+    sl_int k;
     int pass;
     memset(&w, 0, sizeof w);
     w.G = G;
@@ -196,19 +199,22 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
     w.points.unit = xyz != NULL ? sli_points_unit(xyz, (size_t)G->n * (size_t)dimensions) : 1.0;
     w.by_metis = by_metis;
     w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
-    w.d.a = a;
-    /* CPUID takes longer than what it saves in a small graph */
-    w.d.mindeg.has_popcnt =
-        G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+    w.d.team = team;
+    w.d.a = w.d.pool.a = a;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_nd_layout(&w, &b);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     w.points.row = w.row;
     if (status == SL_OK) {
-        sli_borders_init(&w.d.borders, a);
+        /* CPUID takes longer than what it saves in a small graph */
+        const int has_popcnt =
+            G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+        for (k = 0; k < team->workers; k++) {
+            w.d.workers[k].mindeg.has_popcnt = has_popcnt;
+        }
         status = sli_nd_run(&w, perm, septree);
-        sli_free(a, w.d.borders.block);
+        sli_border_pool_free(&w.d.pool);
         sli_free(a, b.base);
     }
     return status;

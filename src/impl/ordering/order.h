@@ -115,7 +115,7 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
 /* Orders a graph of rows or of blocks of rows. perm and septree hold its vertices. */
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                                 const sl_allocator *a) {
+                                 sli_team *team, const sl_allocator *a) {
     const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
     const int is_hurried = ordering == SL_ORDERING_ND && opt != NULL && xyz == NULL &&
                            opt->purpose == SL_PURPOSE_ONE_FACTOR;
@@ -132,9 +132,9 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
             return status;
         }
     }
-    return xyz != NULL ? sli_order_nd(G, NULL, 0, xyz, opt->dimensions, perm, septree, a)
+    return xyz != NULL ? sli_order_nd(G, NULL, 0, xyz, opt->dimensions, perm, septree, team, a)
                        : sli_order_compressed(G, ordering == SL_ORDERING_METIS_REFINED, perm,
-                                              scratch, septree, a);
+                                              scratch, septree, team, a);
 }
 
 /* Does A store a diagonal entry in column j? */
@@ -208,7 +208,7 @@ static int sli_order_is_irregular(const sli_graph *G) {
 /* Orders the rows by the graph of A, with blocks of rows as vertices. */
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
                                     const sl_options *opt, sl_int *perm, sl_int *scratch,
-                                    sli_septree *septree, sli_order_choice *choice,
+                                    sli_septree *septree, sli_order_choice *choice, sli_team *team,
                                     const sl_allocator *a) {
     const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     sli_graph G;
@@ -228,7 +228,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     sli_graph_fill(&G, A, triangle, block);
     status = sli_order_canonical(&G, a);
     if (status == SL_OK) {
-        status = sli_order_graph(&G, ordering, opt, perm, scratch, septree, a);
+        status = sli_order_graph(&G, ordering, opt, perm, scratch, septree, team, a);
     }
     if (status == SL_OK && block > 1) {
         sli_order_expand(G.n, block, perm, septree);
@@ -272,12 +272,24 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
     return 1;
 }
 
+/* At most so many workers order a graph: each has scratch of the size of the graph. */
+#define SLI_ORDER_WORKERS 16
+
+/* The workers that order A as the options say; those of METIS do not share. */
+static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
+    const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
+                                          opt->ordering == SL_ORDERING_METIS_REFINED);
+    const double flops = 2 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
+    return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_ORDER_WORKERS) : 1;
+}
+
 /* Finds the elimination order of a checked symmetric pattern. perm := n rows; septree := the
  * separator tree if the ordering has one (n entries of each array); choice: another order where
  * dissection, for many solves, may not be the best; scratch: n. */
 static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
                            sl_int *perm, sl_int *scratch, sli_septree *septree,
-                           sli_order_choice *choice, const sl_allocator *a, sl_stats *stats) {
+                           sli_order_choice *choice, sli_team *team, const sl_allocator *a,
+                           sl_stats *stats) {
     const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
     sl_int bad;
     septree->count = 0;
@@ -296,7 +308,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
         return SL_OK;
     case SL_ORDERING_ND:
     case SL_ORDERING_MINDEG:
-        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, a);
+        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, team,
+                                  a);
     case SL_ORDERING_METIS:
     case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
@@ -305,7 +318,7 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
         return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
                    ? SL_ERR_ARGUMENT
                    : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice,
-                                        a);
+                                        team, a);
 #endif
     default:
         return SL_ERR_ARGUMENT;

@@ -4,7 +4,11 @@
 
 #include "labels.h"
 
-/* A subgraph of a level: the vertices of a leaf, or a few layers on each side of the border between
+/* Workers take subgraphs below nodes of which none is above another one. So while one worker reads
+ * the labels around its subgraph, another may write them, but all of them are below other nodes,
+ * before and after.
+ *
+ * A subgraph of a level: the vertices of a leaf, or a few layers on each side of the border between
  * the two sides of a node. `external` is the weight of the edges to the rest of a side, whose
  * vertices do not move: it holds a vertex at its home side. */
 typedef struct sli_subgraph {
@@ -65,13 +69,13 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_
         sub->begin[k] = count;
         sub->weight[k] = sli_level_weight(g, v);
         sub->external[k] = 0;
-        sub->side[k] = sub->home[k] = label[v] > node;
+        sub->side[k] = sub->home[k] = sli_shared_read(label + v) > node;
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
             const sl_int u = g->to[e];
             if (sub->local[u] != -1) {
                 sub->to[count] = sub->local[u];
                 sub->edge[count++] = sli_level_edge(g, e);
-            } else if (sli_label_tree_is_below(t, node, label[u])) {
+            } else if (sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
                 sub->external[k] += sli_level_edge(g, e);
             }
         }
@@ -107,16 +111,15 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
     sl_off e;
     int layer;
     sub->n = 0;
-    for (entry = l->head[node]; entry != -1; entry = l->next[entry]) {
-        const sl_int v = l->vertex[entry];
-        const int side = label[v] > node;
+    for (entry = l->head[node]; entry != -1; entry = sli_border_at(l->pool, entry)->next) {
+        const sl_int v = sli_border_at(l->pool, entry)->vertex, own = sli_shared_read(label + v);
+        const int side = own > node;
         int crosses = 0;
-        if (sub->local[v] != -1 || label[v] == node ||
-            !sli_label_tree_is_below(t, node, label[v])) {
+        if (sub->local[v] != -1 || own == node || !sli_label_tree_is_below(t, node, own)) {
             continue;
         }
         for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
-            const sl_int other = label[g->to[e]];
+            const sl_int other = sli_shared_read(label + g->to[e]);
             crosses =
                 other != node && sli_label_tree_is_below(t, node, other) && (other > node) != side;
         }
@@ -129,7 +132,8 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
         for (; head < end; head++) {
             for (e = g->begin[sub->vertex[head]]; e < g->begin[sub->vertex[head] + 1]; e++) {
                 const sl_int u = g->to[e];
-                if (sub->local[u] == -1 && sli_label_tree_is_below(t, node, label[u])) {
+                if (sub->local[u] == -1 &&
+                    sli_label_tree_is_below(t, node, sli_shared_read(label + u))) {
                     sli_subgraph_add(sub, u, layer);
                 }
             }
@@ -143,7 +147,7 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
 /* Moves a vertex to another leaf below node, or into the separator if to == node. */
 static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
                                sli_label_tree *t, sl_int *label, sli_borders *l) {
-    const sl_int from = label[v], weight = sli_level_weight(g, v);
+    const sl_int from = sli_shared_read(label + v), weight = sli_level_weight(g, v);
     sl_int up, last = to;
     sl_off e;
     for (up = from; up != node; up = t->parent[up]) {
@@ -152,12 +156,12 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
     for (up = to; up != node; up = t->parent[up]) {
         t->weight[up] += weight;
     }
-    label[v] = to;
+    sli_shared_write(label + v, to);
     if (to == node) {
         return;
     }
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-        const sl_int other = label[g->to[e]];
+        const sl_int other = sli_shared_read(label + g->to[e]);
         if (other != to && other != last && other != node && (other > node) == (to > node) &&
             sli_label_tree_is_below(t, node, other)) {
             const sl_int border = sli_label_tree_lca(t, to, other);
@@ -173,7 +177,7 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tre
     sl_int best = -1, most = 0;
     sl_off e;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-        const sl_int other = label[g->to[e]];
+        const sl_int other = sli_shared_read(label + g->to[e]);
         if (other != node && sli_label_tree_is_below(t, node, other) && (other > node) == side &&
             sli_level_edge(g, e) > most) {
             most = sli_level_edge(g, e);

@@ -141,10 +141,9 @@ static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sl
 }
 
 /* Item m of a solve by several workers: t->share right-hand sides. */
-static void sli_sweep_tasks_block(void *data, sl_int phase, sl_int m, sl_int worker) {
+static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
     const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
     const sl_int first = m * t->share, count = sli_min(t->share, t->nrhs - first);
-    (void)phase;
     (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)first * t->x_at.column, t->x_at,
                            t->B + (size_t)first * t->b_at.column, t->b_at, count,
                            (unsigned char *)t->memory + (size_t)worker * t->bytes);
@@ -162,8 +161,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
-    status = sli_work_grow(W, t.workers > 1 ? t.total
-                                            : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
+    status =
+        sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
     if (status == SL_OK && t.workers > 1) {
         t.X = X;
         t.x_at = x_at;

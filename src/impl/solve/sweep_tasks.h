@@ -40,6 +40,7 @@ typedef struct sli_sweep_tasks {
     double *X;
     const double *B;
     sli_dense x_at, b_at;
+    void (*run_block)(void *data, sl_int item, sl_int worker);
     void *memory;
     size_t bytes, total; /* of one worker's vectors where blocks are distributed; of everything */
     double *y, *scratch; /* y: n + slots */
@@ -180,7 +181,7 @@ static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
     t->y = SLI_TAKE(b, double, (uint64_t)S->n + (uint64_t)t->n_slots);
     t->scratch = SLI_TAKE(b, double, workers *sli_sweep_scratch(S->tallest, S->widest, 1));
     t->slot_row = SLI_TAKE(b, sl_int, t->n_slots);
-    t->rows = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+    t->rows = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
 }
 
 /* Plans a solve by several workers. workers := 1 where one is as fast, or where rounding would
@@ -318,41 +319,48 @@ static void sli_sweep_tasks_tops(const sli_sweep_tasks *t, double *scratch) {
     }
 }
 
-static void sli_sweep_tasks_item(void *data, sl_int phase, sl_int item, sl_int worker) {
+/* The loops over the tasks, and the supernodes above them in between. */
+static void sli_sweep_tasks_forward_item(void *data, sl_int item, sl_int worker) {
+    const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
+    const sl_symbolic *S = t->F->S;
+    sli_sweep_tasks_forward(t, &t->tasks[t->order[item]],
+                            t->scratch +
+                                (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1),
+                            t->rows + (size_t)worker * (size_t)S->tallest);
+}
+
+static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker) {
     const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
     const sl_symbolic *S = t->F->S;
     const sli_sweep_task *task = &t->tasks[t->order[item]];
-    double *scratch = t->scratch + (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1);
-    if (phase == 0) {
-        sli_sweep_tasks_forward(t, task, scratch, t->rows + (size_t)worker * (size_t)S->tallest);
-    } else if (phase == 1) {
-        sli_sweep_tasks_tops(t, scratch);
-    } else {
-        sli_sweep_tasks_backward(t, task->first, task->last, scratch);
-        sli_sweep_tasks_unpack(t, task->first, task->last);
+    sli_sweep_tasks_backward(t, task->first, task->last,
+                             t->scratch +
+                                 (size_t)worker * sli_sweep_scratch(S->tallest, S->widest, 1));
+    sli_sweep_tasks_unpack(t, task->first, task->last);
+}
+
+static void sli_sweep_tasks_lead(sli_team *team, void *data) {
+    sli_sweep_tasks *t = (sli_sweep_tasks *)data;
+    if (t->nrhs > 8) {
+        sli_team_loop(team, (t->nrhs - 1) / t->share + 1, NULL, t->run_block, t);
+        return;
     }
+    sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
+    sli_sweep_tasks_tops(t, t->scratch);
+    sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_backward_item, t);
 }
 
 /* Runs a planned solve in memory of t->total bytes; run_block solves t->share right-hand sides. */
 static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, void *memory,
-                                void (*run_block)(void *data, sl_int phase, sl_int item,
-                                                  sl_int worker)) {
+                                void (*run_block)(void *data, sl_int item, sl_int worker)) {
     sli_block b = {NULL, 0, 0};
-    sli_phases phases;
-    memset(&phases, 0, sizeof phases);
-    phases.data = t;
     t->memory = memory;
-    if (t->nrhs > 8) {
-        phases.run = run_block;
-        phases.count[0] = (t->nrhs - 1) / t->share + 1;
-    } else {
+    t->run_block = run_block;
+    if (t->nrhs <= 8) {
         b.base = (unsigned char *)memory;
         sli_sweep_tasks_layout(t, &b);
-        phases.run = sli_sweep_tasks_item;
-        phases.count[0] = phases.count[2] = t->n_tasks;
-        phases.count[1] = 1;
     }
-    sli_parallel(threads, t->workers, sli_phases_body, &phases);
+    sli_team_run(threads, t->workers, sli_sweep_tasks_lead, t);
 }
 
 #endif
