@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d0a840bd4b73e171
+ * FNV-1a of the lines after this comment, without the license: 010a576666818e52
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -63,27 +63,27 @@
  *  19301 bilinear.h  19478 entries.h  19759 block.h  19999 reserve.h  20191 selected.h
  *  20401 selected_query.h  20503 region_choose.h  20727 region.h
  * (change: a factor that follows changes of its matrix)
- *  20975 update.h  21325 rank.h  21654 edges.h  21808 choose.h  22002 pins_types.h
- *  22054 pins_nulls.h  22232 pins_capacitance.h  22459 pins.h  22628 pins_solve.h  22876 subset.h
- *  22983 restrict_analysis.h  23280 restrict_anew.h  23334 restrict_symbolic.h  23515 restrict.h
- *  23742 edit_match.h  23928 edit_place.h  24177 edit_separate.h  24490 edit_order.h
- *  24645 edit_graph.h  24740 edit_join.h  25016 edit.h
+ *  20975 update.h  21325 rank.h  21655 edges.h  21809 choose.h  22003 pins_types.h
+ *  22055 pins_nulls.h  22233 pins_capacitance.h  22460 pins.h  22629 pins_solve.h  22877 subset.h
+ *  22984 restrict_analysis.h  23281 restrict_anew.h  23335 restrict_symbolic.h  23516 restrict.h
+ *  23743 edit_match.h  23929 edit_place.h  24178 edit_separate.h  24491 edit_order.h
+ *  24646 edit_graph.h  24741 edit_join.h  25017 edit.h
  * (save: factors in files)
- *  25180 format.h  25476 decode.h  25624 check.h  25954 write.h  26259 load.h  26527 load_inverse.h
- *  26856 load_calls.h
+ *  25181 format.h  25477 decode.h  25625 check.h  25955 write.h  26260 load.h  26528 load_inverse.h
+ *  26857 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27055 batch_solve.h  27264 batch_factor.h  27465 batch_diagonal.h
+ *  27056 batch_solve.h  27265 batch_factor.h  27466 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27605 hermitian.h  27767 complex_rows.h
+ *  27606 hermitian.h  27768 complex_rows.h
  * (last: undefine every internal macro)
- *  27935 undef.h
+ *  27936 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28169 front.inl.h  28171 product.inl.h  28666 words_undef.inl.h  28748 multi_rhs.inl.h
- *  28767 multi_rhs_small.inl.h  28935 multi_rhs_tiles.inl.h  29240 sweeps.inl.h
- *  29242 unit_triangle.inl.h  29279 two_rhs.inl.h  29448 small_supernode.inl.h
- *  29607 single_rhs.inl.h  29851 kernel_set.inl.h  29853 complex_small.inl.h
- *  30017 complex_rows.inl.h  30257 inverse_front.inl.h  30542 row.inl.h  30572 change.inl.h
- *  30636 interleave.inl.h
+ *  28170 front.inl.h  28172 product.inl.h  28667 words_undef.inl.h  28749 multi_rhs.inl.h
+ *  28768 multi_rhs_small.inl.h  28936 multi_rhs_tiles.inl.h  29241 sweeps.inl.h
+ *  29243 unit_triangle.inl.h  29280 two_rhs.inl.h  29449 small_supernode.inl.h
+ *  29608 single_rhs.inl.h  29852 kernel_set.inl.h  29854 complex_small.inl.h
+ *  30018 complex_rows.inl.h  30258 inverse_front.inl.h  30543 row.inl.h  30573 change.inl.h
+ *  30637 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -21459,7 +21459,8 @@ static void sli_rank_sort(void *data) {
   }
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-  q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE);
+  q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE) ||
+         q->u.F->growth_limit < 2.0;
   q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
 }

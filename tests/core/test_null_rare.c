@@ -1,5 +1,5 @@
-/* test_null_rare.c: null pivots of rows of zeros in several trees, of weights that cancel, of sums of
- * matrices, and where sizes overflow */
+/* test_null_rare.c: null pivots of rows of zeros in several trees, of weights that cancel, of sums
+ * of matrices, and where sizes overflow */
 #include "tests/lib/factored.h"
 
 /* Adds the edge (i, j) of a Laplacian. */
@@ -22,8 +22,8 @@ static sl_options skipping(void) {
     return opt;
 }
 
-/* Two trees of three rows, each an edge and a row of zeros, with weights: the rows of zeros have the
- * solution 0, the others zero mean. */
+/* Two trees of three rows, each an edge and a row of zeros, with weights: the rows of zeros have
+ * the solution 0, the others zero mean. */
 static void rows_of_zeros_in_several_trees(void **state) {
     (void)state;
     const double mass[6] = {1, 3, 5, 1, 3, 5}, b[6] = {2, -2, 0, -4, 4, 0};
@@ -107,8 +107,8 @@ static void edges_of_weight_zero_in_both_triangles(void **state) {
     sl_symbolic_free(S);
 }
 
-/* The null vector of the sum, signs, is none that is assumed: the tolerance finds the null pivot, and
- * products with both terms confirm it. */
+/* The null vector of the sum, signs, is none that is assumed: the tolerance finds the null pivot,
+ * and products with both terms confirm it. */
 static void null_pivots_of_a_sum_are_confirmed(void **state) {
     (void)state;
     enum { N = 30 };

@@ -253,6 +253,60 @@ static void limits_are_inherited(void **state) {
     }
 }
 
+/* A pivot that overflows, or an entry that is not finite, in what is computed anew: the row in the
+ * error is that of the whole matrix. */
+static void overflow_names_rows_of_the_whole_matrix(void **state) {
+    (void)state;
+    int entries = 0, pivots = 0;
+    sl_options opt = options_none();
+    opt.growth_limit = opt.error_limit = -1.0;
+    factored_t y = factored_make(GEN_GRID2, 225, 1, 0, &opt);
+    for (int shape = SUBSET_HALF; shape < SUBSET_SHAPES; shape++) {
+        sl_int rows[225], count = subset_fill(rows, 225, shape, y.S);
+        for (sl_int k = 0; k < 2 * count; k++) {
+            const sl_int row = rows[k / 2], p = y.M.p[row];
+            const double keep = y.M.x[p];
+            sl_stats stats;
+            y.M.x[p] = k % 2 == 0 ? INFINITY : 1e-320;
+            const sl_status status = restriction_status(&y, &y.M.view, rows, count, &stats);
+            if (k % 2 == 0 && status != SL_OK) {
+                assert_int_equal(status, SL_ERR_NOT_FINITE);
+                assert_true(stats.error.row == row && stats.error.column == row);
+                entries++;
+            } else if (status != SL_OK) {
+                assert_int_equal(status, SL_ERR_NOT_FINITE);
+                assert_in_range(stats.error.row, 0, 224);
+                pivots += stats.error.column == -1;
+            }
+            y.M.x[p] = keep;
+        }
+    }
+    assert_true(entries > 0 && pivots > 0);
+    factored_free(&y);
+}
+
+/* Rows of zeros that are regularized have no sum of magnitudes. */
+static void regularized_zeros_are_restricted(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 1, 2, 3}, i[3] = {0, 1, 2}, rows[2] = {2, 1};
+    const double x[3] = {4.0, 0.0, 8.0}, b[2] = {8.0, 6.0};
+    const sl_csc A = {3, 3, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S, *T;
+    sl_factor *F, *G;
+    double y[2];
+    opt.regularization = 2.0;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_restrict(&T, &G, F, &A, rows, 2, NULL, NULL));
+    SL_CHECK(sl_factor_solve(G, y, 2, b, 2, 1, NULL));
+    assert_true(y[0] == 1.0 && y[1] == 3.0);
+    sl_factor_free(F);
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    sl_symbolic_free(T);
+}
+
 /* Rows without neighbors: their columns of L are copied with nothing below them. */
 static void diagonal_matrices_are_restricted(void **state) {
     (void)state;
@@ -321,6 +375,8 @@ int main(void) {
         cmocka_unit_test(failures_name_rows_of_the_whole_matrix),
         cmocka_unit_test(null_pivots_may_be_removed),
         cmocka_unit_test(regularization_is_inherited),
+        cmocka_unit_test(overflow_names_rows_of_the_whole_matrix),
+        cmocka_unit_test(regularized_zeros_are_restricted),
         cmocka_unit_test(diagonal_matrices_are_restricted),
         cmocka_unit_test(limits_are_inherited),
         cmocka_unit_test(pairs_are_unsupported),

@@ -151,7 +151,8 @@ static void sli_rank_sort(void *data) {
     }
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-    q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE);
+    q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE) ||
+                 q->u.F->growth_limit < 2.0; /* else pivots of one sign do not exceed it */
     q->has_trial = rest > 0 && !q->has_log;
     sli_rank_measure(q);
 }

@@ -1,0 +1,83 @@
+/* test_change_rare.c: changes by vectors of zeros, of matrices of zeros, to pivots of rounding */
+#include "tests/lib/factored.h"
+
+/* A vector of zeros changes no bit. */
+static void zeros_change_nothing(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
+    const size_t size = (size_t)sl_symbolic_view(y.S).panel_begin[sl_symbolic_view(y.S).n_supers];
+    const sl_int p[2] = {0, 1}, i[1] = {7};
+    const double x[1] = {0.0}, sigma[1] = {1.0};
+    const sl_csc V = {100, 1, p, i, x};
+    double *L = test_reals(size), D[100];
+    memcpy(L, sl_factor_view(y.F).L, size * sizeof *L);
+    memcpy(D, sl_factor_view(y.F).D, sizeof D);
+    SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, NULL));
+    assert_memory_equal(L, sl_factor_view(y.F).L, size * sizeof *L);
+    assert_memory_equal(D, sl_factor_view(y.F).D, sizeof D);
+    free(L);
+    factored_free(&y);
+}
+
+/* A regularized matrix of zeros has no entry to compare with. */
+static void matrices_of_zeros_are_changed(void **state) {
+    (void)state;
+    const sl_int p[2] = {0, 1}, i[1] = {0};
+    const double zero[1] = {0.0}, sigma[1] = {1.0}, b = 6.0;
+    double one[1] = {0.0}, x;
+    const sl_csc A = {1, 1, p, i, zero}, V = {1, 1, p, i, one};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    opt.regularization = 2.0;
+    opt.growth_limit = 0.5;
+    opt.error_limit = -1.0;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_update(F, &V, sigma, NULL, NULL));
+    SL_CHECK(sl_factor_solve(F, &x, 1, &b, 1, 1, NULL));
+    assert_true(x == 3.0);
+    one[0] = 1.0; /* any growth is more than 0.5 */
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_update(F, &V, sigma, NULL, &stats));
+    assert_int_equal(stats.error.row, 0);
+    SL_CHECK(sl_factor_solve(F, &x, 1, &b, 1, 1, NULL));
+    assert_true(x == 3.0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* The last pivot becomes far smaller than the terms that it was computed from, though not than the
+ * change: it is null. */
+static void a_pivot_of_rounding_is_null(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1}, last = 1;
+    const double x[3] = {1.0, 1.0, 1.0 + 1e-10};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    const double pivot = sl_factor_view(F).D[1];
+    double delta = 1e-17 - pivot;
+    assert_true(pivot > 9e-11 && pivot < 1.1e-10 && pivot + delta > 0.0);
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_update_entries(F, &last, &last, &delta, 1, NULL, &stats));
+    assert_int_equal(stats.error.row, 1);
+    assert_true(sl_factor_view(F).D[1] == pivot);
+    delta = 1e-12 - pivot;
+    SL_CHECK(sl_factor_update_entries(F, &last, &last, &delta, 1, NULL, &stats));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zeros_change_nothing),
+        cmocka_unit_test(matrices_of_zeros_are_changed),
+        cmocka_unit_test(a_pivot_of_rounding_is_null),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
