@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 010a576666818e52
+ * FNV-1a of the lines after this comment, without the license: f2f3fda2c2c809e6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,81 +9,81 @@
  *    239 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    395 options.h    options of all calls, threads, and the allocator
  *    535 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    704 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    876 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1011 factor.h     the numerical factorization P A P' = L D L'
- *   1292 solve.h      full solves, and the workspace of all solves
- *   1405 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1499 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1612 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1725 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1861 batch.h      many independent solves by one call, distributed over threads
- *   1911 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2089 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2209 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2313 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2452 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2570 change.h     a factor that follows small changes of its matrix
- *   2657 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2749 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2882 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2931 edit.h       an analysis that follows edits of the pattern: rows and entries that come and go
+ *    717 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    889 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1024 factor.h     the numerical factorization P A P' = L D L'
+ *   1305 solve.h      full solves, and the workspace of all solves
+ *   1418 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1512 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1625 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1738 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1874 batch.h      many independent solves by one call, distributed over threads
+ *   1924 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2102 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2222 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2326 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2465 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2583 change.h     a factor that follows small changes of its matrix
+ *   2670 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2762 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2895 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2944 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   2983 base.h   3277 status.h   3338 options.h   3396 alloc.h   3506 hash.h   3636 file_map.h
- *   3733 sort.h   3797 parallel.h
+ *   3035 base.h   3329 status.h   3390 options.h   3448 alloc.h   3558 hash.h   3688 file_map.h
+ *   3785 sort.h   3849 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   3988 panel.h   4014 step.h   4089 pivot_rule.h   4163 front.h   4223 pairs.h
- *   4430 inverse_front.h   4502 table.h   4530 simd.h   4625 simd_scalar_single.h
- *   4671 simd_scalar.h   4795 simd_avx2_single.h   4849 simd_avx2.h   5063 simd_avx512_single.h
- *   5118 simd_avx512.h   5273 simd_neon_single.h   5315 simd_neon.h   5525 dispatch.h
+ *   4040 panel.h   4066 step.h   4141 pivot_rule.h   4215 front.h   4275 pairs.h
+ *   4482 inverse_front.h   4554 table.h   4582 simd.h   4677 simd_scalar_single.h
+ *   4723 simd_scalar.h   4847 simd_avx2_single.h   4901 simd_avx2.h   5115 simd_avx512_single.h
+ *   5170 simd_avx512.h   5325 simd_neon_single.h   5367 simd_neon.h   5577 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5605 csc.h   5719 csc_build.h   5853 csc64.h   5924 csc_triangle.h   5990 csc_products.h
- *   6107 permute.h   6173 sum.h   6255 output_file.h   6464 matrix_market.h
+ *   5657 csc.h   5771 csc_build.h   5905 csc64.h   5976 csc_triangle.h   6042 csc_products.h
+ *   6159 permute.h   6225 sum.h   6307 output_file.h   6516 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6910 graph.h   7059 coarsen.h   7371 labels.h   7592 subgraph.h   7787 heap.h   7847 bisect.h
- *   8074 separator.h   8336 mindeg.h   8519 dissect.h   8886 levelset.h   8992 geometric.h
- *   9167 cells.h   9347 septree.h   9423 metis.h   9572 metis_refined.h   9686 nd.h
- *   9885 compress.h  10006 quotient.h  10419 order.h
+ *   6962 graph.h   7111 coarsen.h   7423 labels.h   7644 subgraph.h   7839 heap.h   7899 bisect.h
+ *   8126 separator.h   8388 mindeg.h   8571 dissect.h   8938 levelset.h   9044 geometric.h
+ *   9219 cells.h   9399 septree.h   9475 metis.h   9624 metis_refined.h   9738 nd.h
+ *   9937 compress.h  10058 quotient.h  10471 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10712 symbolic_types.h  10749 etree.h  10822 counts.h  10879 supernodes.h  11101 structure.h
- *  11222 schedule.h  11502 symbolic.h  11932 reach.h
+ *  10764 symbolic_types.h  10801 etree.h  10874 counts.h  10931 supernodes.h  11153 structure.h
+ *  11274 schedule.h  11554 symbolic.h  11984 reach.h
  * (factor: the numbers of L and D)
- *  12203 factor_types.h  12594 storage.h  12734 pivot_search.h  13080 pivoted.h  13148 scatter.h
- *  13306 uplooking.h  13378 null_product.h  13582 null_dense.h  13659 null_basis.h
- *  13967 null_vectors.h  14109 multifrontal.h  14299 gather.h  14347 kept.h  14514 front_tasks.h
- *  14857 nullspace.h  15060 growth.h  15136 factor_setup.h  15444 factor.h  15654 leftlooking.h
- *  15794 factor_query.h  15929 combination.h
+ *  12255 factor_types.h  12665 storage.h  12805 pivot_search.h  13151 pivoted.h  13219 scatter.h
+ *  13377 uplooking.h  13449 null_product.h  13653 null_dense.h  13730 null_basis.h
+ *  14038 null_vectors.h  14180 multifrontal.h  14370 gather.h  14418 kept.h  14585 front_tasks.h
+ *  14928 nullspace.h  15131 growth.h  15207 factor_setup.h  15521 factor.h  15731 leftlooking.h
+ *  15871 factor_query.h  16006 combination.h
  * (solve: full and local solves)
- *  15990 region_types.h  16094 work.h  16194 query.h  16404 singular.h  16674 backward.h
- *  16704 sweep_tasks.h  17038 sweep.h  17249 compile.h  17442 plan.h  17549 local.h  17701 parts.h
- *  17990 refine.h  18169 refine_local.h  18385 rcond.h  18541 defects.h
+ *  16067 region_types.h  16171 work.h  16271 query.h  16481 singular.h  16751 backward.h
+ *  16781 sweep_tasks.h  17115 sweep.h  17326 compile.h  17519 plan.h  17626 local.h  17778 parts.h
+ *  18067 refine.h  18246 refine_local.h  18462 rcond.h  18618 defects.h
  * (inverse: entries of the inverse, regions)
- *  18619 traversal.h  18864 traversal_run.h  19047 row_sets.h  19074 unit_vectors.h
- *  19301 bilinear.h  19478 entries.h  19759 block.h  19999 reserve.h  20191 selected.h
- *  20401 selected_query.h  20503 region_choose.h  20727 region.h
+ *  18696 traversal.h  18941 traversal_run.h  19124 row_sets.h  19151 unit_vectors.h
+ *  19378 bilinear.h  19555 entries.h  19836 block.h  20076 reserve.h  20268 selected.h
+ *  20478 selected_query.h  20580 region_choose.h  20804 region.h
  * (change: a factor that follows changes of its matrix)
- *  20975 update.h  21325 rank.h  21655 edges.h  21809 choose.h  22003 pins_types.h
- *  22055 pins_nulls.h  22233 pins_capacitance.h  22460 pins.h  22629 pins_solve.h  22877 subset.h
- *  22984 restrict_analysis.h  23281 restrict_anew.h  23335 restrict_symbolic.h  23516 restrict.h
- *  23743 edit_match.h  23929 edit_place.h  24178 edit_separate.h  24491 edit_order.h
- *  24646 edit_graph.h  24741 edit_join.h  25017 edit.h
+ *  21052 update.h  21402 rank.h  21740 edges.h  21894 choose.h  22092 pins_types.h
+ *  22144 pins_nulls.h  22322 pins_capacitance.h  22549 pins.h  22718 pins_solve.h  22966 subset.h
+ *  23073 restrict_analysis.h  23370 restrict_anew.h  23424 restrict_symbolic.h  23605 restrict.h
+ *  23833 edit_match.h  24032 edit_place.h  24281 edit_separate.h  24594 edit_order.h
+ *  24749 edit_graph.h  24844 edit_join.h  25120 edit.h  25283 edit_factor.h
  * (save: factors in files)
- *  25181 format.h  25477 decode.h  25625 check.h  25955 write.h  26260 load.h  26528 load_inverse.h
- *  26857 load_calls.h
+ *  25541 format.h  25837 decode.h  25985 check.h  26315 write.h  26620 load.h  26888 load_inverse.h
+ *  27217 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27056 batch_solve.h  27265 batch_factor.h  27466 batch_diagonal.h
+ *  27416 batch_solve.h  27625 batch_factor.h  27826 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27606 hermitian.h  27768 complex_rows.h
+ *  27966 hermitian.h  28128 complex_rows.h
  * (last: undefine every internal macro)
- *  27936 undef.h
+ *  28296 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28170 front.inl.h  28172 product.inl.h  28667 words_undef.inl.h  28749 multi_rhs.inl.h
- *  28768 multi_rhs_small.inl.h  28936 multi_rhs_tiles.inl.h  29241 sweeps.inl.h
- *  29243 unit_triangle.inl.h  29280 two_rhs.inl.h  29449 small_supernode.inl.h
- *  29608 single_rhs.inl.h  29852 kernel_set.inl.h  29854 complex_small.inl.h
- *  30018 complex_rows.inl.h  30258 inverse_front.inl.h  30543 row.inl.h  30573 change.inl.h
- *  30637 interleave.inl.h
+ *  28533 front.inl.h  28535 product.inl.h  29030 words_undef.inl.h  29112 multi_rhs.inl.h
+ *  29131 multi_rhs_small.inl.h  29299 multi_rhs_tiles.inl.h  29604 sweeps.inl.h
+ *  29606 unit_triangle.inl.h  29643 two_rhs.inl.h  29812 small_supernode.inl.h
+ *  29971 single_rhs.inl.h  30215 kernel_set.inl.h  30217 complex_small.inl.h
+ *  30381 complex_rows.inl.h  30621 inverse_front.inl.h  30906 row.inl.h  30936 change.inl.h
+ *  31000 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -678,6 +678,18 @@ typedef struct sl_edit_info {
     double seconds; /* processor seconds, all included */
 } sl_edit_info;
 
+/** A factor that follows an edit of the pattern: sl_factor_edit. */
+typedef struct sl_reuse_info {
+    sl_int kept;             /* columns of L that were copied */
+    sl_int computed;         /* the others */
+    sl_off entries;          /* doubles of L that were copied */
+    double flops;            /* of the columns to compute and of what they gather from kept ones */
+    double flops_anew;       /* of all columns */
+    int is_anew;             /* 1: a whole factorization */
+    sl_change_reason reason; /* why: SL_CHANGE_CHEAPEST, _UNSUITED, _REFUSED */
+    double seconds;          /* processor seconds, summed over all threads */
+} sl_reuse_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -694,8 +706,9 @@ typedef struct sl_stats {
     sl_restrict_info restriction;
     sl_edit_info edit;
     sl_off storage; /* sl_storage of the factor; with the group factor */
+    sl_reuse_info reuse;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[9];
+    sl_off reserved[3];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -2928,7 +2941,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
                                                    const sl_int *rows, sl_int count,
                                                    const sl_options *opt, sl_stats *stats);
 
-/* src/public/edit.h: an analysis that follows edits of the pattern: rows and entries that come and go */
+/* src/public/edit.h: analyses and factors that follow edits of the pattern: rows and entries come and go */
 
 /** Analyzes an edited matrix B from the analysis of the matrix A that it was before.
  *
@@ -2969,6 +2982,45 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_csc *A, const sl_csc *B,
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
+
+/** Factors an edited matrix B from a factor of the matrix A that it was before.
+ *
+ *  Columns of L are copied where the supernode and all its descendants have the structure of F and
+ *  were computed from the same entries; F knows these by hashes. The others, all of them ancestors
+ *  of a change, are computed; they gather the updates of copied columns from L. If that takes more
+ *  time than a whole factorization, by counted flops, this call is one (stats.reuse.is_anew).
+ *
+ *  Entries that refactorizations and rank-one changes of F have changed are compared as well, so
+ *  F may be any factor: new_of and F decide about the time alone, not about the result. Solutions
+ *  are as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
+ *  judged again by the null tolerance, whose default depends on n.
+ *
+ *  A whole factorization follows if F or the options are not suited: L in float or complex, 2x2
+ *  pivots, several null vectors, the up-looking method, a factor that was loaded or is a
+ *  restriction, or another treatment of null pivots than that of F.
+ *
+ *  out     [out]  the factor of B, or NULL on error; release with sl_factor_free. It does not
+ *                 depend on F.
+ *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
+ *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; borrowed, must outlive out.
+ *  B       [in]   n x n, the matrix that S was created from.
+ *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
+ *                 gone. After several edits, the composition of their maps.
+ *  opt     [in]   as for sl_factor_create; may be NULL.
+ *  stats   [out]  factor, reuse; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
+ *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
+ *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
+ *           mesh of 1e6 vertices is remeshed in one place, about a third of the flops and of the
+ *           time of a new factorization.
+ *  Threads  reads F; otherwise as sl_factor_create.
+ *  Source   [HA18]
+ *  Example  tests/core/test_factor_edit.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor *F,
+                                               const sl_symbolic *S, const sl_csc *B,
+                                               const sl_int *new_of, const sl_options *opt,
+                                               sl_stats *stats);
 
 #ifdef __cplusplus
 }
@@ -12285,6 +12337,7 @@ struct sl_factor {
   double *divisors;
   double *center_scratch;
   double *buffer;
+  uint64_t *marks;
   const struct sli_kept *kept;
 
   sl_threads threads;
@@ -12394,6 +12447,14 @@ SLI_INLINE float sli_single(double a) {
 
 #define SLI_ENTRIES_AHEAD 32
 
+SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
+  uint64_t bits;
+  memcpy(&bits, &a, sizeof bits);
+  return sli_fold(sli_fold(bits ^ SLI_HASH_1, (uint64_t)place + SLI_HASH_2), SLI_HASH_3);
+}
+
+#define SLI_MARK_BEGIN SLI_HASH_4
+
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
                            float *single, int is_half, sl_off first,
                            sl_off last, const double *x,
@@ -12403,6 +12464,7 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
   const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
   const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
   double largest = F->extents[s].entry;
+  uint64_t *marks = panel == NULL ? NULL : F->marks, mark = 0; /* untested: constant */
   sl_off m;
   for (m = first; m < last; m++) {
     if (scatter_from != NULL && m < ahead) { /* untested: constant */
@@ -12424,9 +12486,15 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
     } else {
       panel[to[m] - begin] += a;
     }
+    if (marks != NULL) {
+      mark += sli_mark_entry(a, to[m] - begin);
+    }
     largest = size > largest ? size : largest;
   }
   F->extents[s].entry = largest;
+  if (marks != NULL) {
+    marks[s] += mark;
+  }
   return SL_OK;
 }
 
@@ -12454,6 +12522,9 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   F->extents[s].entry = F->extents[s].magnitude = 0.0;
   F->extents[s].pivot = -1;
   F->extents[s].zero = 0;
+  if (F->marks != NULL) {
+    F->marks[s] = SLI_MARK_BEGIN;
+  }
   if (from->A != NULL) {
     return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, 0, m, end, from->A->x,
                             S->scatter_from, failure)
@@ -15210,6 +15281,8 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     sli_schedule_layout(&F->schedule, b, S->n_supers);
     if (sli_is_float(F)) {
       sli_factor_layout_panels(F, b);
+    } else {
+      F->marks = SLI_TAKE(b, uint64_t, supers);
     }
   } else {
     F->buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
@@ -15267,12 +15340,16 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   }
   if (status == SL_OK) {
     F->scratch = b.base;
+    if (F->marks != NULL) {
+      memset(F->marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+    }
     F->has_duplicates = F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
     status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
   }
   if (status != SL_OK) {
     sli_free(&F->allocator, F->scratch);
     F->scratch = NULL;
+    F->marks = NULL;
     F->stats.factor.bytes = bytes;
   }
   return status;
@@ -21524,6 +21601,13 @@ static void sli_rank_identify(sli_rank *q) {
   F->generation++;
 }
 
+static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
+  sl_int k;
+  for (k = 0; F->marks != NULL && k < count; k++) {
+    F->marks[F->S->super_of[steps[k].column]] = 0;
+  }
+}
+
 static sl_status sli_rank_passes(sli_rank *q) {
   sl_factor *F = q->u.F;
   sl_factor_info *info = &F->stats.factor;
@@ -21535,6 +21619,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
     sli_rank_group(q, k, last, group, seeds);
     sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
     sli_update_load(&q->u, group, last - k);
+    sli_rank_unmark(F, q->u.steps, q->u.R.count);
     status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
     q->is_changed |= status == SL_OK;
     status = status == SL_OK ? sli_update_run(&q->u) : status;
@@ -21830,8 +21915,8 @@ static double sli_way_front(const sl_symbolic *S, sl_int s) {
   return w * (h * h - h * w + w * w / 3.0);
 }
 
-static double sli_way_gather(const sl_symbolic *S, sl_int s) {
-  const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
+               sl_int *visits) {
   double flops = 0.0;
   sl_int d;
   for (d = s - 1; d >= S->first_descendant[s];) {
@@ -21840,6 +21925,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s) {
     const sl_int m = sli_lower_bound(of + first, below - first, end);
     if (m > 0) {
       flops += (double)S->steps[d].width * m * (2.0 * (below - first) - m);
+      ++*visits;
       d--;
     } else {
       d = S->first_descendant[d] - 1;
@@ -21849,14 +21935,17 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s) {
 }
 
 static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
-  sl_int k = 0, s, next, fronts = 0;
+  sl_int k = 0, s, next, fronts = 0, visits = 0;
   double flops = 0.0;
   while (k < c->n_seeds) {
     s = S->super_of[sli_key(c->seeds[k])];
     next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
       fronts++;
-      flops += sli_way_front(S, s) + (gathers ? sli_way_gather(S, s) : 0.0);
+      flops += sli_way_front(S, s);
+      if (gathers) {
+        flops += sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
+      }
     }
   }
   c->flops_changed = flops;
@@ -23626,6 +23715,7 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   sli_free(&G->allocator, G->scratch);
   G->stack = NULL;
   G->scratch = NULL;
+  G->marks = NULL;
   (void)sli_take(&b, 1, sizeof(sl_factor));
   sli_factor_layout(&counted, &b, 0);
   G->stats.factor.bytes = b.used;
@@ -23797,21 +23887,34 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
   e->fresh = SLI_TAKE(b, sl_int, n);
 }
 
-static sl_status sli_edit_rows(sli_edit *e, sl_stats *stats) {
-  const sl_symbolic *S = e->S;
+static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
+                  sl_int *column_of, sl_stats *stats) {
   sl_int j;
-  memset(e->mark, SLI_NODE_KEPT, (size_t)S->n_supers + 1);
-  for (j = 0; j < e->n; j++) {
-    e->column_of[j] = -1;
+  for (j = 0; j < n; j++) {
+    column_of[j] = -1;
   }
   for (j = 0; j < S->n; j++) {
-    const sl_int row = e->new_of[j];
-    if (row < -1 || row >= e->n || (row >= 0 && e->column_of[row] != -1)) {
+    const sl_int row = new_of[j];
+    if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row);
     }
     if (row >= 0) {
-      e->column_of[row] = S->iperm[j];
-    } else {
+      column_of[row] = S->iperm[j];
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_edit_rows(sli_edit *e, sl_stats *stats) {
+  const sl_symbolic *S = e->S;
+  const sl_status status = sli_edit_columns(S, e->new_of, e->n, e->column_of, stats);
+  sl_int j;
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(e->mark, SLI_NODE_KEPT, (size_t)S->n_supers + 1);
+  for (j = 0; j < S->n; j++) {
+    if (e->new_of[j] == -1) {
       e->mark[S->super_of[S->iperm[j]]] = SLI_NODE_FRESH;
     }
   }
@@ -25173,6 +25276,263 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
   }
   for (k = 0; k < 3; k++) {
     sli_free(&a, e.blocks[k]);
+  }
+  return status;
+}
+
+/* src/impl/change/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
+
+#define SLI_REUSE_ENTRY 0.5e-9
+#define SLI_REUSE_SHARE 0.95
+
+typedef struct sli_reuse {
+  const sl_factor *F;
+  sl_factor *G;
+  const sl_csc *B;
+  sli_kept kept;
+  sl_int *from;
+  sl_int *columns;
+  sl_int *row_columns;
+  sl_reuse_info info;
+  void *blocks[2];
+} sli_reuse;
+
+static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *stats) {
+  const sl_symbolic *T = r->G->S;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int k;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    r->from = SLI_TAKE(&b, sl_int, T->n_supers);
+    r->columns = SLI_TAKE(&b, sl_int, T->n);
+    r->row_columns = SLI_TAKE(&b, sl_int, T->n);
+    status = pass == 0 ? sli_block_alloc(&b, &r->G->allocator) : SL_OK;
+  }
+  r->blocks[0] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  status = sli_edit_columns(r->F->S, new_of, T->n, r->row_columns, stats);
+  for (k = 0; k < T->n; k++) {
+    r->columns[k] = r->row_columns[T->perm[k]];
+  }
+  r->kept.F = r->F;
+  r->kept.from = r->from;
+  r->kept.columns = r->columns;
+  return status;
+}
+
+static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
+  const double epsilon = DBL_EPSILON, a = F->rule.null_tolerance, b = G->rule.null_tolerance;
+  return F->marks != NULL && G->marks != NULL && F->E == NULL && G->E == NULL &&
+       F->null_pivots == G->null_pivots && F->null_vectors == 1 && G->null_vectors == 1 &&
+       F->rule.regularization == G->rule.regularization &&
+       (a == b || (a == sli_null_tolerance(F->S->n, epsilon) &&
+             b == sli_null_tolerance(G->S->n, epsilon)));
+}
+
+static int sli_reuse_is_alike(const sli_reuse *r, sl_int k, sl_int j) {
+  const sli_pivot_rule *f = &r->F->rule, *g = &r->G->rule;
+  const int before = f->signs == NULL ? 1 : f->signs[j];
+  return before == (g->signs == NULL ? 1 : g->signs[k]) &&
+       (f->kinds == NULL || f->kinds[j] == g->kinds[k]);
+}
+
+static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s) {
+  const sl_symbolic *S = r->F->S, *T = r->G->S;
+  const sli_step *own = &T->steps[s];
+  const sl_int first = r->columns[own->column], there = first == -1 ? -1 : S->super_of[first];
+  const sl_int *rows = T->rows + T->rows_begin[s], *of;
+  sl_int c, k;
+  if (there == -1 || S->super_first[there] != first || S->steps[there].width != own->width ||
+    S->steps[there].below != own->below ||
+    there - S->first_descendant[there] != s - T->first_descendant[s]) {
+    return -1;
+  }
+  for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
+    if (r->from[c] == -1 || S->super_parent[r->from[c]] != there) {
+      return -1;
+    }
+  }
+  for (k = 0; k < own->width; k++) {
+    if (r->columns[own->column + k] != first + k ||
+      !sli_reuse_is_alike(r, own->column + k, first + k)) {
+      return -1;
+    }
+  }
+  of = S->rows + S->rows_begin[there];
+  for (k = 0; k < own->below; k++) {
+    const sl_int row = r->columns[rows[k]];
+    const sl_int at = row == of[k] ? k : sli_lower_bound(of, own->below, row);
+    if (at == own->below || of[at] != row) {
+      return -1;
+    }
+  }
+  return there;
+}
+
+static int sli_reuse_is_same(const sli_reuse *r, sl_int s) {
+  const sl_symbolic *S = r->F->S, *T = r->G->S;
+  const sl_int there = r->from[s], w = T->steps[s].width, below = T->steps[s].below;
+  const sl_int *rows = T->rows + T->rows_begin[s], *of = S->rows + S->rows_begin[there];
+  uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
+  sl_int tile = sli_last_tile(T, s), k, j, is_moved = 0;
+  sl_off m;
+  for (k = 0; k < below; k++) {
+    is_moved |= r->columns[rows[k]] != of[k];
+  }
+  for (m = T->scatter_begin[s + 1] - 1; m >= T->scatter_begin[s]; m--) {
+    const double a = r->B->x[T->scatter_from[m]];
+    const sl_off place = T->scatter_to[m] - T->panel_begin[s];
+    mark += sli_mark_entry(a, place);
+    if (is_moved) {
+      sli_scatter_map_pivots(T, s, m, &tile, &k, &j);
+      j -= T->super_first[s];
+      k = k < T->super_first[s + 1] ? k - T->super_first[s]
+                      : w + sli_lower_bound(of, below, r->columns[k]);
+      before += sli_mark_entry(a, sli_panel_at(w, k, j));
+    }
+  }
+  r->G->marks[s] = mark;
+  return r->F->marks[there] == (is_moved ? before : mark);
+}
+
+static int sli_reuse_choose(sli_reuse *r, int gathers) {
+  const sl_symbolic *T = r->G->S;
+  sl_reuse_info *info = &r->info;
+  sl_int s, visits = 0;
+  double seconds;
+  memset(info, 0, sizeof *info);
+  for (s = 0; s < T->n_supers; s++) {
+    const sl_int up = T->super_parent[s], below = T->steps[s].below;
+    const double flops = sli_way_front(T, s);
+    info->flops_anew += flops;
+    if (r->from[s] == -1) {
+      info->flops += flops;
+      visits++;
+      continue;
+    }
+    info->kept += T->steps[s].width;
+    info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
+    if (gathers && up != -1 && r->from[up] == -1) {
+      info->flops += (double)T->steps[s].width * below * below +
+               sli_way_gather(T, s, T->super_first[s + 1], T->n, &visits);
+    }
+  }
+  info->computed = T->n - info->kept;
+  seconds = SLI_CHANGE_FRONT_FLOP * info->flops + SLI_CHANGE_FRONT * visits +
+        SLI_REUSE_ENTRY * (double)info->entries;
+  return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * info->flops_anew +
+                    SLI_CHANGE_FRONT * (double)T->n_supers);
+}
+
+static int sli_reuse_find(sli_reuse *r) {
+  const sl_symbolic *T = r->G->S;
+  sl_int s;
+  for (s = 0; s < T->n_supers; s++) {
+    r->from[s] = sli_reuse_candidate(r, s);
+  }
+  if (!sli_reuse_choose(r, 0)) {
+    return 0;
+  }
+  for (s = 0; s < T->n_supers; s++) {
+    const sl_int up = T->super_parent[s];
+    if (r->from[s] != -1 && !sli_reuse_is_same(r, s)) {
+      r->from[s] = -1;
+    }
+    if (r->from[s] == -1 && up != -1) {
+      r->from[up] = -1;
+    }
+  }
+  return sli_reuse_choose(r, 1);
+}
+
+static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure *failure) {
+  sli_block b = {NULL, 0, 0};
+  const sl_status status = sli_kept_room(&r->kept, r->G, &b);
+  r->blocks[1] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_factor_identify(r->G, from);
+  r->G->identity = sli_hash_words(r->G->identity, &r->F->identity, 2);
+  r->G->kept = &r->kept;
+  (void)sli_multifrontal(r->G, from, failure);
+  r->G->kept = NULL;
+  return SL_OK;
+}
+
+static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
+  const double started = sli_seconds();
+  const sli_source from = sli_source_matrix(r->B);
+  sli_failure failure;
+  int is_suited = sli_reuse_is_suited(r->F, r->G), keeps = 0;
+  sl_status status;
+  memset(&failure, 0, sizeof failure);
+  sli_factor_begin(r->G);
+  if (is_suited && r->G->null_pivots == SL_NULL_PIVOT_SKIP) {
+    is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
+  }
+  keeps = is_suited && sli_reuse_find(r);
+  status = keeps ? sli_reuse_run(r, &from, &failure) : SL_OK;
+  if (status != SL_OK) {
+    return status;
+  }
+  r->info.reason = is_suited ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
+  if (keeps && (failure.status != SL_OK || sli_null_is_suspected(r->G))) {
+    keeps = 0;
+    r->info.reason = SL_CHANGE_REFUSED;
+  }
+  r->info.is_anew = !keeps;
+  if (!keeps) {
+    r->info.kept = 0;
+    r->info.entries = 0;
+    r->info.computed = r->G->S->n;
+  }
+  return keeps ? sli_factor_done(r->G, &from, &failure, started, stats)
+         : sli_factor_numbers(r->G, &from, started, stats);
+}
+
+SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_symbolic *S,
+                const sl_csc *B, const sl_int *new_of, const sl_options *opt,
+                sl_stats *stats) {
+  const double started = sli_seconds();
+  sli_reuse r;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (F == NULL || S == NULL || !sli_factor_options_are_valid(opt)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+    return SL_ERR_STATE;
+  }
+  if (F->S->n > 0 && new_of == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  memset(&r, 0, sizeof r);
+  r.F = F;
+  r.B = B;
+  status = sli_factor_check(S, B);
+  status = status == SL_OK ? sli_factor_new(&r.G, S, opt, stats) : status;
+  status = status == SL_OK ? sli_reuse_begin(&r, new_of, stats) : status;
+  status = status == SL_OK ? sli_reuse_numbers(&r, stats) : status;
+  if (r.G != NULL) {
+    sli_free(&r.G->allocator, r.blocks[0]);
+    sli_free(&r.G->allocator, r.blocks[1]);
+  }
+  if (status == SL_OK) {
+    *out = r.G;
+    r.info.seconds = sli_seconds() - started;
+    if (stats != NULL) {
+      stats->reuse = r.info;
+    }
+  } else {
+    sl_factor_free(r.G);
   }
   return status;
 }
@@ -28078,6 +28438,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_EDIT_LEAST
 #undef SLI_EDIT_SHARE
 #undef SLI_EDIT_DUE
+#undef SLI_REUSE_ENTRY
+#undef SLI_REUSE_SHARE
+#undef SLI_MARK_BEGIN
 #undef SLI_NEIGHBORHOOD_SHRINK
 #undef SLI_NEIGHBORHOOD_PAIRS
 #undef SLI_WIDE_DEGREE

@@ -177,6 +177,7 @@ extern "C" {
 #include "impl/change/edit_graph.h"
 #include "impl/change/edit_join.h"
 #include "impl/change/edit.h"
+#include "impl/change/edit_factor.h"
 /* save: factors in files */
 #include "impl/save/format.h"
 #include "impl/save/decode.h"

@@ -148,6 +148,18 @@ typedef struct sl_edit_info {
     double seconds; /* processor seconds, all included */
 } sl_edit_info;
 
+/** A factor that follows an edit of the pattern: sl_factor_edit. */
+typedef struct sl_reuse_info {
+    sl_int kept;             /* columns of L that were copied */
+    sl_int computed;         /* the others */
+    sl_off entries;          /* doubles of L that were copied */
+    double flops;            /* of the columns to compute and of what they gather from kept ones */
+    double flops_anew;       /* of all columns */
+    int is_anew;             /* 1: a whole factorization */
+    sl_change_reason reason; /* why: SL_CHANGE_CHEAPEST, _UNSUITED, _REFUSED */
+    double seconds;          /* processor seconds, summed over all threads */
+} sl_reuse_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -164,8 +176,9 @@ typedef struct sl_stats {
     sl_restrict_info restriction;
     sl_edit_info edit;
     sl_off storage; /* sl_storage of the factor; with the group factor */
+    sl_reuse_info reuse;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[9];
+    sl_off reserved[3];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

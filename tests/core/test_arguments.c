@@ -193,6 +193,8 @@ CALL(reserve_region, sl_work_reserve_region(a->W, a->R, a->F))
 CREATE(symbolic, sl_symbolic, sl_symbolic_free, sl_symbolic_create(&out, a->A, NULL, &a->stats))
 CREATE(edit, sl_symbolic, sl_symbolic_free,
        sl_symbolic_edit(&out, a->S, &o->good.M.view, a->A, o->perm, NULL, &a->stats))
+CREATE(edit_factor, sl_factor, sl_factor_free,
+       sl_factor_edit(&out, a->F, a->S, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
 CREATE(transpose, sl_matrix, sl_matrix_free, sl_matrix_transpose(&out, a->A, NULL))
 CREATE(permute, sl_matrix, sl_matrix_free, sl_matrix_permute(&out, a->A, o->perm, NULL))
@@ -218,6 +220,7 @@ static const struct {
     {"sl_matrix_sum", sum, A_ | SQUARE_},
     {"sl_symbolic_create", symbolic, A_ | SQUARE_},
     {"sl_symbolic_edit", edit, A_ | SQUARE_ | S_},
+    {"sl_factor_edit", edit_factor, A_ | SQUARE_ | VALUES_ | S_ | F_ | FAILED_},
     {"sl_symbolic_scatter", scatter, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_create", factor, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_refactor", refactor, A_ | SQUARE_ | VALUES_ | F_},

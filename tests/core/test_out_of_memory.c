@@ -303,6 +303,25 @@ static sl_status edit(fixture_t *f, const sl_options *opt) {
     return status;
 }
 
+/* The last entry that is read of column 200 has another value; F keeps its own. */
+static sl_status edit_factor(fixture_t *f, const sl_options *opt) {
+    sl_int rows[225];
+    sl_factor *G = GARBAGE(sl_factor);
+    sl_stats stats;
+    for (sl_int j = 0; j < 225; j++) {
+        rows[j] = j;
+    }
+    double *x = &f->y.M.x[f->y.M.view.p[201] - 1];
+    const double before = *x;
+    *x += 0.5;
+    const sl_status status = sl_factor_edit(&G, f->y.F, f->y.S, &f->y.M.view, rows, opt, &stats);
+    *x = before;
+    MADE_OR_NULL(status, G);
+    assert_true(status != SL_OK || !stats.reuse.is_anew);
+    sl_factor_free(G);
+    return status;
+}
+
 static void fixture_make(fixture_t *f, int style) {
     uint64_t seed = 2;
     f->y = factored_make(GEN_GRID2, 225, 1, style, NULL);
@@ -342,6 +361,7 @@ static void every_allocation_may_fail(void **state) {
         {"sl_factor_restrict", restrict_half},
         {"sl_factor_restrict, few rows", restrict_few},
         {"sl_symbolic_edit", edit},
+        {"sl_factor_edit", edit_factor},
         {"sl_plan_create", plan},
         {"sl_work_create", work},
         {"sl_work_reserve_factor", reserve_factor},

@@ -87,6 +87,8 @@ OPTION_CALL(option_pivoted, sl_symbolic,
             sl_symbolic_create_pivoted(&out, &f->pair.terms[1], opt, NULL))
 OPTION_CALL(option_factor, sl_factor,
             sl_factor_create(&out, f->pair.S, &f->pair.terms[1], opt, NULL))
+OPTION_CALL(option_edit_factor, sl_factor,
+            sl_factor_edit(&out, f->F, f->pair.S, &f->pair.terms[1], f->perm, opt, NULL))
 OPTION_CALL(option_combination, sl_factor,
             sl_factor_create_combination(&out, f->pair.S, f->coefficients,
                                          matrix_pair_values(&f->pair), TERMS, opt, NULL))
@@ -229,6 +231,7 @@ static const struct {
     {"sl_symbolic_create_pivoted", option_pivoted, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_symbolic_edit", option_edit, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
+    {"sl_factor_edit", option_edit_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_create_combination", option_combination, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
     {"sl_factor_restrict", option_restrict, READS_NOTHING},

@@ -32,9 +32,10 @@ static double sli_way_front(const sl_symbolic *S, sl_int s) {
     return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
 }
 
-/* Flops of the updates that supernode s gathers from its descendants, as sli_left_factor does. */
-static double sli_way_gather(const sl_symbolic *S, sl_int s) {
-    const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+/* Flops of the updates of the descendants of supernode s to columns start .. end-1, as
+ * sli_left_factor and sli_kept_update compute them. *visits += descendants. */
+static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
+                             sl_int *visits) {
     double flops = 0.0;
     sl_int d;
     for (d = s - 1; d >= S->first_descendant[s];) {
@@ -43,6 +44,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s) {
         const sl_int m = sli_lower_bound(of + first, below - first, end);
         if (m > 0) {
             flops += (double)S->steps[d].width * m * (2.0 * (below - first) - m);
+            ++*visits;
             d--;
         } else {
             d = S->first_descendant[d] - 1;
@@ -53,14 +55,17 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s) {
 
 /* Counts the reach of the change: of the fronts alone, or with what they gather. */
 static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
-    sl_int k = 0, s, next, fronts = 0;
+    sl_int k = 0, s, next, fronts = 0, visits = 0;
     double flops = 0.0;
     while (k < c->n_seeds) {
         s = S->super_of[sli_key(c->seeds[k])];
         next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
             fronts++;
-            flops += sli_way_front(S, s) + (gathers ? sli_way_gather(S, s) : 0.0);
+            flops += sli_way_front(S, s);
+            if (gathers) {
+                flops += sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
+            }
         }
     }
     c->flops_changed = flops;

@@ -64,22 +64,37 @@ static void sli_edit_layout(sli_edit *e, sli_block *b) {
     e->fresh = SLI_TAKE(b, sl_int, n);
 }
 
-/* Finds the column and node of each row. Refuses a row of B that is out of range or given twice. */
-static sl_status sli_edit_rows(sli_edit *e, sl_stats *stats) {
-    const sl_symbolic *S = e->S;
+/* The columns of S of the n rows of B, -1 for new ones. Refuses a row of B that is out of range or
+ * given twice. */
+static sl_status sli_edit_columns(const sl_symbolic *S, const sl_int *new_of, sl_int n,
+                                  sl_int *column_of, sl_stats *stats) {
     sl_int j;
-    memset(e->mark, SLI_NODE_KEPT, (size_t)S->n_supers + 1);
-    for (j = 0; j < e->n; j++) {
-        e->column_of[j] = -1;
+    for (j = 0; j < n; j++) {
+        column_of[j] = -1;
     }
     for (j = 0; j < S->n; j++) {
-        const sl_int row = e->new_of[j];
-        if (row < -1 || row >= e->n || (row >= 0 && e->column_of[row] != -1)) {
+        const sl_int row = new_of[j];
+        if (row < -1 || row >= n || (row >= 0 && column_of[row] != -1)) {
             return sli_fail_at(stats, SL_ERR_ARGUMENT, j, -1, (double)row);
         }
         if (row >= 0) {
-            e->column_of[row] = S->iperm[j];
-        } else {
+            column_of[row] = S->iperm[j];
+        }
+    }
+    return SL_OK;
+}
+
+/* Finds the column and node of each row. */
+static sl_status sli_edit_rows(sli_edit *e, sl_stats *stats) {
+    const sl_symbolic *S = e->S;
+    const sl_status status = sli_edit_columns(S, e->new_of, e->n, e->column_of, stats);
+    sl_int j;
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(e->mark, SLI_NODE_KEPT, (size_t)S->n_supers + 1);
+    for (j = 0; j < S->n; j++) {
+        if (e->new_of[j] == -1) {
             e->mark[S->super_of[S->iperm[j]]] = SLI_NODE_FRESH;
         }
     }

@@ -219,6 +219,14 @@ static void sli_rank_identify(sli_rank *q) {
     F->generation++;
 }
 
+/* The supernodes of a reach are no longer those of the entries that were read. */
+static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
+    sl_int k;
+    for (k = 0; F->marks != NULL && k < count; k++) {
+        F->marks[F->S->super_of[steps[k].column]] = 0;
+    }
+}
+
 /* Runs all passes. */
 static sl_status sli_rank_passes(sli_rank *q) {
     sl_factor *F = q->u.F;
@@ -231,6 +239,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
         sli_rank_group(q, k, last, group, seeds);
         sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
         sli_update_load(&q->u, group, last - k);
+        sli_rank_unmark(F, q->u.steps, q->u.R.count);
         status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
         q->is_changed |= status == SL_OK;
         status = status == SL_OK ? sli_update_run(&q->u) : status;

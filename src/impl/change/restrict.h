@@ -124,6 +124,7 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     sli_free(&G->allocator, G->scratch);
     G->stack = NULL;
     G->scratch = NULL;
+    G->marks = NULL;
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&counted, &b, 0);
     G->stats.factor.bytes = b.used;

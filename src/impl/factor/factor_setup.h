@@ -89,6 +89,8 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
         sli_schedule_layout(&F->schedule, b, S->n_supers);
         if (sli_is_float(F)) {
             sli_factor_layout_panels(F, b);
+        } else {
+            F->marks = SLI_TAKE(b, uint64_t, supers);
         }
     } else {
         F->buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
@@ -149,12 +151,16 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     }
     if (status == SL_OK) {
         F->scratch = b.base;
+        if (F->marks != NULL) {
+            memset(F->marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+        }
         F->has_duplicates = F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
         status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
     }
     if (status != SL_OK) {
         sli_free(&F->allocator, F->scratch);
         F->scratch = NULL;
+        F->marks = NULL;
         F->stats.factor.bytes = bytes;
     }
     return status;

@@ -110,6 +110,8 @@ struct sl_factor {
     double *divisors;
     double *center_scratch;
     double *buffer; /* kernel scratch, one piece a worker */
+    /* n_supers: a hash of the entries of A that each supernode was computed from; 0: not known */
+    uint64_t *marks;
     const struct sli_kept *kept; /* supernodes that are copied in this factorization, or NULL */
 
     /* multifrontal; scratch arrays hold one piece a worker */
@@ -239,10 +241,21 @@ SLI_INLINE float sli_single(double a) {
 /* A's entries are read in the order of the map, which processors do not foresee. */
 #define SLI_ENTRIES_AHEAD 32
 
+/* What entry a at this place of a panel adds to the mark of its supernode, which so does not depend
+ * on the order of the entries. */
+SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
+    uint64_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return sli_fold(sli_fold(bits ^ SLI_HASH_1, (uint64_t)place + SLI_HASH_2), SLI_HASH_3);
+}
+
+/* The mark of a supernode without entries. */
+#define SLI_MARK_BEGIN SLI_HASH_4
+
 /* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, in double or, if
- * that is NULL, in float, and records the largest magnitude. is_half: the panel has the first
- * columns of pairs only. With scatter_from, x is the value array of A and scatter_from[m] the
- * position of entry m; without, x[0] is the value of entry `first`. */
+ * that is NULL, in float, and records the largest magnitude; marks what it adds in double. is_half:
+ * the panel has the first columns of pairs only. With scatter_from, x is the value array of A and
+ * scatter_from[m] the position of entry m; without, x[0] is the value of entry `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
                                                    float *single, int is_half, sl_off first,
                                                    sl_off last, const double *x,
@@ -252,6 +265,7 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
     const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
     const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
     double largest = F->extents[s].entry;
+    uint64_t *marks = panel == NULL ? NULL : F->marks, mark = 0; /* untested: constant */
     sl_off m;
     for (m = first; m < last; m++) {
         if (scatter_from != NULL && m < ahead) { /* untested: constant */
@@ -273,9 +287,15 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
         } else {
             panel[to[m] - begin] += a;
         }
+        if (marks != NULL) {
+            mark += sli_mark_entry(a, to[m] - begin);
+        }
         largest = size > largest ? size : largest;
     }
     F->extents[s].entry = largest;
+    if (marks != NULL) {
+        marks[s] += mark;
+    }
     return SL_OK;
 }
 
@@ -305,6 +325,9 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     F->extents[s].entry = F->extents[s].magnitude = 0.0;
     F->extents[s].pivot = -1;
     F->extents[s].zero = 0;
+    if (F->marks != NULL) {
+        F->marks[s] = SLI_MARK_BEGIN;
+    }
     if (from->A != NULL) {
         return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, 0, m, end, from->A->x,
                                                       S->scatter_from, failure)

@@ -77,6 +77,9 @@ _RestrictInfo = _struct("_RestrictInfo", [
 _EditInfo = _struct("_EditInfo", [
     ("changed", _INT), ("moved", _INT), ("reordered", _INT), ("computed", _INT),
     ("is_anew", ctypes.c_int), ("is_due", ctypes.c_int), ("growth", _REAL), ("seconds", _REAL)])
+_ReuseInfo = _struct("_ReuseInfo", [
+    ("kept", _INT), ("computed", _INT), ("entries", _OFF), ("flops", _REAL),
+    ("flops_anew", _REAL), ("is_anew", ctypes.c_int), ("reason", _ENUM), ("seconds", _REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", _INT), ("backward_error", _REAL)])
 
 
@@ -86,7 +89,8 @@ class Stats(ctypes.Structure):
                 ("plan", _PlanInfo), ("inverse", _InverseInfo), ("selected", _SelectedInfo),
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
-                ("edit", _EditInfo), ("storage", _OFF), ("reserved", _OFF * 9)]
+                ("edit", _EditInfo), ("storage", _OFF), ("reuse", _ReuseInfo),
+                ("reserved", _OFF * 3)]
 
 
 class SavedSet(ctypes.Structure):

@@ -1,0 +1,280 @@
+/* edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
+#ifndef SLI_CHANGE_EDIT_FACTOR_H
+#define SLI_CHANGE_EDIT_FACTOR_H
+
+#include "../../public/edit.h"
+#include "choose.h"
+#include "edit_match.h"
+
+/* Seconds to copy an entry of L. */
+#define SLI_REUSE_ENTRY 0.5e-9
+/* A whole factorization is taken if the estimates differ by less. */
+#define SLI_REUSE_SHARE 0.95
+
+/* What is kept of F. Subtrees are compared from the leaves up: a supernode of G is kept if its
+ * children are, and are all children of one supernode of F with the same columns, rows and entries.
+ * The rows may be in another order, as ancestors may be. */
+typedef struct sli_reuse {
+    const sl_factor *F;
+    sl_factor *G;
+    const sl_csc *B;
+    sli_kept kept;
+    sl_int *from;    /* supernodes of G: that of F, or -1 */
+    sl_int *columns; /* columns of G: that of F, or -1 */
+    sl_int *row_columns; /* the same by rows of B */
+    sl_reuse_info info;
+    void *blocks[2];
+} sli_reuse;
+
+/* Finds the columns of F that those of G were. */
+static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *stats) {
+    const sl_symbolic *T = r->G->S;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int k;
+    int pass;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        r->from = SLI_TAKE(&b, sl_int, T->n_supers);
+        r->columns = SLI_TAKE(&b, sl_int, T->n);
+        r->row_columns = SLI_TAKE(&b, sl_int, T->n);
+        status = pass == 0 ? sli_block_alloc(&b, &r->G->allocator) : SL_OK;
+    }
+    r->blocks[0] = b.base;
+    if (status != SL_OK) {
+        return status;
+    }
+    status = sli_edit_columns(r->F->S, new_of, T->n, r->row_columns, stats);
+    for (k = 0; k < T->n; k++) {
+        r->columns[k] = r->row_columns[T->perm[k]];
+    }
+    r->kept.F = r->F;
+    r->kept.from = r->from;
+    r->kept.columns = r->columns;
+    return status;
+}
+
+/* Are pivots of both factors judged alike? Default tolerances count as equal. */
+static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
+    const double epsilon = DBL_EPSILON, a = F->rule.null_tolerance, b = G->rule.null_tolerance;
+    return F->marks != NULL && G->marks != NULL && F->E == NULL && G->E == NULL &&
+           F->null_pivots == G->null_pivots && F->null_vectors == 1 && G->null_vectors == 1 &&
+           F->rule.regularization == G->rule.regularization &&
+           (a == b || (a == sli_null_tolerance(F->S->n, epsilon) &&
+                       b == sli_null_tolerance(G->S->n, epsilon)));
+}
+
+/* Is column k of G treated as column j of F was? Kinds and signs of a semidefinite matrix depend on
+ * the whole matrix. */
+static int sli_reuse_is_alike(const sli_reuse *r, sl_int k, sl_int j) {
+    const sli_pivot_rule *f = &r->F->rule, *g = &r->G->rule;
+    const int before = f->signs == NULL ? 1 : f->signs[j];
+    return before == (g->signs == NULL ? 1 : g->signs[k]) &&
+           (f->kinds == NULL || f->kinds[j] == g->kinds[k]);
+}
+
+/* The supernode of F that s may be the same as, or -1. */
+static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s) {
+    const sl_symbolic *S = r->F->S, *T = r->G->S;
+    const sli_step *own = &T->steps[s];
+    const sl_int first = r->columns[own->column], there = first == -1 ? -1 : S->super_of[first];
+    const sl_int *rows = T->rows + T->rows_begin[s], *of;
+    sl_int c, k;
+    if (there == -1 || S->super_first[there] != first || S->steps[there].width != own->width ||
+        S->steps[there].below != own->below ||
+        there - S->first_descendant[there] != s - T->first_descendant[s]) {
+        return -1;
+    }
+    for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
+        if (r->from[c] == -1 || S->super_parent[r->from[c]] != there) {
+            return -1;
+        }
+    }
+    for (k = 0; k < own->width; k++) {
+        if (r->columns[own->column + k] != first + k ||
+            !sli_reuse_is_alike(r, own->column + k, first + k)) {
+            return -1;
+        }
+    }
+    of = S->rows + S->rows_begin[there];
+    for (k = 0; k < own->below; k++) {
+        const sl_int row = r->columns[rows[k]];
+        const sl_int at = row == of[k] ? k : sli_lower_bound(of, own->below, row);
+        if (at == own->below || of[at] != row) {
+            return -1;
+        }
+    }
+    return there;
+}
+
+/* Has supernode s the entries that the one of F was computed from? Marks it in G. */
+static int sli_reuse_is_same(const sli_reuse *r, sl_int s) {
+    const sl_symbolic *S = r->F->S, *T = r->G->S;
+    const sl_int there = r->from[s], w = T->steps[s].width, below = T->steps[s].below;
+    const sl_int *rows = T->rows + T->rows_begin[s], *of = S->rows + S->rows_begin[there];
+    uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
+    sl_int tile = sli_last_tile(T, s), k, j, is_moved = 0;
+    sl_off m;
+    for (k = 0; k < below; k++) {
+        is_moved |= r->columns[rows[k]] != of[k];
+    }
+    for (m = T->scatter_begin[s + 1] - 1; m >= T->scatter_begin[s]; m--) {
+        const double a = r->B->x[T->scatter_from[m]];
+        const sl_off place = T->scatter_to[m] - T->panel_begin[s];
+        mark += sli_mark_entry(a, place);
+        if (is_moved) {
+            sli_scatter_map_pivots(T, s, m, &tile, &k, &j);
+            j -= T->super_first[s];
+            k = k < T->super_first[s + 1] ? k - T->super_first[s]
+                                          : w + sli_lower_bound(of, below, r->columns[k]);
+            before += sli_mark_entry(a, sli_panel_at(w, k, j));
+        }
+    }
+    r->G->marks[s] = mark;
+    return r->F->marks[there] == (is_moved ? before : mark);
+}
+
+/* Counts the flops of both ways; with `gathers` also those of the updates of kept subtrees. Returns
+ * whether to keep is faster. */
+static int sli_reuse_choose(sli_reuse *r, int gathers) {
+    const sl_symbolic *T = r->G->S;
+    sl_reuse_info *info = &r->info;
+    sl_int s, visits = 0;
+    double seconds;
+    memset(info, 0, sizeof *info);
+    for (s = 0; s < T->n_supers; s++) {
+        const sl_int up = T->super_parent[s], below = T->steps[s].below;
+        const double flops = sli_way_front(T, s);
+        info->flops_anew += flops;
+        if (r->from[s] == -1) {
+            info->flops += flops;
+            visits++;
+            continue;
+        }
+        info->kept += T->steps[s].width;
+        info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
+        if (gathers && up != -1 && r->from[up] == -1) {
+            info->flops += (double)T->steps[s].width * below * below +
+                           sli_way_gather(T, s, T->super_first[s + 1], T->n, &visits);
+        }
+    }
+    info->computed = T->n - info->kept;
+    seconds = SLI_CHANGE_FRONT_FLOP * info->flops + SLI_CHANGE_FRONT * visits +
+              SLI_REUSE_ENTRY * (double)info->entries;
+    return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * info->flops_anew +
+                                        SLI_CHANGE_FRONT * (double)T->n_supers);
+}
+
+/* Finds the subtrees to keep. Returns whether that is faster than to compute them. */
+static int sli_reuse_find(sli_reuse *r) {
+    const sl_symbolic *T = r->G->S;
+    sl_int s;
+    for (s = 0; s < T->n_supers; s++) {
+        r->from[s] = sli_reuse_candidate(r, s);
+    }
+    if (!sli_reuse_choose(r, 0)) { /* a bound: the entries are not compared yet */
+        return 0;
+    }
+    for (s = 0; s < T->n_supers; s++) {
+        const sl_int up = T->super_parent[s];
+        if (r->from[s] != -1 && !sli_reuse_is_same(r, s)) {
+            r->from[s] = -1;
+        }
+        if (r->from[s] == -1 && up != -1) {
+            r->from[up] = -1;
+        }
+    }
+    return sli_reuse_choose(r, 1);
+}
+
+/* Computes the columns that are not kept. */
+static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure *failure) {
+    sli_block b = {NULL, 0, 0};
+    const sl_status status = sli_kept_room(&r->kept, r->G, &b);
+    r->blocks[1] = b.base;
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_factor_identify(r->G, from);
+    r->G->identity = sli_hash_words(r->G->identity, &r->F->identity, 2);
+    r->G->kept = &r->kept;
+    (void)sli_multifrontal(r->G, from, failure);
+    r->G->kept = NULL;
+    return SL_OK;
+}
+
+/* Computes the numbers of G. */
+static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
+    const double started = sli_seconds();
+    const sli_source from = sli_source_matrix(r->B);
+    sli_failure failure;
+    int is_suited = sli_reuse_is_suited(r->F, r->G), keeps = 0;
+    sl_status status;
+    memset(&failure, 0, sizeof failure);
+    sli_factor_begin(r->G);
+    if (is_suited && r->G->null_pivots == SL_NULL_PIVOT_SKIP) {
+        is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
+    }
+    keeps = is_suited && sli_reuse_find(r);
+    status = keeps ? sli_reuse_run(r, &from, &failure) : SL_OK;
+    if (status != SL_OK) {
+        return status;
+    }
+    r->info.reason = is_suited ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
+    if (keeps && (failure.status != SL_OK || sli_null_is_suspected(r->G))) {
+        keeps = 0; /* B may be singular: its factorization decides */
+        r->info.reason = SL_CHANGE_REFUSED;
+    }
+    r->info.is_anew = !keeps;
+    if (!keeps) {
+        r->info.kept = 0;
+        r->info.entries = 0;
+        r->info.computed = r->G->S->n;
+    }
+    return keeps ? sli_factor_done(r->G, &from, &failure, started, stats)
+                 : sli_factor_numbers(r->G, &from, started, stats);
+}
+
+SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_symbolic *S,
+                                const sl_csc *B, const sl_int *new_of, const sl_options *opt,
+                                sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_reuse r;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (F == NULL || S == NULL || !sli_factor_options_are_valid(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+        return SL_ERR_STATE;
+    }
+    if (F->S->n > 0 && new_of == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(&r, 0, sizeof r);
+    r.F = F;
+    r.B = B;
+    status = sli_factor_check(S, B);
+    status = status == SL_OK ? sli_factor_new(&r.G, S, opt, stats) : status;
+    status = status == SL_OK ? sli_reuse_begin(&r, new_of, stats) : status;
+    status = status == SL_OK ? sli_reuse_numbers(&r, stats) : status;
+    if (r.G != NULL) {
+        sli_free(&r.G->allocator, r.blocks[0]);
+        sli_free(&r.G->allocator, r.blocks[1]);
+    }
+    if (status == SL_OK) {
+        *out = r.G;
+        r.info.seconds = sli_seconds() - started;
+        if (stats != NULL) {
+            stats->reuse = r.info;
+        }
+    } else {
+        sl_factor_free(r.G);
+    }
+    return status;
+}
+
+#endif
