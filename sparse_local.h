@@ -1,89 +1,89 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f2f3fda2c2c809e6
+ * FNV-1a of the lines after this comment, without the license: 97dd719f5ea8f5ec
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
  *     91 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    160 config.h     macros that a user may define before the include, the version, and the integer types
- *    239 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    395 options.h    options of all calls, threads, and the allocator
- *    535 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    717 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    889 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1024 factor.h     the numerical factorization P A P' = L D L'
- *   1305 solve.h      full solves, and the workspace of all solves
- *   1418 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1512 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1625 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1738 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1874 batch.h      many independent solves by one call, distributed over threads
- *   1924 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2102 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2222 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2326 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2465 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2583 change.h     a factor that follows small changes of its matrix
- *   2670 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2762 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2895 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2944 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *    161 config.h     macros that a user may define before the include, the version, and the integer types
+ *    240 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    396 options.h    options of all calls, threads, and the allocator
+ *    536 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    718 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    890 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1030 factor.h     the numerical factorization P A P' = L D L'
+ *   1311 solve.h      full solves, and the workspace of all solves
+ *   1424 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1518 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1631 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1744 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1880 batch.h      many independent solves by one call, distributed over threads
+ *   1930 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2108 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2228 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2332 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2471 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2589 change.h     a factor that follows small changes of its matrix
+ *   2676 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2768 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2901 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2950 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3035 base.h   3329 status.h   3390 options.h   3448 alloc.h   3558 hash.h   3688 file_map.h
- *   3785 sort.h   3849 parallel.h
+ *   3041 base.h   3335 status.h   3396 options.h   3454 alloc.h   3564 hash.h   3694 file_map.h
+ *   3791 sort.h   3855 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4040 panel.h   4066 step.h   4141 pivot_rule.h   4215 front.h   4275 pairs.h
- *   4482 inverse_front.h   4554 table.h   4582 simd.h   4677 simd_scalar_single.h
- *   4723 simd_scalar.h   4847 simd_avx2_single.h   4901 simd_avx2.h   5115 simd_avx512_single.h
- *   5170 simd_avx512.h   5325 simd_neon_single.h   5367 simd_neon.h   5577 dispatch.h
+ *   4046 panel.h   4072 step.h   4147 pivot_rule.h   4221 front.h   4281 pairs.h
+ *   4488 inverse_front.h   4560 table.h   4588 simd.h   4683 simd_scalar_single.h
+ *   4729 simd_scalar.h   4853 simd_avx2_single.h   4907 simd_avx2.h   5121 simd_avx512_single.h
+ *   5176 simd_avx512.h   5331 simd_neon_single.h   5373 simd_neon.h   5583 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5657 csc.h   5771 csc_build.h   5905 csc64.h   5976 csc_triangle.h   6042 csc_products.h
- *   6159 permute.h   6225 sum.h   6307 output_file.h   6516 matrix_market.h
+ *   5663 csc.h   5777 csc_build.h   5911 csc64.h   5982 csc_triangle.h   6048 csc_products.h
+ *   6165 permute.h   6231 sum.h   6313 output_file.h   6522 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6962 graph.h   7111 coarsen.h   7423 labels.h   7644 subgraph.h   7839 heap.h   7899 bisect.h
- *   8126 separator.h   8388 mindeg.h   8571 dissect.h   8938 levelset.h   9044 geometric.h
- *   9219 cells.h   9399 septree.h   9475 metis.h   9624 metis_refined.h   9738 nd.h
- *   9937 compress.h  10058 quotient.h  10471 order.h
+ *   6968 graph.h   7117 coarsen.h   7429 labels.h   7650 subgraph.h   7845 heap.h   7905 bisect.h
+ *   8132 separator.h   8394 mindeg.h   8577 dissect.h   8944 levelset.h   9050 geometric.h
+ *   9225 cells.h   9405 septree.h   9481 metis.h   9630 metis_refined.h   9744 nd.h
+ *   9943 compress.h  10064 peel.h  10242 quotient.h  10655 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10764 symbolic_types.h  10801 etree.h  10874 counts.h  10931 supernodes.h  11153 structure.h
- *  11274 schedule.h  11554 symbolic.h  11984 reach.h
+ *  11000 symbolic_types.h  11037 etree.h  11110 counts.h  11167 supernodes.h  11389 structure.h
+ *  11510 schedule.h  11790 symbolic.h  12220 reach.h
  * (factor: the numbers of L and D)
- *  12255 factor_types.h  12665 storage.h  12805 pivot_search.h  13151 pivoted.h  13219 scatter.h
- *  13377 uplooking.h  13449 null_product.h  13653 null_dense.h  13730 null_basis.h
- *  14038 null_vectors.h  14180 multifrontal.h  14370 gather.h  14418 kept.h  14585 front_tasks.h
- *  14928 nullspace.h  15131 growth.h  15207 factor_setup.h  15521 factor.h  15731 leftlooking.h
- *  15871 factor_query.h  16006 combination.h
+ *  12491 factor_types.h  12901 storage.h  13041 pivot_search.h  13387 pivoted.h  13455 scatter.h
+ *  13613 uplooking.h  13685 null_product.h  13889 null_dense.h  13966 null_basis.h
+ *  14274 null_vectors.h  14416 multifrontal.h  14606 gather.h  14654 kept.h  14821 front_tasks.h
+ *  15164 nullspace.h  15367 growth.h  15443 factor_setup.h  15757 factor.h  15967 leftlooking.h
+ *  16107 factor_query.h  16242 combination.h
  * (solve: full and local solves)
- *  16067 region_types.h  16171 work.h  16271 query.h  16481 singular.h  16751 backward.h
- *  16781 sweep_tasks.h  17115 sweep.h  17326 compile.h  17519 plan.h  17626 local.h  17778 parts.h
- *  18067 refine.h  18246 refine_local.h  18462 rcond.h  18618 defects.h
+ *  16303 region_types.h  16407 work.h  16507 query.h  16717 singular.h  16987 backward.h
+ *  17017 sweep_tasks.h  17351 sweep.h  17562 compile.h  17755 plan.h  17862 local.h  18014 parts.h
+ *  18303 refine.h  18482 refine_local.h  18698 rcond.h  18854 defects.h
  * (inverse: entries of the inverse, regions)
- *  18696 traversal.h  18941 traversal_run.h  19124 row_sets.h  19151 unit_vectors.h
- *  19378 bilinear.h  19555 entries.h  19836 block.h  20076 reserve.h  20268 selected.h
- *  20478 selected_query.h  20580 region_choose.h  20804 region.h
+ *  18932 traversal.h  19177 traversal_run.h  19360 row_sets.h  19387 unit_vectors.h
+ *  19614 bilinear.h  19791 entries.h  20072 block.h  20312 reserve.h  20504 selected.h
+ *  20714 selected_query.h  20816 region_choose.h  21040 region.h
  * (change: a factor that follows changes of its matrix)
- *  21052 update.h  21402 rank.h  21740 edges.h  21894 choose.h  22092 pins_types.h
- *  22144 pins_nulls.h  22322 pins_capacitance.h  22549 pins.h  22718 pins_solve.h  22966 subset.h
- *  23073 restrict_analysis.h  23370 restrict_anew.h  23424 restrict_symbolic.h  23605 restrict.h
- *  23833 edit_match.h  24032 edit_place.h  24281 edit_separate.h  24594 edit_order.h
- *  24749 edit_graph.h  24844 edit_join.h  25120 edit.h  25283 edit_factor.h
+ *  21288 update.h  21638 rank.h  21976 edges.h  22130 choose.h  22328 pins_types.h
+ *  22380 pins_nulls.h  22558 pins_capacitance.h  22785 pins.h  22954 pins_solve.h  23202 subset.h
+ *  23309 restrict_analysis.h  23606 restrict_anew.h  23660 restrict_symbolic.h  23841 restrict.h
+ *  24069 edit_match.h  24268 edit_place.h  24517 edit_separate.h  24830 edit_order.h
+ *  24985 edit_graph.h  25080 edit_join.h  25356 edit.h  25519 edit_factor.h
  * (save: factors in files)
- *  25541 format.h  25837 decode.h  25985 check.h  26315 write.h  26620 load.h  26888 load_inverse.h
- *  27217 load_calls.h
+ *  25777 format.h  26073 decode.h  26221 check.h  26551 write.h  26856 load.h  27124 load_inverse.h
+ *  27453 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27416 batch_solve.h  27625 batch_factor.h  27826 batch_diagonal.h
+ *  27652 batch_solve.h  27861 batch_factor.h  28062 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  27966 hermitian.h  28128 complex_rows.h
+ *  28202 hermitian.h  28364 complex_rows.h
  * (last: undefine every internal macro)
- *  28296 undef.h
+ *  28532 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28533 front.inl.h  28535 product.inl.h  29030 words_undef.inl.h  29112 multi_rhs.inl.h
- *  29131 multi_rhs_small.inl.h  29299 multi_rhs_tiles.inl.h  29604 sweeps.inl.h
- *  29606 unit_triangle.inl.h  29643 two_rhs.inl.h  29812 small_supernode.inl.h
- *  29971 single_rhs.inl.h  30215 kernel_set.inl.h  30217 complex_small.inl.h
- *  30381 complex_rows.inl.h  30621 inverse_front.inl.h  30906 row.inl.h  30936 change.inl.h
- *  31000 interleave.inl.h
+ *  28773 front.inl.h  28775 product.inl.h  29270 words_undef.inl.h  29352 multi_rhs.inl.h
+ *  29371 multi_rhs_small.inl.h  29539 multi_rhs_tiles.inl.h  29844 sweeps.inl.h
+ *  29846 unit_triangle.inl.h  29883 two_rhs.inl.h  30052 small_supernode.inl.h
+ *  30211 single_rhs.inl.h  30455 kernel_set.inl.h  30457 complex_small.inl.h
+ *  30621 complex_rows.inl.h  30861 inverse_front.inl.h  31146 row.inl.h  31176 change.inl.h
+ *  31240 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -132,6 +132,7 @@
  *  [George73] George: Nested dissection of a regular finite element mesh, 1973.
  *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
+ *  [MR85]    Miller, Reif: Parallel tree contraction and its application, 1985.
  *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
  *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations,
@@ -906,6 +907,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
  *  the roots have fewer of them.
  *
+ *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
+ *  SL_ORDERING_MINDEG first eliminate such rows, and those that come to have so few: a tree or a
+ *  chain of n rows then has paths of O(log n) columns, and with minimum degree a tree has no fill.
+ *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
  *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
@@ -938,8 +943,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           SL_ORDERING_METIS_REFINED it raises SIGABRT if it runs out of memory. Concurrent calls
  *           with METIS are safe only if rand() is, and may then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
- *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [Liu90] elimination
- *           tree; [GNP94] counts; [AG89] relaxed supernodes.
+ *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
+ *           [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -994,7 +999,8 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
  *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree. With other orderings,
- *  with minimum degree, and if a constraint was moved, n_nodes = 0 and the arrays are NULL. A node
+ *  with minimum degree, if rows with few neighbors were eliminated first, and if a constraint was
+ *  moved, n_nodes = 0 and the arrays are NULL. A node
  *  is a separator, or a subgraph that was not divided further. An entry of A joins two nodes only
  *  if one is an ancestor of the other. Nodes are numbered in elimination order, so that a separator
  *  follows the subgraphs that it separates.
@@ -10055,6 +10061,184 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
   return status;
 }
 
+/* src/impl/ordering/peel.h: rows with at most two neighbors are eliminated before anything else is ordered */
+
+#define SLI_PEEL_SHARE 8
+#define SLI_PEEL_SEARCH 32
+#define SLI_PEEL_LEAVES 8
+#define SLI_PEEL_ENDS 256
+
+typedef struct sli_peel {
+  sli_graph rest;
+  sl_int *length;
+  sl_int *degree;
+  sl_int *ends;
+  sl_int *stamp;
+  sl_int *now, *later;
+  sl_int *sequence;
+  sl_int count, n_later, round;
+  sl_int most;
+} sli_peel;
+
+static void sli_peel_layout(sli_peel *p, sli_block *b, sl_int n, sl_off edges) {
+  p->rest.begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
+  p->rest.to = SLI_TAKE(b, sl_int, edges);
+  p->length = SLI_TAKE(b, sl_int, n);
+  p->degree = SLI_TAKE(b, sl_int, n);
+  p->ends = SLI_TAKE(b, sl_int, 2 * (size_t)n);
+  p->stamp = SLI_TAKE(b, sl_int, n);
+  p->now = SLI_TAKE(b, sl_int, n);
+  p->later = SLI_TAKE(b, sl_int, n);
+  p->sequence = SLI_TAKE(b, sl_int, n);
+}
+
+static int sli_peel_is_worthwhile(const sli_graph *G) {
+  sl_int v, few = 0;
+  for (v = 0; v < G->n; v++) {
+    few += G->begin[v + 1] - G->begin[v] <= 2;
+  }
+  return few > G->n / SLI_PEEL_SHARE;
+}
+
+SLI_INLINE sl_int sli_peel_follow(const sli_peel *p, sl_int v, sl_int u) {
+  while (u != -1 && p->degree[u] == -1) {
+    const sl_int *ends = p->ends + 2 * (size_t)u;
+    u = ends[0] == v ? ends[1] : ends[0];
+  }
+  return u;
+}
+
+static const sl_int *sli_peel_list(sli_peel *p, sl_int v) {
+  sl_int *list = p->rest.to + p->rest.begin[v], k, kept = 0;
+  for (k = 0; k < p->length[v]; k++) {
+    const sl_int u = sli_peel_follow(p, v, list[k]);
+    if (u != -1) {
+      list[kept++] = u;
+    }
+  }
+  p->length[v] = kept;
+  return list;
+}
+
+static int sli_peel_has_edge(sli_peel *p, sl_int u, sl_int v) {
+  const sl_int at = p->degree[u] < p->degree[v] ? u : v, other = at == u ? v : u;
+  const sl_int *list;
+  sl_int k = 0;
+  if (p->degree[at] > SLI_PEEL_SEARCH) {
+    return 0;
+  }
+  list = sli_peel_list(p, at);
+  while (k < p->length[at] && list[k] != other) {
+    k++;
+  }
+  return k < p->length[at];
+}
+
+SLI_INLINE void sli_peel_touch(sli_peel *p, sl_int u, sl_int fewer) {
+  const int was_listed = p->stamp[u] == p->round && p->degree[u] <= p->most;
+  p->degree[u] -= fewer;
+  p->stamp[u] = p->round;
+  if (p->degree[u] <= p->most && !was_listed) {
+    p->later[p->n_later++] = u;
+  }
+}
+
+static void sli_peel_eliminate(sli_peel *p, sl_int v) {
+  const sl_int *list = sli_peel_list(p, v);
+  sl_int *ends = p->ends + 2 * (size_t)v;
+  const sl_int count = p->length[v], a = count > 0 ? list[0] : -1, b = count > 1 ? list[1] : -1;
+  const int is_joined = b != -1 && a != b && !sli_peel_has_edge(p, a, b);
+  ends[0] = is_joined ? a : -1;
+  ends[1] = is_joined ? b : -1;
+  p->degree[v] = -1;
+  p->sequence[p->count++] = v;
+  if (b != -1 && a != b) {
+    sli_peel_touch(p, a, !is_joined);
+    sli_peel_touch(p, b, !is_joined);
+  } else if (a != -1) {
+    sli_peel_touch(p, a, count);
+  }
+}
+
+static void sli_peel_list_rows(sli_peel *p, sl_int n, sl_int most) {
+  sl_int v;
+  p->most = most;
+  p->n_later = 0;
+  for (v = 0; v < n; v++) {
+    p->later[p->n_later] = v;
+    p->n_later += p->degree[v] != -1 && p->degree[v] <= most;
+  }
+}
+
+static void sli_peel_round(sli_peel *p) {
+  const sl_int count = p->n_later;
+  sl_int k, *keep = p->now;
+  p->now = p->later;
+  p->later = keep;
+  p->n_later = 0;
+  p->round++;
+  for (k = 0; k < count; k++) {
+    if (p->stamp[p->now[k]] != p->round) {
+      sli_peel_eliminate(p, p->now[k]);
+    }
+  }
+}
+
+static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
+  const sl_int n = G->n;
+  sl_int v;
+  memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
+  memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
+  p->count = p->round = 0;
+  for (v = 0; v < n; v++) {
+    p->length[v] = p->degree[v] = (sl_int)(G->begin[v + 1] - G->begin[v]);
+    p->stamp[v] = 0;
+  }
+  sli_peel_list_rows(p, n, 1);
+  while (for_little_fill ? p->n_later > 0
+               : p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
+    sli_peel_round(p);
+  }
+  sli_peel_list_rows(p, n, 2);
+  while (p->n_later > 0) {
+    sli_peel_round(p);
+  }
+}
+
+static void sli_peel_finish(sli_peel *p, sl_int n) {
+  sl_int v, k, *number = p->now, *seen = p->later, left = 0;
+  sl_off to = 0;
+  for (v = 0; v < n; v++) {
+    if (p->degree[v] != -1) {
+      sli_peel_list(p, v);
+      p->sequence[p->count + left] = v;
+      seen[left] = -1;
+      number[v] = left++;
+    }
+  }
+  for (k = 0; k < left; k++) {
+    sl_off e = p->rest.begin[p->sequence[p->count + k]];
+    const sl_off end = e + p->length[p->sequence[p->count + k]];
+    p->rest.begin[k] = to;
+    for (; e < end; e++) {
+      const sl_int u = number[p->rest.to[e]];
+      p->rest.to[to] = u;
+      to += seen[u] != k;
+      seen[u] = k;
+    }
+  }
+  p->rest.begin[left] = to;
+  p->rest.n = left;
+}
+
+static void sli_peel_expand(const sli_peel *p, sl_int *perm) {
+  sl_int k;
+  for (k = p->rest.n - 1; k >= 0; k--) {
+    perm[p->count + k] = p->sequence[p->count + perm[k]];
+  }
+  memcpy(perm, p->sequence, (size_t)p->count * sizeof(sl_int));
+}
+
 /* src/impl/ordering/quotient.h: approximate minimum degree ordering of a whole graph, kept as a quotient graph */
 
 #define SLI_QUOTIENT_DENSE_ROW 10
@@ -10566,22 +10750,42 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
 
 #define SLI_ORDER_ND_FLOPS 5000.0
 
+static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
+  return ordering == SL_ORDERING_MINDEG ||
+       (ordering == SL_ORDERING_ND && opt != NULL && opt->coordinates == NULL &&
+      opt->purpose == SL_PURPOSE_ONE_FACTOR);
+}
+
+static int sli_order_is_irregular(const sli_graph *G, int is_peeled) {
+  uint64_t squares = 0, mean;
+  sl_int v;
+  if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
+    return 0;
+  }
+  for (v = 0; v < G->n; v++) {
+    const uint64_t degree = (uint64_t)(G->begin[v + 1] - G->begin[v]);
+    squares += degree < 1024 ? degree * degree : 1024 * 1024;
+  }
+  mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
+  return mean > 0 && 10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+}
+
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                  sl_int *perm, sl_int *scratch, sli_septree *septree,
                  sli_team *team, const sl_allocator *a) {
   const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
-  const int is_hurried = ordering == SL_ORDERING_ND && opt != NULL && xyz == NULL &&
-               opt->purpose == SL_PURPOSE_ONE_FACTOR;
+  const int is_hurried = sli_order_is_hurried(ordering, opt);
 #if defined(SLI_METIS)
   if (ordering == SL_ORDERING_METIS) {
     return sli_order_metis(G, opt->metis_options, perm, scratch, a);
   }
 #endif
-  if (ordering == SL_ORDERING_MINDEG || is_hurried) {
+  if (is_hurried) {
     double flops = 0.0;
     const sl_status status = sli_order_mindeg(G, perm, &flops, a);
     if (status != SL_OK || ordering == SL_ORDERING_MINDEG ||
-      0.5 * flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n]) {
+      0.5 * flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n] ||
+      sli_order_is_irregular(G, 1)) {
       return status;
     }
   }
@@ -10634,18 +10838,50 @@ typedef struct sli_order_choice {
   int is_wanted, is_there;
 } sli_order_choice;
 
-static int sli_order_is_irregular(const sli_graph *G) {
-  uint64_t squares = 0, mean;
-  sl_int v;
-  if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
-    return 0;
+static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering ordering,
+                const sl_options *opt, sl_int *perm, sl_int *scratch,
+                sli_septree *septree, sli_order_choice *choice, sli_team *team,
+                const sl_allocator *a) {
+  sl_status status = sli_order_graph(G, ordering, opt, perm, scratch, septree, team, a);
+  double flops;
+  if (status == SL_OK && choice->is_wanted && sli_order_is_irregular(G, is_peeled)) {
+    status = sli_order_mindeg(G, choice->other, &flops, a);
+    choice->is_there = status == SL_OK;
   }
-  for (v = 0; v < G->n; v++) {
-    const uint64_t degree = (uint64_t)(G->begin[v + 1] - G->begin[v]);
-    squares += degree < 1024 ? degree * degree : 1024 * 1024;
+  return status;
+}
+
+static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
+                  sl_int *perm, sl_int *scratch, sli_septree *septree,
+                  sli_order_choice *choice, sli_team *team,
+                  const sl_allocator *a) {
+  sli_peel p;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  memset(&p, 0, sizeof p);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_peel_layout(&p, &b, G->n, G->begin[G->n]);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
-  mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
-  return mean > 0 && 5 * 256 * squares >= 6 * mean * mean * (uint64_t)G->n;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_peel_run(&p, G, sli_order_is_hurried(ordering, opt));
+  sli_peel_finish(&p, G->n);
+  status = sli_order_canonical(&p.rest, a);
+  if (status == SL_OK) {
+    status = sli_order_both(&p.rest, 1, ordering, opt, perm, scratch, septree, choice, team, a);
+  }
+  if (status == SL_OK) {
+    sli_peel_expand(&p, perm);
+    septree->count = 0;
+    if (choice->is_there) {
+      sli_peel_expand(&p, choice->other);
+    }
+  }
+  sli_free(a, b.base);
+  return status;
 }
 
 static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
@@ -10653,6 +10889,8 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
                   sli_septree *septree, sli_order_choice *choice, sli_team *team,
                   const sl_allocator *a) {
   const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
+  const int may_peel = ordering == SL_ORDERING_MINDEG ||
+             (ordering == SL_ORDERING_ND && (opt == NULL || opt->coordinates == NULL));
   sli_graph G;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -10669,21 +10907,19 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
   }
   sli_graph_fill(&G, A, triangle, block);
   status = sli_order_canonical(&G, a);
+  choice->is_wanted &= block == 1;
   if (status == SL_OK) {
-    status = sli_order_graph(&G, ordering, opt, perm, scratch, septree, team, a);
+    status = may_peel && sli_peel_is_worthwhile(&G)
+           ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
+           : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team, a);
   }
   if (status == SL_OK && block > 1) {
     sli_order_expand(G.n, block, perm, septree);
   } else if (status == SL_OK) {
-    sli_order_border(A, &G, perm, scratch, septree);
-  }
-  if (status == SL_OK && choice->is_wanted && block == 1 && sli_order_is_irregular(&G)) {
     sli_septree none;
-    double flops;
-    status = sli_order_mindeg(&G, choice->other, &flops, a);
-    if (status == SL_OK) {
+    sli_order_border(A, &G, perm, scratch, septree);
+    if (choice->is_there) {
       sli_order_border(A, &G, choice->other, scratch, &none);
-      choice->is_there = 1;
     }
   }
   sli_free(a, b.base);
@@ -24729,7 +24965,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     status = sli_order_canonical(&G, a);
   }
   if (status == SL_OK) {
-    status = sli_order_is_irregular(&G)
+    status = sli_order_is_irregular(&G, 0)
            ? sli_order_mindeg(&G, perm, &flops, a)
            : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
   }
@@ -28484,6 +28720,10 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_ND_RESPLITS
 #undef SLI_METIS_REFINED_SHARE
+#undef SLI_PEEL_SHARE
+#undef SLI_PEEL_SEARCH
+#undef SLI_PEEL_LEAVES
+#undef SLI_PEEL_ENDS
 #undef SLI_COMPRESS_SHARE
 #undef SLI_LEVELSET_SHARE
 #undef SLI_VOLUME_BORDER

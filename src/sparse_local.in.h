@@ -93,6 +93,7 @@ extern "C" {
 #include "impl/ordering/metis_refined.h"
 #include "impl/ordering/nd.h"
 #include "impl/ordering/compress.h"
+#include "impl/ordering/peel.h"
 #include "impl/ordering/quotient.h"
 #include "impl/ordering/order.h"
 /* analysis: elimination tree, supernodes, structure of L; never sees a value */

@@ -23,6 +23,10 @@
  *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
  *  the roots have fewer of them.
  *
+ *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
+ *  SL_ORDERING_MINDEG first eliminate such rows, and those that come to have so few: a tree or a
+ *  chain of n rows then has paths of O(log n) columns, and with minimum degree a tree has no fill.
+ *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
  *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
@@ -55,8 +59,8 @@
  *           SL_ORDERING_METIS_REFINED it raises SIGABRT if it runs out of memory. Concurrent calls
  *           with METIS are safe only if rand() is, and may then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
- *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [Liu90] elimination
- *           tree; [GNP94] counts; [AG89] relaxed supernodes.
+ *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
+ *           [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -111,7 +115,8 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
  *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree. With other orderings,
- *  with minimum degree, and if a constraint was moved, n_nodes = 0 and the arrays are NULL. A node
+ *  with minimum degree, if rows with few neighbors were eliminated first, and if a constraint was
+ *  moved, n_nodes = 0 and the arrays are NULL. A node
  *  is a separator, or a subgraph that was not divided further. An entry of A joins two nodes only
  *  if one is an ancestor of the other. Nodes are numbered in elimination order, so that a separator
  *  follows the subgraphs that it separates.

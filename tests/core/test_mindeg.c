@@ -191,7 +191,7 @@ static void the_purpose_decides(void **state) {
  * fill and shorter paths by minimum degree, the second one has shorter paths by dissection. */
 static void irregular_graphs_take_the_better_order(void **state) {
     (void)state;
-    enum { VARIABLES = 600, CONSTRAINTS = 300, ALL = VARIABLES + CONSTRAINTS };
+    enum { VARIABLES = 300, CONSTRAINTS = 600, ALL = VARIABLES + CONSTRAINTS };
     for (int is_local = 0; is_local < 2; is_local++) {
         gen_list_t t = gen_list(ALL);
         uint64_t seed = 4;
@@ -199,9 +199,9 @@ static void irregular_graphs_take_the_better_order(void **state) {
             gen_add(&t, k, k, k < VARIABLES ? 1.0 : -1.0);
         }
         for (sl_int r = 0; r < CONSTRAINTS; r++) {
-            const sl_int count = is_local ? 1 + gen_below(&seed, 16) : 3;
+            const sl_int count = is_local ? 3 + gen_below(&seed, 14) : 3;
             for (sl_int q = 0; q < count; q++) {
-                const sl_int v = is_local ? (2 * r + gen_below(&seed, 40)) % VARIABLES
+                const sl_int v = is_local ? (r / 2 + gen_below(&seed, 40)) % VARIABLES
                                           : gen_below(&seed, VARIABLES);
                 gen_add(&t, VARIABLES + r, v, 0.5);
             }

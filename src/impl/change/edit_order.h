@@ -148,7 +148,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
         status = sli_order_canonical(&G, a);
     }
     if (status == SL_OK) {
-        status = sli_order_is_irregular(&G)
+        status = sli_order_is_irregular(&G, 0)
                      ? sli_order_mindeg(&G, perm, &flops, a)
                      : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
     }
