@@ -292,7 +292,8 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     if (status == SL_OK) {
         status = may_peel && sli_peel_is_worthwhile(&G)
                      ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
-                     : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team, a);
+                     : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team,
+                                      a);
     }
     if (status == SL_OK && block > 1) {
         sli_order_expand(G.n, block, perm, septree);
