@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 97dd719f5ea8f5ec
+ * FNV-1a of the lines after this comment, without the license: 7c1547c38f60331e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,44 +46,44 @@
  *   9225 cells.h   9405 septree.h   9481 metis.h   9630 metis_refined.h   9744 nd.h
  *   9943 compress.h  10064 peel.h  10242 quotient.h  10655 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11000 symbolic_types.h  11037 etree.h  11110 counts.h  11167 supernodes.h  11389 structure.h
- *  11510 schedule.h  11790 symbolic.h  12220 reach.h
+ *  11001 symbolic_types.h  11038 etree.h  11111 counts.h  11168 supernodes.h  11390 structure.h
+ *  11511 schedule.h  11791 symbolic.h  12221 reach.h
  * (factor: the numbers of L and D)
- *  12491 factor_types.h  12901 storage.h  13041 pivot_search.h  13387 pivoted.h  13455 scatter.h
- *  13613 uplooking.h  13685 null_product.h  13889 null_dense.h  13966 null_basis.h
- *  14274 null_vectors.h  14416 multifrontal.h  14606 gather.h  14654 kept.h  14821 front_tasks.h
- *  15164 nullspace.h  15367 growth.h  15443 factor_setup.h  15757 factor.h  15967 leftlooking.h
- *  16107 factor_query.h  16242 combination.h
+ *  12492 factor_types.h  12902 storage.h  13042 pivot_search.h  13388 pivoted.h  13456 scatter.h
+ *  13614 uplooking.h  13686 null_product.h  13890 null_dense.h  13967 null_basis.h
+ *  14275 null_vectors.h  14417 multifrontal.h  14607 gather.h  14655 kept.h  14822 front_tasks.h
+ *  15165 nullspace.h  15368 growth.h  15444 factor_setup.h  15758 factor.h  15968 leftlooking.h
+ *  16108 factor_query.h  16243 combination.h
  * (solve: full and local solves)
- *  16303 region_types.h  16407 work.h  16507 query.h  16717 singular.h  16987 backward.h
- *  17017 sweep_tasks.h  17351 sweep.h  17562 compile.h  17755 plan.h  17862 local.h  18014 parts.h
- *  18303 refine.h  18482 refine_local.h  18698 rcond.h  18854 defects.h
+ *  16304 region_types.h  16408 work.h  16508 query.h  16718 singular.h  16988 backward.h
+ *  17018 sweep_tasks.h  17352 sweep.h  17563 compile.h  17756 plan.h  17863 local.h  18015 parts.h
+ *  18304 refine.h  18483 refine_local.h  18699 rcond.h  18855 defects.h
  * (inverse: entries of the inverse, regions)
- *  18932 traversal.h  19177 traversal_run.h  19360 row_sets.h  19387 unit_vectors.h
- *  19614 bilinear.h  19791 entries.h  20072 block.h  20312 reserve.h  20504 selected.h
- *  20714 selected_query.h  20816 region_choose.h  21040 region.h
+ *  18933 traversal.h  19178 traversal_run.h  19361 row_sets.h  19388 unit_vectors.h
+ *  19615 bilinear.h  19792 entries.h  20073 block.h  20313 reserve.h  20505 selected.h
+ *  20715 selected_query.h  20817 region_choose.h  21041 region.h
  * (change: a factor that follows changes of its matrix)
- *  21288 update.h  21638 rank.h  21976 edges.h  22130 choose.h  22328 pins_types.h
- *  22380 pins_nulls.h  22558 pins_capacitance.h  22785 pins.h  22954 pins_solve.h  23202 subset.h
- *  23309 restrict_analysis.h  23606 restrict_anew.h  23660 restrict_symbolic.h  23841 restrict.h
- *  24069 edit_match.h  24268 edit_place.h  24517 edit_separate.h  24830 edit_order.h
- *  24985 edit_graph.h  25080 edit_join.h  25356 edit.h  25519 edit_factor.h
+ *  21289 update.h  21639 rank.h  21977 edges.h  22131 choose.h  22329 pins_types.h
+ *  22381 pins_nulls.h  22559 pins_capacitance.h  22786 pins.h  22955 pins_solve.h  23203 subset.h
+ *  23310 restrict_analysis.h  23607 restrict_anew.h  23661 restrict_symbolic.h  23842 restrict.h
+ *  24070 edit_match.h  24269 edit_place.h  24518 edit_separate.h  24831 edit_order.h
+ *  24986 edit_graph.h  25081 edit_join.h  25357 edit.h  25520 edit_factor.h
  * (save: factors in files)
- *  25777 format.h  26073 decode.h  26221 check.h  26551 write.h  26856 load.h  27124 load_inverse.h
- *  27453 load_calls.h
+ *  25778 format.h  26074 decode.h  26222 check.h  26552 write.h  26857 load.h  27125 load_inverse.h
+ *  27454 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27652 batch_solve.h  27861 batch_factor.h  28062 batch_diagonal.h
+ *  27653 batch_solve.h  27862 batch_factor.h  28063 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  28202 hermitian.h  28364 complex_rows.h
+ *  28203 hermitian.h  28365 complex_rows.h
  * (last: undefine every internal macro)
- *  28532 undef.h
+ *  28533 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28773 front.inl.h  28775 product.inl.h  29270 words_undef.inl.h  29352 multi_rhs.inl.h
- *  29371 multi_rhs_small.inl.h  29539 multi_rhs_tiles.inl.h  29844 sweeps.inl.h
- *  29846 unit_triangle.inl.h  29883 two_rhs.inl.h  30052 small_supernode.inl.h
- *  30211 single_rhs.inl.h  30455 kernel_set.inl.h  30457 complex_small.inl.h
- *  30621 complex_rows.inl.h  30861 inverse_front.inl.h  31146 row.inl.h  31176 change.inl.h
- *  31240 interleave.inl.h
+ *  28774 front.inl.h  28776 product.inl.h  29271 words_undef.inl.h  29353 multi_rhs.inl.h
+ *  29372 multi_rhs_small.inl.h  29540 multi_rhs_tiles.inl.h  29845 sweeps.inl.h
+ *  29847 unit_triangle.inl.h  29884 two_rhs.inl.h  30053 small_supernode.inl.h
+ *  30212 single_rhs.inl.h  30456 kernel_set.inl.h  30458 complex_small.inl.h
+ *  30622 complex_rows.inl.h  30862 inverse_front.inl.h  31147 row.inl.h  31177 change.inl.h
+ *  31241 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10911,7 +10911,8 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
   if (status == SL_OK) {
     status = may_peel && sli_peel_is_worthwhile(&G)
            ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
-           : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team, a);
+           : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team,
+                    a);
   }
   if (status == SL_OK && block > 1) {
     sli_order_expand(G.n, block, perm, septree);

@@ -86,7 +86,8 @@ static int follow(gen_kind_t kind, sl_int size, int style, int edits, edit_kind_
         SL_CHECK(sl_factor_edit(&z.F, y.F, z.S, &z.A.view, new_of, opt, &stats));
         check_right(y.F, &y.A.view); /* it stays as it was */
         check_right(z.F, &z.A.view);
-        check_pivots(&y, z.F, new_of, &stats);check_pivots(&y, z.F, new_of, &stats);
+        check_pivots(&y, z.F, new_of, &stats);
+        check_pivots(&y, z.F, new_of, &stats);
         assert_true(stats.reuse.is_anew || stats.reuse.flops < stats.reuse.flops_anew);
         assert_true(stats.factor.positive == z.t.n && stats.factor.growth < 10);
         kept += !stats.reuse.is_anew;
@@ -111,8 +112,8 @@ static void every_kind_of_matrix_follows_edits(void **state) {
             sl_options opt = options_none();
             opt.isa = isas.isa[(kind + k) % isas.count];
             opt.method = SL_METHOD_SUPERNODAL;
-            kept += follow((gen_kind_t)kind, k % 3 == 0 ? 36 : 100, k % GEN_STYLES, 3,
-                           kinds[k % 4], &opt);
+            kept += follow((gen_kind_t)kind, k % 3 == 0 ? 36 : 100, k % GEN_STYLES, 3, kinds[k % 4],
+                           &opt);
             all += 3;
         }
     }

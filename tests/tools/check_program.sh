@@ -150,6 +150,8 @@ gives 0 '^  weight .* [0-9]' edit hills:30x30 --edits 50 --csv "$dir/edits.csv" 
     --svg "$dir/edits.svg"
 [ "$(grep -c '^[0-9]*,check,' "$dir/edits.csv")" -eq 1 ] && grep -q '</svg>' "$dir/edits.svg"
 record $? "edit writes a table and a plot"
+gives 0 '^  split .* [0-9]' edit hills:30x30 --edits 30 --kinds flip,split,collapse,remesh --patch 9
+gives 2 'do not go with split' edit hills:9x9 --kinds pin,split
 
 # Pages for a browser (test_view.c, and check_view.sh in one).
 

@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/run_command.h"
 
-#include "tools/cli/edit_system.h"
+#include "tools/cli/mesh_edits.h"
 #include "tools/geometry/laplacian.h"
 #include "tools/mesh/surface_generator.h"
 
@@ -49,6 +49,43 @@ static void every_edit_is_followed(void **state) {
             sl_matrix_free(want);
         }
         edit_system_free(&e);
+        mesh_free(&m);
+    }
+}
+
+/* Flips, splits, collapses and remeshed patches: the factor is that of the present mesh, and mostly
+ * columns are kept. */
+static void meshes_are_followed(void **state) {
+    (void)state;
+    static const char *const surfaces[] = {"hills:40x40", "sphere:4"};
+    static const edit_kind kinds[] = {EDIT_FLIP, EDIT_SPLIT, EDIT_COLLAPSE, EDIT_REMESH};
+    for (int k = 0; k < 8; k++) {
+        mesh m;
+        mesh_edits e;
+        int ways[EDIT_WAYS] = {0}, edits = 0;
+        assert_true(surface_generate(&m, surfaces[k % 2], NULL, 0));
+        const double edge = mesh_mean_edge_length(&m), t = edge * edge;
+        mesh_edits_create(&e, &m, t, 20, 5);
+        for (int turn = 0; turn < 40; turn++) {
+            const sl_int n = e.mesh.faces.m.n_vertices;
+            if (mesh_edits_edit(&e, kinds[k / 2])) {
+                const sl_int now = e.mesh.faces.m.n_vertices;
+                ways[mesh_edits_follow(&e)]++;
+                edits++;
+                assert_true(kinds[k / 2] == EDIT_REMESH ||
+                            now ==
+                                n + (kinds[k / 2] == EDIT_SPLIT) - (kinds[k / 2] == EDIT_COLLAPSE));
+                sl_matrix *want = NULL;
+                assert_true(laplacian_system(&want, &e.mesh.faces.m, t));
+                const sl_csc A = sl_matrix_view(want);
+                const edit_check check = edit_check_factor(&A, e.F, e.W, &e.random);
+                assert_int_equal(A.n_cols, now);
+                assert_true(check.difference < 1e-12 && check.backward_error < 1e-14);
+                sl_matrix_free(want);
+            }
+        }
+        assert_true(edits > 30 && ways[EDIT_KEPT] > edits / 2);
+        mesh_edits_free(&e);
         mesh_free(&m);
     }
 }
@@ -136,9 +173,37 @@ static void tables_and_plots_are_written(void **state) {
     free(text);
 }
 
+static void mesh_edits_are_reported(void **state) {
+    (void)state;
+    char words[1300];
+    int status, rows = 0;
+    size_t length;
+    (void)snprintf(words, sizeof words,
+                   "edit hills:40x40 --edits 30 --every 10 --kinds flip,split,collapse,remesh "
+                   "--patch 12 --csv %s/m.csv --svg %s/m.svg",
+                   files_folder, files_folder);
+    char *output = run_command(command_edit, words, &status);
+    assert_int_equal(status, 0);
+    assert_true(number_after(output, "differ by at most ") < 1e-12);
+    assert_true(number_after(output, "entries of L at most ") > 0.9);
+    free(output);
+    char *text = files_get(files_path("m.csv"), &length);
+    for (const char *at = text; *at != '\0'; at++) {
+        rows += *at == '\n';
+    }
+    assert_int_equal(rows, 1 + 30 + 3);
+    assert_non_null(strstr(text, ",kept,"));
+    free(text);
+    text = files_get(files_path("m.svg"), &length);
+    assert_non_null(strstr(text, "collapse"));
+    free(text);
+}
+
 static void options_are_checked(void **state) {
     (void)state;
-    command_says(command_edit, "edit sphere:1 --kinds split", 2, "expected some of weight");
+    command_says(command_edit, "edit sphere:1 --kinds cut", 2, "expected some of weight");
+    command_says(command_edit, "edit sphere:1 --kinds split,pin", 2, "do not go with split");
+    command_says(command_edit, "edit sphere:2 --kinds split --edits 3", 0, "vertices");
     command_says(command_edit, "edit sphere:1 --kinds weight,pin,flip,patch,pin", 2, "each once");
     command_says(command_edit, "edit sphere:1 --kinds weight,,pin", 2, "expected some of weight");
     command_says(command_edit, "edit sphere:1 --patch 1", 2, "2 or more");
@@ -156,9 +221,11 @@ static void options_are_checked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_edit_is_followed),
+        cmocka_unit_test(meshes_are_followed),
         cmocka_unit_test(a_missed_edit_is_noticed),
         cmocka_unit_test(pins_and_springs_come_and_go),
         cmocka_unit_test(tables_and_plots_are_written),
+        cmocka_unit_test(mesh_edits_are_reported),
         cmocka_unit_test(options_are_checked),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);

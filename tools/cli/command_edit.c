@@ -6,6 +6,7 @@
 #include "command.h"
 #include "edit_system.h"
 #include "heat_system.h"
+#include "mesh_edits.h"
 #include "tools/draw/plot.h"
 
 static const options_usage usage = {
@@ -17,18 +18,24 @@ static const options_manual manual = {
     "sl_factor_change takes the cheapest of rank-one updates, a refactorization of the reach and a "
     "complete one. A flip joins two vertices by a new entry, which is a change of pattern: where L "
     "holds the fill, sl_factor_update_entries follows, also for the edits after it; elsewhere the "
-    "system is analyzed and factored anew. A split needs a new row, for which there is no way but "
-    "that one; it is not among the edits. Positions do not change.",
+    "system is analyzed and factored anew. Positions do not change. With split, collapse or remesh "
+    "among the kinds rows come and go: an edge gets a vertex in its middle, an edge is collapsed, "
+    "or a patch is remeshed by splits, collapses and flips. sl_symbolic_edit and sl_factor_edit "
+    "then follow each edit, also flips; they do not go with weight, patch and pin.",
     "A table of edits by kind and way, with milliseconds of processor time; the estimate of the "
-    "errors that updates have added (drift); comparisons with new factors at intervals. Exit "
+    "errors that updates have added (drift), or of the fill relative to a new order (growth); "
+    "comparisons with new factors at intervals. Exit "
     "status 1 if solutions differ by more than --bound. --csv has a row per edit, --svg a plot of "
     "the time against the number of edits.",
     "hills:300x300 --edits 2000 --svg edits.svg\n"
+    "hills:300x300 --kinds flip,split,collapse --svg mesh.svg\n"
     "bunny.obj --kinds weight,pin --edits 10000 --every 1000 --csv edits.csv"};
 
-static const char *const kind_names[EDIT_KINDS] = {"weight", "patch", "pin", "flip"};
-static const char *const way_names[EDIT_WAYS] = {"none",     "update",  "reach",
-                                                 "refactor", "outside", "anew"};
+static const char *const kind_names[EDIT_ALL_KINDS] = {"weight", "patch",    "pin",   "flip",
+                                                       "split",  "collapse", "remesh"};
+static const char *const way_names[EDIT_WAYS] = {"none",    "update", "reach", "refactor",
+                                                 "outside", "anew",   "kept"};
+#define KINDS "weight, patch, pin, flip, split, collapse, remesh"
 
 enum { MOST_POINTS = 3000 }; /* of the plot */
 
@@ -37,15 +44,17 @@ typedef struct edit_command {
     const char *kinds_text, *svg, *csv, *laplacian;
     double bound;
     heat_time time;
-    edit_kind kinds[EDIT_KINDS];
+    edit_kind kinds[EDIT_ALL_KINDS];
     int n_kinds;
     mesh m;
+    bool is_mesh; /* rows come and go: mesh; else e */
     edit_system e;
+    mesh_edits mesh;
     FILE *table;
     plot *drawn;
-    double *times[EDIT_KINDS]; /* milliseconds of each edit of a kind */
-    sl_int count[EDIT_KINDS], ways[EDIT_KINDS][EDIT_WAYS], not_found;
-    double total_ms, most_drift;
+    double *times[EDIT_ALL_KINDS]; /* milliseconds of each edit of a kind */
+    sl_int count[EDIT_ALL_KINDS], ways[EDIT_ALL_KINDS][EDIT_WAYS], not_found;
+    double total_ms, most_drift, most_growth;
     edit_check worst; /* largest errors, and smallest times */
     sl_int n_checks;
 } edit_command;
@@ -53,23 +62,37 @@ typedef struct edit_command {
 /* "weight,pin" */
 static void read_kinds(edit_command *cmd) {
     const char *at = cmd->kinds_text;
+    bool is_fixed = false;
     while (*at != '\0') {
         const size_t length = strcspn(at, ",");
         int k = 0;
-        while (k < EDIT_KINDS &&
+        while (k < EDIT_ALL_KINDS &&
                (strlen(kind_names[k]) != length || strncmp(at, kind_names[k], length) != 0)) {
             k++;
         }
-        if (k == EDIT_KINDS || cmd->n_kinds == EDIT_KINDS) {
-            app_die_usage("--kinds %s: expected some of weight, patch, pin, flip, each once",
-                          cmd->kinds_text);
+        for (int other = 0; other < cmd->n_kinds; other++) {
+            k = (int)cmd->kinds[other] == k ? EDIT_ALL_KINDS : k;
+        }
+        if (k == EDIT_ALL_KINDS) {
+            app_die_usage("--kinds %s: expected some of " KINDS ", each once", cmd->kinds_text);
         }
         cmd->kinds[cmd->n_kinds++] = (edit_kind)k;
+        cmd->is_mesh = cmd->is_mesh || k >= EDIT_KINDS;
+        is_fixed = is_fixed || k < EDIT_FLIP;
         at += length + (at[length] == ',');
     }
     if (cmd->n_kinds == 0) {
-        app_die_usage("--kinds: expected some of weight, patch, pin, flip");
+        app_die_usage("--kinds: expected some of " KINDS);
     }
+    if (is_fixed && cmd->is_mesh) {
+        app_die_usage("--kinds %s: weight, patch and pin do not go with split, collapse and remesh",
+                      cmd->kinds_text);
+    }
+}
+
+/* The random state of the system that is edited. */
+static uint64_t *random_of(edit_command *cmd) {
+    return cmd->is_mesh ? &cmd->mesh.random : &cmd->e.random;
 }
 
 static void add_point(edit_command *cmd, const char *series, plot_style style, double x, double y) {
@@ -79,7 +102,10 @@ static void add_point(edit_command *cmd, const char *series, plot_style style, d
 }
 
 static void check(edit_command *cmd, sl_int done) {
-    const edit_check found = edit_system_check(&cmd->e);
+    const sl_csc A = cmd->is_mesh ? sl_matrix_view(cmd->mesh.A) : edited_matrix_view(&cmd->e.A);
+    const edit_check found =
+        cmd->is_mesh ? edit_check_factor(&A, cmd->mesh.F, cmd->mesh.W, &cmd->mesh.random)
+                     : edit_system_check(&cmd->e);
     edit_check *w = &cmd->worst;
     w->difference = found.difference <= w->difference ? w->difference : found.difference;
     w->backward_error = fmax(w->backward_error, found.backward_error);
@@ -95,32 +121,46 @@ static void check(edit_command *cmd, sl_int done) {
     add_point(cmd, "new analysis and factor", PLOT_LINES, (double)done, found.anew_ms);
 }
 
-static void edit_once(edit_command *cmd, sl_int number) {
+/* Edits the system and lets the factor follow. Returns false if there is no place. */
+static bool edit_and_follow(edit_command *cmd, edit_kind kind, edit_way *way, double *spent,
+                            sl_int *entries) {
     entry_changes changes;
-    const int at = (int)app_random_below(&cmd->e.random, (sl_int)cmd->n_kinds);
-    const edit_kind kind = cmd->kinds[at];
-    if (!edit_system_edit(&cmd->e, kind, &changes)) {
-        triplets_free(&changes);
+    memset(&changes, 0, sizeof changes);
+    const bool found = cmd->is_mesh ? mesh_edits_edit(&cmd->mesh, kind)
+                                    : edit_system_edit(&cmd->e, kind, &changes);
+    if (found) {
+        const double began = app_processor_ms();
+        *way = cmd->is_mesh ? mesh_edits_follow(&cmd->mesh) : edit_system_follow(&cmd->e, &changes);
+        *spent = app_processor_ms() - began;
+        *entries = cmd->is_mesh ? cmd->mesh.stats.edit.changed : (sl_int)changes.count;
+    }
+    triplets_free(&changes);
+    return found;
+}
+
+static void edit_once(edit_command *cmd, sl_int number) {
+    const edit_kind kind = cmd->kinds[app_random_below(random_of(cmd), (sl_int)cmd->n_kinds)];
+    const sl_change_info *info = &cmd->e.stats.change; /* all 0 where the mesh is edited */
+    edit_way way = EDIT_NONE;
+    double spent = 0;
+    sl_int entries = 0;
+    if (!edit_and_follow(cmd, kind, &way, &spent, &entries)) {
         cmd->not_found++;
         return;
     }
-    const double began = app_processor_ms();
-    const edit_way way = edit_system_follow(&cmd->e, &changes);
-    const double spent = app_processor_ms() - began;
-    const sl_change_info *info = &cmd->e.stats.change;
     cmd->times[kind][cmd->count[kind]++] = spent;
     cmd->ways[kind][way]++;
     cmd->total_ms += spent;
     cmd->most_drift = fmax(cmd->most_drift, info->drift);
+    cmd->most_growth = fmax(cmd->most_growth, cmd->is_mesh ? cmd->mesh.stats.edit.growth : 0);
     if (cmd->table != NULL) {
         fprintf(cmd->table, "%d,%s,%s,%d,%d,%.3f,%.3g,%lld,,\n", (int)number, kind_names[kind],
-                way_names[way], (int)changes.count, way == EDIT_ANEW ? 0 : (int)info->ranks, spent,
+                way_names[way], (int)entries, way == EDIT_ANEW ? 0 : (int)info->ranks, spent,
                 info->drift, (long long)info->updates);
     }
     if (number % (cmd->n_edits / MOST_POINTS + 1) == 0) {
         add_point(cmd, kind_names[kind], PLOT_POINTS, (double)number + 1, spent);
     }
-    triplets_free(&changes);
 }
 
 static int by_size(const void *a, const void *b) {
@@ -137,7 +177,7 @@ static void print_summary(edit_command *cmd) {
         printf(" %8s", way_names[w]);
     }
     printf("  median ms     max ms\n");
-    for (int k = 0; k < EDIT_KINDS; k++) {
+    for (int k = 0; k < EDIT_ALL_KINDS; k++) {
         const sl_int count = cmd->count[k];
         if (count == 0) {
             continue;
@@ -152,13 +192,20 @@ static void print_summary(edit_command *cmd) {
     if (cmd->not_found > 0) {
         printf("no place   for %d edits\n", (int)cmd->not_found);
     }
-    if (cmd->count[EDIT_FLIP] > 0) {
+    if (cmd->count[EDIT_FLIP] > 0 && !cmd->is_mesh) {
         printf("flips      %d of %d outside of the fill of L or of what updates can follow: "
                "analyzed anew\n",
                (int)cmd->ways[EDIT_FLIP][EDIT_ANEW], (int)cmd->count[EDIT_FLIP]);
     }
-    printf("growth     drift at most %.3g; %lld rank-one changes since the last factorization\n",
-           cmd->most_drift, (long long)cmd->e.stats.change.updates);
+    if (cmd->is_mesh) {
+        printf("growth     entries of L at most %.3f times those expected of a new order; %d "
+               "vertices\n",
+               cmd->most_growth, (int)cmd->mesh.mesh.faces.m.n_vertices);
+    } else {
+        printf(
+            "growth     drift at most %.3g; %lld rank-one changes since the last factorization\n",
+            cmd->most_drift, (long long)cmd->e.stats.change.updates);
+    }
     if (cmd->n_checks > 0) {
         printf("check      %d new factors: a refactorization takes %.3f ms, order, analysis and "
                "factor %.3f ms\n",
@@ -184,11 +231,15 @@ static void open_command(edit_command *cmd, const char *operand) {
     const double t = heat_time_value(&cmd->time, &cmd->m, 0);
     const sl_int most = cmd->m.n_vertices;
     app_stage("factoring");
-    edit_system_create(&cmd->e, &cmd->m, t, cmd->patch < most ? cmd->patch : most,
-                       (uint64_t)cmd->seed);
+    const sl_int patch = cmd->patch < most ? cmd->patch : most;
+    if (cmd->is_mesh) {
+        mesh_edits_create(&cmd->mesh, &cmd->m, t, patch, (uint64_t)cmd->seed);
+    } else {
+        edit_system_create(&cmd->e, &cmd->m, t, patch, (uint64_t)cmd->seed);
+    }
     app_progress_end();
     printf("mesh       %d vertices, %d faces; t = %.6g\n", (int)most, (int)cmd->m.n_faces, t);
-    for (int k = 0; k < EDIT_KINDS; k++) {
+    for (int k = 0; k < EDIT_ALL_KINDS; k++) {
         cmd->times[k] = app_alloc((size_t)cmd->n_edits, sizeof *cmd->times[k]);
     }
     if (cmd->csv != NULL) {
@@ -213,10 +264,11 @@ static void close_command(edit_command *cmd) {
         app_die("%s", message);
     }
     plot_free(cmd->drawn);
-    for (int k = 0; k < EDIT_KINDS; k++) {
+    for (int k = 0; k < EDIT_ALL_KINDS; k++) {
         free(cmd->times[k]);
     }
     edit_system_free(&cmd->e);
+    mesh_edits_free(&cmd->mesh);
     mesh_free(&cmd->m);
 }
 
@@ -233,7 +285,7 @@ int command_edit(int argc, char **argv) {
     const option options[] = {
         {OPTION_COUNT, "edits", &cmd.n_edits, "N", "number of edits (200)"},
         {OPTION_TEXT, "kinds", &cmd.kinds_text, "LIST",
-         "kinds of edits, drawn at random: some of weight, patch, pin, flip (weight,pin,flip)"},
+         "kinds of edits, drawn at random: some of " KINDS " (weight,pin,flip)"},
         {OPTION_COUNT, "patch", &cmd.patch, "N", "vertices of a patch (100)"},
         {OPTION_COUNT, "every", &cmd.every, "N",
          "compare with a new factor after every N edits and at the end; 0: never (50)"},

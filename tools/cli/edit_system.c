@@ -324,37 +324,10 @@ edit_way edit_system_follow(edit_system *e, const entry_changes *changes) {
 }
 
 edit_check edit_system_check(edit_system *e) {
-    const size_t n = (size_t)e->A.n;
-    edit_check check = {0, 0, 0, 0};
     sl_matrix *whole = NULL;
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
-    double *b = app_alloc(3 * n, sizeof *b), *x = b + n, *y = x + n, largest = 0;
     must(edited_matrix_whole(&whole, &e->A, NULL));
     const sl_csc A = sl_matrix_view(whole);
-    double began = app_processor_ms();
-    app_must(sl_symbolic_create(&S, &A, NULL, NULL), "analysis", NULL);
-    app_must(sl_factor_create(&F, S, &A, NULL, NULL), "factorization", NULL);
-    check.anew_ms = app_processor_ms() - began;
-    began = app_processor_ms();
-    app_must(sl_factor_refactor(F, &A, NULL), "refactorization", NULL);
-    check.refactor_ms = app_processor_ms() - began;
-    for (size_t k = 0; k < n; k++) {
-        b[k] = 2 * random_share(e) - 1;
-    }
-    app_must(sl_factor_solve(e->F, x, n, b, n, 1, e->W), "solve", NULL);
-    app_must(sl_factor_solve(F, y, n, b, n, 1, e->W), "solve", NULL);
-    for (size_t k = 0; k < n; k++) {
-        largest = fmax(largest, fabs(y[k]));
-        /* written so that a NaN counts */
-        check.difference =
-            fabs(x[k] - y[k]) <= check.difference ? check.difference : fabs(x[k] - y[k]);
-    }
-    check.difference /= largest > 0 ? largest : 1;
-    app_must(sl_csc_residual(&A, y, n, &check.backward_error, x, n, b, n, 1), "residual", NULL);
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    const edit_check check = edit_check_factor(&A, e->F, e->W, &e->random);
     sl_matrix_free(whole);
-    free(b);
     return check;
 }

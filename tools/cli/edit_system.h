@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "edit_check.h"
 #include "tools/matrix/edited_matrix.h"
 #include "tools/mesh/edge_flips.h"
 
@@ -14,16 +15,29 @@
  *  EDIT_PIN     a vertex is pinned, its row and column become 0 but for the diagonal; or released
  *  EDIT_FLIP    an edge is flipped: two faces are replaced by two others
  *
- * The matrix is always definite: a sum of masses, faces and springs, with rows eliminated.
+ * The matrix is always definite: a sum of masses, faces and springs, with rows eliminated. The
+ * kinds after EDIT_KINDS change the rows; they are those of mesh_edits.h.
  */
-typedef enum edit_kind { EDIT_WEIGHT = 0, EDIT_PATCH, EDIT_PIN, EDIT_FLIP, EDIT_KINDS } edit_kind;
+typedef enum edit_kind {
+    EDIT_WEIGHT = 0,
+    EDIT_PATCH,
+    EDIT_PIN,
+    EDIT_FLIP,
+    EDIT_KINDS,
+    EDIT_SPLIT = EDIT_KINDS,
+    EDIT_COLLAPSE,
+    EDIT_REMESH,
+    EDIT_ALL_KINDS
+} edit_kind;
 
 /** How the factor followed. The first four are those of sl_factor_change.
  *
  *  EDIT_OUTSIDE  by sl_factor_update_entries: entries outside of the analyzed pattern, from flips,
  *                are present where L holds the fill
  *  EDIT_ANEW     by a new analysis and factorization: an entry outside of L, or too many changes or
- *                too much drift while entries are outside of the pattern
+ *                too much drift while entries are outside of the pattern; in mesh_edits.h by a new
+ *                order
+ *  EDIT_KEPT     by sl_symbolic_edit and sl_factor_edit, with columns of the factor before
  */
 typedef enum edit_way {
     EDIT_NONE = SL_CHANGE_NONE,
@@ -32,6 +46,7 @@ typedef enum edit_way {
     EDIT_REFACTOR = SL_CHANGE_REFACTOR,
     EDIT_OUTSIDE,
     EDIT_ANEW,
+    EDIT_KEPT,
     EDIT_WAYS
 } edit_way;
 
@@ -85,13 +100,6 @@ bool edit_system_edit(edit_system *e, edit_kind kind, entry_changes *changes);
 edit_way edit_system_follow(edit_system *e, const entry_changes *changes);
 
 /** Compares the factor with a new one of the present matrix. */
-typedef struct edit_check {
-    double difference;     /* of the solutions of a random system, relative to the largest entry */
-    double backward_error; /* of the solution by the factor that followed */
-    double refactor_ms;    /* processor time of a refactorization */
-    double anew_ms;        /* of order, analysis and factorization */
-} edit_check;
-
 edit_check edit_system_check(edit_system *e);
 
 #endif
