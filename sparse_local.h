@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7c1547c38f60331e
+ * FNV-1a of the lines after this comment, without the license: 5dd517e6171fd8af
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -80,10 +80,10 @@
  * (templates: the header includes them from itself, once for each instruction set)
  *  28774 front.inl.h  28776 product.inl.h  29271 words_undef.inl.h  29353 multi_rhs.inl.h
  *  29372 multi_rhs_small.inl.h  29540 multi_rhs_tiles.inl.h  29845 sweeps.inl.h
- *  29847 unit_triangle.inl.h  29884 two_rhs.inl.h  30053 small_supernode.inl.h
- *  30212 single_rhs.inl.h  30456 kernel_set.inl.h  30458 complex_small.inl.h
- *  30622 complex_rows.inl.h  30862 inverse_front.inl.h  31147 row.inl.h  31177 change.inl.h
- *  31241 interleave.inl.h
+ *  29847 unit_triangle.inl.h  29884 two_rhs.inl.h  30055 small_supernode.inl.h
+ *  30215 single_rhs.inl.h  30464 kernel_set.inl.h  30466 complex_small.inl.h
+ *  30630 complex_rows.inl.h  30870 inverse_front.inl.h  31155 row.inl.h  31185 change.inl.h
+ *  31249 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -30050,6 +30050,8 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end of two_rhs.inl.h */
 #endif
+#if defined(SLV_PAIR) || !SLV_SINGLE
+#define SLI_SMALL_SUPERNODES
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
@@ -30209,6 +30211,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, c
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
 /* end of small_supernode.inl.h */
+#endif
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
@@ -30261,11 +30264,13 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, con
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + s->base;
     sl_int i;
+#if defined(SLI_SMALL_SUPERNODES)
     if (w <= SLI_TILE) {
       SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
       rows += s->below;
       continue;
     }
+#endif
     memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
     for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
       buf[i] = 0.0;
@@ -30373,10 +30378,12 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
     sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
+#if defined(SLI_SMALL_SUPERNODES)
     if (w <= SLI_TILE) {
       SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
       continue;
     }
+#endif
     SLV_SUM_ZERO(a)
     for (j = first; j < w; j++) {
       SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
@@ -30436,6 +30443,7 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
+#undef SLI_SMALL_SUPERNODES
 
 #if SLV_SINGLE
 #undef SLV_SINGLE
