@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5dd517e6171fd8af
+ * FNV-1a of the lines after this comment, without the license: 4b5d4936d06a68a9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,64 +26,64 @@
  *   2589 change.h     a factor that follows small changes of its matrix
  *   2676 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2768 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2901 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2950 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2899 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2948 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3041 base.h   3335 status.h   3396 options.h   3454 alloc.h   3564 hash.h   3694 file_map.h
- *   3791 sort.h   3855 parallel.h
+ *   3039 base.h   3333 status.h   3394 options.h   3452 alloc.h   3562 hash.h   3692 file_map.h
+ *   3789 sort.h   3853 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4046 panel.h   4072 step.h   4147 pivot_rule.h   4221 front.h   4281 pairs.h
- *   4488 inverse_front.h   4560 table.h   4588 simd.h   4683 simd_scalar_single.h
- *   4729 simd_scalar.h   4853 simd_avx2_single.h   4907 simd_avx2.h   5121 simd_avx512_single.h
- *   5176 simd_avx512.h   5331 simd_neon_single.h   5373 simd_neon.h   5583 dispatch.h
+ *   4044 panel.h   4070 step.h   4144 pivot_rule.h   4218 front.h   4278 pairs.h
+ *   4485 inverse_front.h   4557 table.h   4585 simd.h   4680 simd_scalar_single.h
+ *   4726 simd_scalar.h   4854 simd_avx2_single.h   4908 simd_avx2.h   5126 simd_avx512_single.h
+ *   5181 simd_avx512.h   5340 simd_neon_single.h   5382 simd_neon.h   5596 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5663 csc.h   5777 csc_build.h   5911 csc64.h   5982 csc_triangle.h   6048 csc_products.h
- *   6165 permute.h   6231 sum.h   6313 output_file.h   6522 matrix_market.h
+ *   5676 csc.h   5790 csc_build.h   5924 csc64.h   5995 csc_triangle.h   6061 csc_products.h
+ *   6178 permute.h   6244 sum.h   6326 output_file.h   6535 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6968 graph.h   7117 coarsen.h   7429 labels.h   7650 subgraph.h   7845 heap.h   7905 bisect.h
- *   8132 separator.h   8394 mindeg.h   8577 dissect.h   8944 levelset.h   9050 geometric.h
- *   9225 cells.h   9405 septree.h   9481 metis.h   9630 metis_refined.h   9744 nd.h
- *   9943 compress.h  10064 peel.h  10242 quotient.h  10655 order.h
+ *   6981 graph.h   7130 coarsen.h   7442 labels.h   7663 subgraph.h   7858 heap.h   7918 bisect.h
+ *   8145 separator.h   8407 mindeg.h   8590 dissect.h   8957 levelset.h   9063 geometric.h
+ *   9238 cells.h   9418 septree.h   9494 metis.h   9643 metis_refined.h   9757 nd.h
+ *   9956 compress.h  10077 peel.h  10255 quotient.h  10668 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11001 symbolic_types.h  11038 etree.h  11111 counts.h  11168 supernodes.h  11390 structure.h
- *  11511 schedule.h  11791 symbolic.h  12221 reach.h
+ *  11014 symbolic_types.h  11051 etree.h  11124 counts.h  11181 supernodes.h  11403 structure.h
+ *  11524 schedule.h  11804 symbolic.h  12234 reach.h
  * (factor: the numbers of L and D)
- *  12492 factor_types.h  12902 storage.h  13042 pivot_search.h  13388 pivoted.h  13456 scatter.h
- *  13614 uplooking.h  13686 null_product.h  13890 null_dense.h  13967 null_basis.h
- *  14275 null_vectors.h  14417 multifrontal.h  14607 gather.h  14655 kept.h  14822 front_tasks.h
- *  15165 nullspace.h  15368 growth.h  15444 factor_setup.h  15758 factor.h  15968 leftlooking.h
- *  16108 factor_query.h  16243 combination.h
+ *  12505 factor_types.h  12915 storage.h  13055 pivot_search.h  13401 pivoted.h  13469 scatter.h
+ *  13627 uplooking.h  13699 null_product.h  13903 null_dense.h  13980 null_basis.h
+ *  14288 null_vectors.h  14430 multifrontal.h  14620 gather.h  14668 kept.h  14835 front_tasks.h
+ *  15178 nullspace.h  15381 growth.h  15457 factor_setup.h  15771 factor.h  15981 leftlooking.h
+ *  16121 factor_query.h  16256 combination.h
  * (solve: full and local solves)
- *  16304 region_types.h  16408 work.h  16508 query.h  16718 singular.h  16988 backward.h
- *  17018 sweep_tasks.h  17352 sweep.h  17563 compile.h  17756 plan.h  17863 local.h  18015 parts.h
- *  18304 refine.h  18483 refine_local.h  18699 rcond.h  18855 defects.h
+ *  16317 region_types.h  16421 work.h  16521 query.h  16729 singular.h  16999 backward.h
+ *  17029 sweep_tasks.h  17363 sweep.h  17574 compile.h  17767 plan.h  17874 local.h  18026 parts.h
+ *  18315 refine.h  18494 refine_local.h  18710 rcond.h  18866 defects.h
  * (inverse: entries of the inverse, regions)
- *  18933 traversal.h  19178 traversal_run.h  19361 row_sets.h  19388 unit_vectors.h
- *  19615 bilinear.h  19792 entries.h  20073 block.h  20313 reserve.h  20505 selected.h
- *  20715 selected_query.h  20817 region_choose.h  21041 region.h
+ *  18944 traversal.h  19189 traversal_run.h  19372 row_sets.h  19399 unit_vectors.h
+ *  19626 bilinear.h  19803 entries.h  20084 block.h  20324 reserve.h  20516 selected.h
+ *  20726 selected_query.h  20828 region_choose.h  21052 region.h
  * (change: a factor that follows changes of its matrix)
- *  21289 update.h  21639 rank.h  21977 edges.h  22131 choose.h  22329 pins_types.h
- *  22381 pins_nulls.h  22559 pins_capacitance.h  22786 pins.h  22955 pins_solve.h  23203 subset.h
- *  23310 restrict_analysis.h  23607 restrict_anew.h  23661 restrict_symbolic.h  23842 restrict.h
- *  24070 edit_match.h  24269 edit_place.h  24518 edit_separate.h  24831 edit_order.h
- *  24986 edit_graph.h  25081 edit_join.h  25357 edit.h  25520 edit_factor.h
+ *  21300 update.h  21650 rank.h  21988 edges.h  22142 choose.h  22340 pins_types.h
+ *  22392 pins_nulls.h  22570 pins_capacitance.h  22797 pins.h  22966 pins_solve.h  23214 subset.h
+ *  23321 restrict_analysis.h  23618 restrict_anew.h  23672 restrict_symbolic.h  23853 restrict.h
+ *  24081 edit_match.h  24280 edit_place.h  24529 edit_separate.h  24842 edit_order.h
+ *  24997 edit_graph.h  25092 edit_join.h  25368 edit.h  25531 edit_factor.h
  * (save: factors in files)
- *  25778 format.h  26074 decode.h  26222 check.h  26552 write.h  26857 load.h  27125 load_inverse.h
- *  27454 load_calls.h
+ *  25789 format.h  26085 decode.h  26233 check.h  26563 write.h  26868 load.h  27136 load_inverse.h
+ *  27465 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27653 batch_solve.h  27862 batch_factor.h  28063 batch_diagonal.h
+ *  27664 batch_solve.h  27873 batch_factor.h  28074 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  28203 hermitian.h  28365 complex_rows.h
+ *  28214 hermitian.h  28376 complex_rows.h
  * (last: undefine every internal macro)
- *  28533 undef.h
+ *  28544 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28774 front.inl.h  28776 product.inl.h  29271 words_undef.inl.h  29353 multi_rhs.inl.h
- *  29372 multi_rhs_small.inl.h  29540 multi_rhs_tiles.inl.h  29845 sweeps.inl.h
- *  29847 unit_triangle.inl.h  29884 two_rhs.inl.h  30055 small_supernode.inl.h
- *  30215 single_rhs.inl.h  30464 kernel_set.inl.h  30466 complex_small.inl.h
- *  30630 complex_rows.inl.h  30870 inverse_front.inl.h  31155 row.inl.h  31185 change.inl.h
- *  31249 interleave.inl.h
+ *  28785 front.inl.h  28787 product.inl.h  29282 words_undef.inl.h  29364 multi_rhs.inl.h
+ *  29383 multi_rhs_small.inl.h  29551 multi_rhs_tiles.inl.h  29856 complex_groups.inl.h
+ *  30088 sweeps.inl.h  30090 unit_triangle.inl.h  30127 two_rhs.inl.h  30298 small_supernode.inl.h
+ *  30458 single_rhs.inl.h  30707 kernel_set.inl.h  30709 complex_small.inl.h
+ *  30873 complex_rows.inl.h  31105 inverse_front.inl.h  31390 row.inl.h  31420 change.inl.h
+ *  31484 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2787,11 +2787,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
- * operations and the memory of a factorization, and solves of one right-hand side read half as
- * much. More right-hand sides are solved one by one; from 4 on
- * SL_STORAGE_DOUBLE is faster. Every call on factors takes both, except that L as complex is not
- * changed, restricted or saved.
- */
+ * operations and half the memory. Solves read half as much, and share each read of L as those of
+ * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
+ * that L as complex is not changed, restricted or saved. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
@@ -4112,10 +4110,9 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                  double *pivot, double *magnitude);
 
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
-  const size_t tile = SLI_TILE, tiles = (size_t)sli_tiles(height);
-  const size_t copies = nrhs > 2 ? 1 : (size_t)nrhs;
-  const size_t copied = tile * (tiles * copies + (size_t)width);
-  return copied > tile * (size_t)nrhs ? copied : tile * (size_t)nrhs;
+  const size_t tile = SLI_TILE;
+  return nrhs > 2 ? tile * (size_t)nrhs
+          : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
 }
 
 #define SLI_PREFETCH_DISTANCE 4096
@@ -4828,6 +4825,10 @@ typedef struct sli_kernels {
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLW_NAME(f) sli_##f##4_scalar
+#define SLW_NRHS 4
+#define SLI_SECTION_COMPLEX_GROUPS
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_GROUPS
@@ -5071,6 +5072,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLW_NAME(f) sli_##f##4_avx2
+#define SLW_NRHS 4
+#define SLI_SECTION_COMPLEX_GROUPS
+#include SL_HEADER
 #undef SLW_ROWS
 #undef SLW_DECLARE
 #undef SLW_ZERO
@@ -5278,6 +5283,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_GROUPS
 #define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLW_NAME(f) sli_##f##8_avx512
+#define SLW_NRHS 8
+#define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 #undef SLW_ROWS
 #undef SLW_DECLARE
@@ -5525,6 +5534,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLW_NAME(f) sli_##f##4_neon
+#define SLW_NRHS 4
+#define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 #undef SLW_ROWS
 #undef SLW_DECLARE
@@ -16555,9 +16568,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-  return F->n_nulls > 0 || F->checks || F->is_centered || sli_is_complex(F)
-         ? 8
-         : SLI_BLOCK_MOST;
+  return F->n_nulls > 0 || F->checks || F->is_centered ? 8 : SLI_BLOCK_MOST;
 }
 
 typedef struct sli_vectors {
@@ -29835,6 +29846,238 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #endif
 #endif
 
+#ifdef SLI_SECTION_COMPLEX_GROUPS
+#undef SLI_SECTION_COMPLEX_GROUPS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/complex_groups.inl.h: sweeps over L of a complex matrix for 4 or more right-hand sides */
+
+#if SLW_ROWS == 8
+#define SLI_EACH SLI_EACH8
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
+#else
+#define SLI_EACH SLI_EACH4
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
+#endif
+
+#define SLI_DECLARE(r, unused) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
+#define SLI_NEGATE(n, c) \
+  SLW_ZERO(n) \
+  SLW_FNMA(n, one, c)
+#define SLI_SUBTRACT(r, s, l, b, c, n) \
+  SLW_FNMA(a##r, (l)[r], b) \
+  SLW_FNMA(a##s, (l)[r], c) \
+  SLW_FNMA(a##r, (l)[s], n) \
+  SLW_FNMA(a##s, (l)[s], b)
+#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
+#define SLI_GATHER(r, s, l) \
+  SLW_FNMA(b, (l)[r], a##r) \
+  SLW_FNMA(c, (l)[r], a##s) \
+  SLW_FNMA(e, (l)[s], a##s) \
+  SLW_FNMA(n, (l)[s], a##r)
+#define SLI_BELOW(r, s, k, m) \
+  if ((r) > (k)) { \
+    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
+  }
+#define SLI_COLUMN(k, m, unused) \
+  if ((k) < inner) { \
+    SLI_NEGATE(n, a##m) \
+    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
+  }
+#define SLI_BEFORE(i, j, k, m) \
+  if ((i) < (k) && (i) < inner) { \
+    const double *at = l + SLI_TILE / 2 * (i); \
+    SLW_FNMA(a##i, at[k], a##k) \
+    SLW_FNMA(a##i, at[m], a##m) \
+    SLW_FNMA(a##j, at[k], a##m) \
+    SLW_FNMA(a##j, at[m], n) \
+  }
+#define SLI_ROW(k, m, unused) \
+  SLI_NEGATE(n, a##k) \
+  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
+
+SLV_FUNCTION static void SLW_NAME(complex_group_forward)(sl_int count, const sli_step *s,
+                             const sl_int *rows, const void *values,
+                             double *x, double *buf, sl_int stride) {
+  const double *L = (const double *)values, one = 1.0;
+  for (; count > 0; rows += s->below, count--, s++) {
+    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
+    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
+    ptrdiff_t row;
+    sl_int group, j;
+    for (row = first; row < height; row += SLW_ROWS) {
+      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+      const sl_int below = height - (sl_int)row - inner;
+      const int is_below = inner == 0 && below >= SLW_ROWS;
+      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+      const sl_int *below_rows = rows + (row + inner - w);
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+        const double *l = tile + SLI_TILE / 2 * (ptrdiff_t)first + lane;
+        const double *xj = xs + (ptrdiff_t)first * stride + group;
+        SLI_EACH(SLI_DECLARE, 0)
+        SLW_DECLARE(b)
+        SLW_DECLARE(c)
+        SLW_DECLARE(n)
+        if (is_below) {
+          SLI_EACH(SLI_LOAD_BELOW, x + group)
+        } else {
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+          }
+          SLI_EACH(SLI_LOAD, p)
+        }
+        for (j = first; j < final; j += 2, l += SLI_TILE, xj += 2 * (ptrdiff_t)stride) {
+          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+          SLW_LOAD(b, xj)
+          SLW_LOAD(c, xj + stride)
+          SLI_NEGATE(n, c)
+          SLI_PAIRS(SLI_APPLY, l)
+        }
+        if (is_below) {
+          SLI_EACH(SLI_STORE_BELOW, x + group)
+          continue;
+        }
+        SLI_PAIRS(SLI_COLUMN, 0)
+        SLI_EACH(SLI_STORE, p)
+        if (inner < SLW_ROWS) {
+          SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+        }
+      }
+      if (lane + SLW_ROWS == SLI_TILE) {
+        tile += SLI_TILE / 2 * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+      }
+    }
+  }
+}
+
+SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sli_step *s,
+                              const sl_int *rows_end,
+                              const void *values, const double *D,
+                              double *x, double *buf, sl_int stride) {
+  const double *L = (const double *)values, one = 1.0;
+  for (s += count; count > 0; count--) {
+    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
+    const double *d = D + s->column - first;
+    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
+    ptrdiff_t row;
+    sl_int group, i, j;
+    SLW_DECLARE(b)
+    SLW_DECLARE(c)
+    SLW_DECLARE(e)
+    SLW_DECLARE(n)
+    rows_end -= s->below;
+    for (i = first; i < w; i++) {
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
+        SLW_DIVIDE(b, d[i])
+        SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
+      }
+    }
+    for (row = SLI_TILE * (ptrdiff_t)sli_tiles(height) - SLW_ROWS; row >= first;
+       row -= SLW_ROWS) {
+      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+      const sl_int below = height - (sl_int)row - inner;
+      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+      const sl_int *below_rows = rows_end + (row + inner - w);
+      if (lane + SLW_ROWS == SLI_TILE) {
+        tile -= SLI_TILE / 2 * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+      }
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+        double *xj = xs + (ptrdiff_t) final * stride + group;
+        const double *l = tile + SLI_TILE / 2 * row + lane;
+        SLI_EACH(SLI_DECLARE, 0)
+        if (inner == 0 && below >= SLW_ROWS) {
+          SLI_EACH(SLI_LOAD_BELOW, x + group)
+        } else {
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+          }
+          SLI_EACH(SLI_LOAD, p)
+        }
+        if (inner > 0) {
+          SLI_PAIRS_DOWN(SLI_ROW, 0)
+          SLI_EACH(SLI_STORE, p)
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+          }
+        }
+        l = tile + SLI_TILE / 2 * (ptrdiff_t) final + lane;
+        for (j = final; j > first; j -= 2) {
+          l -= SLI_TILE;
+          xj -= 2 * (ptrdiff_t)stride;
+          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+          SLW_LOAD(b, xj)
+          SLW_LOAD(c, xj + stride)
+          SLW_ZERO(e)
+          SLW_ZERO(n)
+          SLI_PAIRS(SLI_GATHER, l)
+          SLW_ADD(b, e)
+          SLW_FNMA(c, one, n)
+          SLW_STORE(xj, b)
+          SLW_STORE(xj + stride, c)
+        }
+      }
+    }
+  }
+}
+
+#define SLI_GROUP_KERNELS(lanes) \
+  SLV_FUNCTION static void SLV_NAME(complex_forward##lanes)( \
+    sl_int count, const sli_step *s, const sl_int *rows, const void *values, double *x, \
+    double *buf) { \
+    SLW_NAME(complex_group_forward)(count, s, rows, values, x, buf, lanes); \
+  } \
+  SLV_FUNCTION static void SLV_NAME(complex_backward##lanes)( \
+    sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
+    const double *D, double *x, double *buf) { \
+    SLW_NAME(complex_group_backward)(count, s, rows_end, values, D, x, buf, lanes); \
+  }
+#if SLW_NRHS == 4
+SLI_GROUP_KERNELS(4)
+#endif
+SLI_GROUP_KERNELS(8)
+SLI_GROUP_KERNELS(16)
+SLI_GROUP_KERNELS(32)
+
+#undef SLI_EACH
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_LOAD_BELOW
+#undef SLI_STORE_BELOW
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_APPLY
+#undef SLI_GATHER
+#undef SLI_BELOW
+#undef SLI_COLUMN
+#undef SLI_BEFORE
+#undef SLI_ROW
+#undef SLI_GROUP_KERNELS
+#undef SLW_NAME
+#undef SLW_NRHS
+#endif
+
 #ifdef SLI_SECTION_SWEEPS
 #undef SLI_SECTION_SWEEPS
 #if SL_VERSION_MAJOR != 0 || \
@@ -30833,33 +31076,25 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
   }
 }
 
-#define SLI_COMPLEX_SWEEPS(name, back_name, lanes) \
-  SLV_FUNCTION static void SLV_NAME(name)(sl_int count, const sli_step *s, const sl_int *rows, \
-                      const void *L, double *x, double *buf) { \
-    for (; count > 0; count--, s++) { \
-      sl_int r; \
-      for (r = 0; r < (lanes); r++) { \
-        SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + r, lanes, buf); \
-      } \
-      rows += s->below; \
-    } \
-  } \
-  SLV_FUNCTION static void SLV_NAME(back_name)(sl_int count, const sli_step *s, \
-                         const sl_int *rows, const void *L, \
-                         const double *D, double *x, double *buf) { \
-    for (s += count; count > 0; count--) { \
-      sl_int r; \
-      rows -= (--s)->below; \
-      for (r = 0; r < (lanes); r++) { \
-        SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + r, lanes, buf); \
-      } \
-    } \
+SLV_FUNCTION static void SLV_NAME(complex_forward2)(sl_int count, const sli_step *s,
+                          const sl_int *rows, const void *L, double *x,
+                          double *buf) {
+  for (; count > 0; count--, s++) {
+    SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x, 2, buf);
+    SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + 1, 2, buf);
+    rows += s->below;
   }
-SLI_COMPLEX_SWEEPS(complex_forward2, complex_backward2, 2)
-SLI_COMPLEX_SWEEPS(complex_forward4, complex_backward4, 4)
-SLI_COMPLEX_SWEEPS(complex_forward8, complex_backward8, 8)
+}
+SLV_FUNCTION static void SLV_NAME(complex_backward2)(sl_int count, const sli_step *s,
+                           const sl_int *rows, const void *L,
+                           const double *D, double *x, double *buf) {
+  for (s += count; count > 0; count--) {
+    rows -= (--s)->below;
+    SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x, 2, buf);
+    SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + 1, 2, buf);
+  }
+}
 
-#undef SLI_COMPLEX_SWEEPS
 #undef SLI_TAKE_SUM
 #undef SLI_INSIDE
 #undef SLI_ROW_AT
@@ -31335,10 +31570,10 @@ static const sli_kernels SLV_NAME(kernels) = {
      SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
     {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
      SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
-   {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME(complex_forward4),
-     SLV_NAME(complex_forward8), NULL, NULL},
-    {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME(complex_backward4),
-     SLV_NAME(complex_backward8), NULL, NULL}}},
+   {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME_4(complex_forward),
+     SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32)},
+    {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME_4(complex_backward),
+     SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32)}}},
   SLV_NAME(row),
   {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
    {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),

@@ -25,11 +25,9 @@
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
  * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
- * operations and the memory of a factorization, and solves of one right-hand side read half as
- * much. More right-hand sides are solved one by one; from 4 on
- * SL_STORAGE_DOUBLE is faster. Every call on factors takes both, except that L as complex is not
- * changed, restricted or saved.
- */
+ * operations and half the memory. Solves read half as much, and share each read of L as those of
+ * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
+ * that L as complex is not changed, restricted or saved. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */

@@ -3,8 +3,8 @@
 
 /* Rows and columns come in pairs, the real and the imaginary part of a complex one. The second
  * column of a pair is i times the first: what it contributes is summed as if it were the first one,
- * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. Right-hand sides
- * are `lanes` apart and are swept one by one; a step's panel stays in the cache meanwhile. */
+ * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. Two right-hand
+ * sides, `lanes` apart, are swept one by one; a step's panel stays in the cache meanwhile. */
 #define SLI_HALF (SLI_TILE / 2)
 #if defined(SLV_PAIR)
 #define SLI_SMALL 1
@@ -215,34 +215,26 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
     }
 }
 
-/* 2, 4 and 8 right-hand sides */
-#define SLI_COMPLEX_SWEEPS(name, back_name, lanes) \
-    SLV_FUNCTION static void SLV_NAME(name)(sl_int count, const sli_step *s, const sl_int *rows, \
-                                            const void *L, double *x, double *buf) { \
-        for (; count > 0; count--, s++) { \
-            sl_int r; \
-            for (r = 0; r < (lanes); r++) { \
-                SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + r, lanes, buf); \
-            } \
-            rows += s->below; \
-        } \
-    } \
-    SLV_FUNCTION static void SLV_NAME(back_name)(sl_int count, const sli_step *s, \
-                                                 const sl_int *rows, const void *L, \
-                                                 const double *D, double *x, double *buf) { \
-        for (s += count; count > 0; count--) { \
-            sl_int r; \
-            rows -= (--s)->below; \
-            for (r = 0; r < (lanes); r++) { \
-                SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + r, lanes, buf); \
-            } \
-        } \
+/* Two right-hand sides */
+SLV_FUNCTION static void SLV_NAME(complex_forward2)(sl_int count, const sli_step *s,
+                                                    const sl_int *rows, const void *L, double *x,
+                                                    double *buf) {
+    for (; count > 0; count--, s++) {
+        SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x, 2, buf);
+        SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + 1, 2, buf);
+        rows += s->below;
     }
-SLI_COMPLEX_SWEEPS(complex_forward2, complex_backward2, 2)
-SLI_COMPLEX_SWEEPS(complex_forward4, complex_backward4, 4)
-SLI_COMPLEX_SWEEPS(complex_forward8, complex_backward8, 8)
+}
+SLV_FUNCTION static void SLV_NAME(complex_backward2)(sl_int count, const sli_step *s,
+                                                     const sl_int *rows, const void *L,
+                                                     const double *D, double *x, double *buf) {
+    for (s += count; count > 0; count--) {
+        rows -= (--s)->below;
+        SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x, 2, buf);
+        SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + 1, 2, buf);
+    }
+}
 
-#undef SLI_COMPLEX_SWEEPS
 #undef SLI_TAKE_SUM
 #undef SLI_INSIDE
 #undef SLI_ROW_AT

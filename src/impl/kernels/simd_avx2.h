@@ -179,6 +179,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
+#define SLW_NAME(f) sli_##f##4_avx2
+#define SLW_NRHS 4
+#include "complex_groups.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE
 #undef SLW_ZERO

@@ -115,6 +115,9 @@
 #include "multi_rhs.inl.h"
 #define SLW_GROUPS /* of L in float only */
 #include "multi_rhs.inl.h"
+#define SLW_NAME(f) sli_##f##8_avx512
+#define SLW_NRHS 8
+#include "complex_groups.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE
 #undef SLW_ZERO

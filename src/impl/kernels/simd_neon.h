@@ -160,6 +160,9 @@
     }
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
+#define SLW_NAME(f) sli_##f##4_neon
+#define SLW_NRHS 4
+#include "complex_groups.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE
 #undef SLW_ZERO

@@ -103,6 +103,9 @@
 #define SLW_NRHS 4
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
+#define SLW_NAME(f) sli_##f##4_scalar
+#define SLW_NRHS 4
+#include "complex_groups.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_GROUPS

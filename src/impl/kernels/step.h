@@ -63,13 +63,12 @@ typedef void (*sli_row_kernel)(double *panel, sl_int width, sl_int q, const sl_i
                                double *pivot, double *magnitude);
 
 /* Doubles of scratch for a step of a given height (width + below) and width. Kernels for 1 and 2
- * right-hand sides, and all of SL_STORAGE_COMPLEX, copy all rows and keep 8 partial sums for each
- * column. The others work on x in place and copy only the rows of one tile. */
+ * right-hand sides copy all rows and keep 8 partial sums for each column. The others work on x in
+ * place and copy only the rows of one tile. */
 SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
-    const size_t tile = SLI_TILE, tiles = (size_t)sli_tiles(height);
-    const size_t copies = nrhs > 2 ? 1 : (size_t)nrhs;
-    const size_t copied = tile * (tiles * copies + (size_t)width);
-    return copied > tile * (size_t)nrhs ? copied : tile * (size_t)nrhs;
+    const size_t tile = SLI_TILE;
+    return nrhs > 2 ? tile * (size_t)nrhs
+                    : tile * ((size_t)sli_tiles(height) * (size_t)nrhs + (size_t)width);
 }
 
 /* Distance in bytes from the entries of L that a sweep reads to those that it prefetches. Small

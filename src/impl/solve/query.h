@@ -61,13 +61,10 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 }
 
 /* The largest blocks: a sweep over L is shared by all right-hand sides of a block, which takes as
- * many vectors. What else a call does with a block, for singular matrices, is written for 8; so are
- * the sweeps over L of complex matrices. */
+ * many vectors. What else a call does with a block, for singular matrices, is written for 8. */
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-    return F->n_nulls > 0 || F->checks || F->is_centered || sli_is_complex(F)
-               ? 8
-               : SLI_BLOCK_MOST;
+    return F->n_nulls > 0 || F->checks || F->is_centered ? 8 : SLI_BLOCK_MOST;
 }
 
 /* Vectors and scratch of one block, cut from a workspace. */
