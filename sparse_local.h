@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4b5d4936d06a68a9
+ * FNV-1a of the lines after this comment, without the license: 87b6b194e1dfb737
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -4301,16 +4301,16 @@ SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
   steps.is_swapped = fabs(a / e * b) <= fabs(e);
   steps.factor = steps.is_swapped ? a / e : e / a;
   steps.coefficient = steps.is_swapped ? b : e;
-  steps.l = 1.0 / (steps.is_swapped ? e : a);
-  steps.m = 1.0 / ((steps.is_swapped ? e : b) - steps.factor * steps.coefficient);
+  steps.l = steps.is_swapped ? e : a;
+  steps.m = (steps.is_swapped ? e : b) - steps.factor * steps.coefficient;
   return steps;
 }
 
 SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, double *l,
                  double *m) {
   const double first = steps->is_swapped ? y : x, second = steps->is_swapped ? x : y;
-  *m = (second - steps->factor * first) * steps->m;
-  *l = (first - steps->coefficient * *m) * steps->l;
+  *m = (second - steps->factor * first) / steps->m;
+  *l = (first - steps->coefficient * *m) / steps->l;
 }
 
 typedef struct sli_pair {

@@ -68,6 +68,50 @@ static void small_entries_below_pairs_are_dropped_in_float(void **state) {
     sl_symbolic_free(S);
 }
 
+/* Off-diagonal entries so small that their share of the threshold is 0, and that have no
+ * reciprocal: still a 2x2 pivot. */
+static void the_smallest_numbers_are_a_pair(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double least = 4.9406564584124654e-324, x[3] = {0.0, least, 0.0}, b[2] = {least, 0.0};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    double y[2];
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &A, NULL, &stats));
+    assert_int_equal(stats.symbolic.pairs, 1);
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_solve(F, y, 2, b, 2, 1, NULL));
+    assert_true(y[0] == 0.0 && y[1] == 1.0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
+/* The search for pivots meets numbers that are not finite, and still orders all columns. */
+static void a_search_that_overflows_ends(void **state) {
+    (void)state;
+    enum { N = 6 };
+    const double w = 1.7e308;
+    gen_list_t t = gen_list(N);
+    for (sl_int j = 0; j < N; j++) {
+        gen_add(&t, j, j, 0.2 * w);
+        for (sl_int i = j + 1; i < N; i++) {
+            gen_add(&t, i, j, i % 2 == 0 ? w : -w);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_symbolic *S;
+    sl_factor *F = (sl_factor *)(void *)&M;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, &M.view, NULL, NULL));
+    NOTHING_WRONG(check_permutation(N, sl_symbolic_view(S).perm, sl_symbolic_view(S).iperm));
+    SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &M.view, NULL, NULL));
+    assert_null(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
 /* Without relaxation supernodes are merged only where a 2x2 pivot needs it. */
 static void pairs_need_no_relaxation(void **state) {
     (void)state;
@@ -99,6 +143,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_that_overflow_are_refused),
         cmocka_unit_test(small_entries_below_pairs_are_dropped_in_float),
+        cmocka_unit_test(the_smallest_numbers_are_a_pair),
+        cmocka_unit_test(a_search_that_overflows_ends),
         cmocka_unit_test(pairs_need_no_relaxation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,7 +28,7 @@ typedef struct sli_pair_steps {
     int is_swapped;     /* y belongs to the first equation */
     double factor;      /* of the first equation, subtracted from the second */
     double coefficient; /* of m in the first equation */
-    double l, m;        /* reciprocals of the pivots */
+    double l, m;        /* the pivots: subnormal ones have no reciprocal */
 } sli_pair_steps;
 
 SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
@@ -36,8 +36,8 @@ SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
     steps.is_swapped = fabs(a / e * b) <= fabs(e); /* not if e is 0 */
     steps.factor = steps.is_swapped ? a / e : e / a;
     steps.coefficient = steps.is_swapped ? b : e;
-    steps.l = 1.0 / (steps.is_swapped ? e : a);
-    steps.m = 1.0 / ((steps.is_swapped ? e : b) - steps.factor * steps.coefficient);
+    steps.l = steps.is_swapped ? e : a;
+    steps.m = (steps.is_swapped ? e : b) - steps.factor * steps.coefficient;
     return steps;
 }
 
@@ -45,8 +45,8 @@ SLI_INLINE sli_pair_steps sli_pair_eliminate(double a, double b, double e) {
 SLI_INLINE void sli_pair_solve(const sli_pair_steps *steps, double x, double y, double *l,
                                double *m) {
     const double first = steps->is_swapped ? y : x, second = steps->is_swapped ? x : y;
-    *m = (second - steps->factor * first) * steps->m;
-    *l = (first - steps->coefficient * *m) * steps->l;
+    *m = (second - steps->factor * first) / steps->m;
+    *l = (first - steps->coefficient * *m) / steps->l;
 }
 
 /* A symmetric block [p q; q r]. */
