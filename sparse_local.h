@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 87b6b194e1dfb737
+ * FNV-1a of the lines after this comment, without the license: bd2191681e400f51
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -49,41 +49,41 @@
  *  11014 symbolic_types.h  11051 etree.h  11124 counts.h  11181 supernodes.h  11403 structure.h
  *  11524 schedule.h  11804 symbolic.h  12234 reach.h
  * (factor: the numbers of L and D)
- *  12505 factor_types.h  12915 storage.h  13055 pivot_search.h  13401 pivoted.h  13469 scatter.h
- *  13627 uplooking.h  13699 null_product.h  13903 null_dense.h  13980 null_basis.h
- *  14288 null_vectors.h  14430 multifrontal.h  14620 gather.h  14668 kept.h  14835 front_tasks.h
- *  15178 nullspace.h  15381 growth.h  15457 factor_setup.h  15771 factor.h  15981 leftlooking.h
- *  16121 factor_query.h  16256 combination.h
+ *  12505 factor_types.h  12916 storage.h  13056 pivot_search.h  13402 pivoted.h  13470 scatter.h
+ *  13628 uplooking.h  13700 null_product.h  13904 null_dense.h  13981 null_basis.h
+ *  14289 null_vectors.h  14431 multifrontal.h  14621 gather.h  14669 kept.h  14836 front_tasks.h
+ *  15179 nullspace.h  15382 growth.h  15458 factor_setup.h  15772 factor.h  15982 leftlooking.h
+ *  16122 factor_query.h  16257 combination.h
  * (solve: full and local solves)
- *  16317 region_types.h  16421 work.h  16521 query.h  16729 singular.h  16999 backward.h
- *  17029 sweep_tasks.h  17363 sweep.h  17574 compile.h  17767 plan.h  17874 local.h  18026 parts.h
- *  18315 refine.h  18494 refine_local.h  18710 rcond.h  18866 defects.h
+ *  16318 region_types.h  16422 work.h  16522 query.h  16730 singular.h  17000 backward.h
+ *  17030 sweep_tasks.h  17364 sweep.h  17575 compile.h  17768 plan.h  17875 local.h  18027 parts.h
+ *  18316 refine.h  18495 refine_local.h  18711 rcond.h  18867 defects.h
  * (inverse: entries of the inverse, regions)
- *  18944 traversal.h  19189 traversal_run.h  19372 row_sets.h  19399 unit_vectors.h
- *  19626 bilinear.h  19803 entries.h  20084 block.h  20324 reserve.h  20516 selected.h
- *  20726 selected_query.h  20828 region_choose.h  21052 region.h
+ *  18945 traversal.h  19190 traversal_run.h  19373 row_sets.h  19400 unit_vectors.h
+ *  19627 bilinear.h  19804 entries.h  20085 block.h  20325 reserve.h  20517 selected.h
+ *  20727 selected_query.h  20829 region_choose.h  21053 region.h
  * (change: a factor that follows changes of its matrix)
- *  21300 update.h  21650 rank.h  21988 edges.h  22142 choose.h  22340 pins_types.h
- *  22392 pins_nulls.h  22570 pins_capacitance.h  22797 pins.h  22966 pins_solve.h  23214 subset.h
- *  23321 restrict_analysis.h  23618 restrict_anew.h  23672 restrict_symbolic.h  23853 restrict.h
- *  24081 edit_match.h  24280 edit_place.h  24529 edit_separate.h  24842 edit_order.h
- *  24997 edit_graph.h  25092 edit_join.h  25368 edit.h  25531 edit_factor.h
+ *  21301 update.h  21651 rank.h  21989 edges.h  22143 choose.h  22341 pins_types.h
+ *  22393 pins_nulls.h  22571 pins_capacitance.h  22798 pins.h  22967 pins_solve.h  23215 subset.h
+ *  23322 restrict_analysis.h  23619 restrict_anew.h  23673 restrict_symbolic.h  23854 restrict.h
+ *  24082 edit_match.h  24281 edit_place.h  24530 edit_separate.h  24843 edit_order.h
+ *  24998 edit_graph.h  25093 edit_join.h  25369 edit.h  25532 edit_factor.h
  * (save: factors in files)
- *  25789 format.h  26085 decode.h  26233 check.h  26563 write.h  26868 load.h  27136 load_inverse.h
- *  27465 load_calls.h
+ *  25790 format.h  26086 decode.h  26234 check.h  26564 write.h  26869 load.h  27137 load_inverse.h
+ *  27466 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27664 batch_solve.h  27873 batch_factor.h  28074 batch_diagonal.h
+ *  27665 batch_solve.h  27874 batch_factor.h  28075 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  28214 hermitian.h  28376 complex_rows.h
+ *  28215 hermitian.h  28377 complex_rows.h
  * (last: undefine every internal macro)
- *  28544 undef.h
+ *  28545 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28785 front.inl.h  28787 product.inl.h  29282 words_undef.inl.h  29364 multi_rhs.inl.h
- *  29383 multi_rhs_small.inl.h  29551 multi_rhs_tiles.inl.h  29856 complex_groups.inl.h
- *  30088 sweeps.inl.h  30090 unit_triangle.inl.h  30127 two_rhs.inl.h  30298 small_supernode.inl.h
- *  30458 single_rhs.inl.h  30707 kernel_set.inl.h  30709 complex_small.inl.h
- *  30873 complex_rows.inl.h  31105 inverse_front.inl.h  31390 row.inl.h  31420 change.inl.h
- *  31484 interleave.inl.h
+ *  28786 front.inl.h  28788 product.inl.h  29283 words_undef.inl.h  29365 multi_rhs.inl.h
+ *  29384 multi_rhs_small.inl.h  29552 multi_rhs_tiles.inl.h  29857 complex_groups.inl.h
+ *  30089 sweeps.inl.h  30091 unit_triangle.inl.h  30128 two_rhs.inl.h  30299 small_supernode.inl.h
+ *  30459 single_rhs.inl.h  30708 kernel_set.inl.h  30710 complex_small.inl.h
+ *  30874 complex_rows.inl.h  31106 inverse_front.inl.h  31391 row.inl.h  31421 change.inl.h
+ *  31485 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9307,7 +9307,7 @@ static sli_tree_cost sli_cells_cost(sli_dissection *d, const sl_int *label, sli_
   const sli_level *g = &d->levels[1];
   const sl_int n = d->levels[0].n;
   const sl_off edges = d->levels[0].begin[n] / 2;
-  const uint64_t across = (uint64_t)(edges - n > n / 2 ? edges - n : n / 2);
+  const uint64_t across = (uint64_t)(edges - n);
   sli_tree_cost cost = {0, 0};
   sl_int *cut = d->nodes, k;
   sl_off e;
@@ -12711,7 +12711,7 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
                            const sl_int *scatter_from,
                            sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
-  const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
+  const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX; /* untested: constant */
   const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
   double largest = F->extents[s].entry;
   uint64_t *marks = panel == NULL ? NULL : F->marks, mark = 0; /* untested: constant */
@@ -12724,10 +12724,11 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
       scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
     const double size = fabs(a);
     if (!(size <= most)) {
-      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-              -1, m, a);
+      const sl_status status = /* untested: finite only in float */
+        sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE; /* untested: the same */
+      return sli_fail(failure, status, s, -1, m, a);
     }
-    if (panel == NULL) {
+    if (panel == NULL) { /* untested: constant */
       single[to[m] - begin] += sli_single(a);
     } else if (is_half) { /* untested: constant */
       if ((to[m] & SLI_TILE) == 0) {
@@ -30566,7 +30567,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
 #define SLI_TAKE_SUM(k, unused) \
   if (SLI_IS_IN(k, inner)) { \
     SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
-    if (inner < SLI_TILE) { \
+    if ((k) < SLI_TILE - 1 && inner < SLI_TILE) { \
       SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
     } \
   } else { \
@@ -30799,7 +30800,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
   SLV_DECLARE(z)
   SLI_EACH8(SLI_SUM_DECLARE, a)
   SLI_EACH8(SLI_SUM_ZERO, a)
-  if (row > 0 && count > 0) {
+  if ((w == SLI_TILE || row > 0) && count > 0) {
     at -= count;
     l -= SLI_TILE / 2 * w;
     SLV_GATHER(v, x, SLI_ROW_AT_PART)

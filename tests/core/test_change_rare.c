@@ -1,4 +1,4 @@
-/* test_change_rare.c: changes by vectors of zeros, of matrices of zeros, to pivots of rounding */
+/* test_change_rare.c: changes by zeros, of zeros, to pivots of rounding, outside of L */
 #include "tests/lib/factored.h"
 
 /* A vector of zeros changes no bit. */
@@ -73,11 +73,40 @@ static void a_pivot_of_rounding_is_null(void **state) {
     sl_symbolic_free(S);
 }
 
+/* A vector of two rows is accepted if L has their entry, and only then. */
+static void entries_outside_of_L_are_refused(void **state) {
+    (void)state;
+    enum { N = 64 };
+    sl_options opt = options_none();
+    opt.relaxation = SL_RELAXATION_NONE;
+    factored_t y = factored_make(GEN_GRID2, N, 1, 0, &opt);
+    const sl_int *perm = sl_symbolic_view(y.S).perm;
+    const double x[2] = {1e-3, 1e-3};
+    sl_matrix *lower = NULL;
+    SL_CHECK(sl_factor_lower(&lower, y.F, NULL));
+    const sl_csc L = sl_matrix_view(lower);
+    for (sl_int j = 0; j < N; j++) {
+        unsigned char has[N] = {0};
+        for (sl_int q = L.p[j]; q < L.p[j + 1]; q++) {
+            has[L.i[q]] = 1;
+        }
+        for (sl_int k = j + 1; k < N; k++) {
+            const sl_int p[2] = {0, 2}, i[2] = {perm[k], perm[j]};
+            const sl_csc V = {N, 1, p, i, x};
+            SL_EXPECT(has[k] ? SL_OK : SL_ERR_PATTERN,
+                      sl_factor_update(y.F, &V, NULL, NULL, NULL));
+        }
+    }
+    sl_matrix_free(lower);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(zeros_change_nothing),
         cmocka_unit_test(matrices_of_zeros_are_changed),
         cmocka_unit_test(a_pivot_of_rounding_is_null),
+        cmocka_unit_test(entries_outside_of_L_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -259,6 +259,15 @@ static sl_status create(const sl_symbolic *S, const sl_csc *A, sl_options opt) {
     return status;
 }
 
+/* The same with 2x2 pivots. */
+static sl_status create_pivoted(const sl_csc *A) {
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create_pivoted(&S, A, NULL, NULL));
+    const sl_status status = create(S, A, options_none());
+    sl_symbolic_free(S);
+    return status;
+}
+
 /* Real matrices, null pivots that are replaced, sums, changes and files are refused. */
 static void what_is_not_complex_is_refused(void **state) {
     (void)state;
@@ -295,6 +304,7 @@ static void what_is_not_complex_is_refused(void **state) {
     SL_CHECK(sl_symbolic_scatter(y.S, terms, &y.A, NULL));
     assert_int_equal(sl_factor_create_combination(&G, y.S, &one, term, 1, &opt, NULL),
                      SL_ERR_UNSUPPORTED);
+    assert_int_equal(create_pivoted(&y.A), SL_ERR_UNSUPPORTED);
     free(terms);
     free(x);
     pair_free(&y);
@@ -303,6 +313,56 @@ static void what_is_not_complex_is_refused(void **state) {
         factored_t f = factored_make(GEN_PATH, n, 1, 0, NULL);
         assert_int_equal(create(f.S, &f.M.view, options_none()), SL_ERR_UNSUPPORTED);
         factored_free(&f);
+    }
+}
+
+/* Neither is a matrix in which an entry of a block is not stored, unless it is the 0 beside a
+ * diagonal entry, nor is a random one of real numbers. */
+static void blocks_must_be_complete(void **state) {
+    (void)state;
+    pair_t y = pair_make(GEN_GRID2, 16, 0, SL_ISA_AUTO);
+    const sl_int entries = y.A.p[y.n];
+    sl_int *p = test_ints((size_t)y.n + 1), *i = test_ints((size_t)entries), refused = 0;
+    double *x = test_reals((size_t)entries);
+    sl_options opt = options_none();
+    opt.block_size = 2;
+    for (sl_int k = 0; k < entries; k++) {
+        sl_int to = 0;
+        for (sl_int j = 0; j < y.n; j++) {
+            p[j] = to;
+            for (sl_int q = y.A.p[j]; q < y.A.p[j + 1]; q++) {
+                i[to] = y.A.i[q];
+                x[to] = y.A.x[q];
+                to += q != k;
+            }
+        }
+        p[y.n] = to;
+        const sl_csc A = {y.n, y.n, p, i, x};
+        sl_symbolic *S = NULL;
+        if (sl_symbolic_create(&S, &A, &opt, NULL) == SL_OK) {
+            const sl_status status = create(S, &A, options_none());
+            assert_true(status == SL_ERR_UNSUPPORTED || (status == SL_OK && y.A.x[k] == 0.0));
+            refused += status != SL_OK;
+        }
+        sl_symbolic_free(S);
+    }
+    assert_true(refused > entries / 2);
+    free(p);
+    free(i);
+    free(x);
+    pair_free(&y);
+    for (sl_int k = 0; k < 400; k++) {
+        gen_list_t t = gen_make(GEN_RANDOM, 4 + k % 10, 1, (uint64_t)k);
+        gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+        sl_symbolic *S;
+        opt = options_none();
+        opt.ordering = SL_ORDERING_NATURAL;
+        opt.relaxation = SL_RELAXATION_NONE;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        assert_int_equal(create(S, &M.view, options_none()), SL_ERR_UNSUPPORTED);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+        gen_list_free(&t);
     }
 }
 
@@ -332,6 +392,7 @@ int main(void) {
         cmocka_unit_test(other_calls_agree),
         cmocka_unit_test(memory_is_halved),
         cmocka_unit_test(what_is_not_complex_is_refused),
+        cmocka_unit_test(blocks_must_be_complete),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,10 +28,12 @@ static void other_patterns_do_not_refill(void **state) {
     static const sl_int last_p[N + 1] = {0, 2, 3, 4}, last_i[4] = {0, 2, 1, 2};
     static const sl_int more_p[N + 1] = {0, 3, 5, 6}, more_i[6] = {0, 1, 2, 1, 2, 2};
     static const sl_int small_p[3] = {0, 1, 2}, small_i[2] = {0, 1};
-    static const double x[12] = {9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0};
-    const sl_hermitian others[4] = {{N, less_p, less_i, x, NULL},
+    static const double x[14] = {9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0};
+    static const sl_int late_p[N + 1] = {0, 2, 4, 7}, late_i[7] = {0, 1, 1, 2, 2, 1, 0};
+    const sl_hermitian others[5] = {{N, less_p, less_i, x, NULL},
                                     {N, last_p, last_i, x, NULL},
                                     {N, more_p, more_i, x, NULL},
+                                    {N, late_p, late_i, x, NULL},
                                     {2, small_p, small_i, x, NULL}};
     sl_stats stats;
     sl_matrix *M;
@@ -40,7 +42,7 @@ static void other_patterns_do_not_refill(void **state) {
     double before[20];
     assert_true(A.p[2 * N] <= 20);
     memcpy(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(M, &others[k], &stats));
         assert_memory_equal(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
     }

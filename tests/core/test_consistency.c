@@ -95,12 +95,13 @@ static void assert_every_solve(fixture_t *f, const sl_factor *F, sl_int nrhs, sl
         } else {
             /* the factor of the call, or that of the requests */
             const sl_factor *own = form == 6 ? NULL : F;
-            const sl_request requests[2] = {{NULL, X, N, f->B, N, nrhs / 2, own},
-                                            {f->P, X + N * (nrhs / 2), NX, f->C, NB, nrhs, own}};
+            const sl_request requests[3] = {{NULL, X, N, f->B, N, nrhs / 2, own},
+                                            {f->P, X + N * (nrhs / 2), NX, f->C, NB, nrhs, own},
+                                            {f->P, turned, NX, f->C, NB, 1, own}};
             int calls = 0;
             sl_threads threads = {form == 6 ? 1 : 3, run_backwards, &calls};
             status =
-                sl_batch_solve(form == 6 ? F : NULL, requests, 2, THREADS(threads), NULL, &failed);
+                sl_batch_solve(form == 6 ? F : NULL, requests, 3, THREADS(threads), NULL, &failed);
             assert_int_equal(failed, status == SL_OK ? -1 : 1);
         }
         test_status(status, expected, "a kind of solve", __FILE__, __LINE__);

@@ -51,6 +51,17 @@ static void rows_of_zeros_in_several_trees(void **state) {
     for (int k = 0; k < 6; k++) {
         assert_true(fabs(x[k] - expected[k]) <= 1e-14);
     }
+    for (sl_int k = 0; k < 6; k++) { /* locally too, also on paths without the tree's anchor */
+        const sl_int edge[2] = {3 * (k / 3), 3 * (k / 3) + 1};
+        const sl_int *set = k % 3 == 2 ? &k : edge, count = k % 3 == 2 ? 1 : 2;
+        const double *part = b + set[0];
+        sl_plan *P;
+        double y[2];
+        SL_CHECK(sl_plan_create(&P, S, set, count, set, count, NULL, NULL));
+        SL_CHECK(sl_plan_solve(P, F, y, 2, part, 2, 1, NULL));
+        SAME_VALUES(y, x + set[0], (size_t)count);
+        sl_plan_free(P);
+    }
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&M);
@@ -166,6 +177,29 @@ static void sizes_that_overflow(void **state) {
     sl_symbolic_free(S);
 }
 
+/* Pivots that overflow where null pivots are skipped. */
+static void pivots_that_overflow(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double x[3] = {1e-300, 1e10, 1.0};
+    const sl_csc A = {2, 2, p, i, x};
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_none();
+        sl_symbolic *S;
+        sl_factor *F = (sl_factor *)(void *)&A;
+        sl_stats stats;
+        opt.ordering = SL_ORDERING_NATURAL;
+        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        opt = skipping();
+        options_set_variant(&opt, &variants, k);
+        SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &A, &opt, &stats));
+        assert_null(F);
+        assert_int_equal(stats.error.row, 1);
+        sl_symbolic_free(S);
+    }
+}
+
 /* Without an option for null pivots a Laplacian is refused even if its last pivot is rounding that
  * came from heavier rows; the regular component before it is not the reason. */
 static void a_regular_component_is_not_suspected(void **state) {
@@ -200,6 +234,7 @@ int main(void) {
         cmocka_unit_test(edges_of_weight_zero_in_both_triangles),
         cmocka_unit_test(null_pivots_of_a_sum_are_confirmed),
         cmocka_unit_test(sizes_that_overflow),
+        cmocka_unit_test(pivots_that_overflow),
         cmocka_unit_test(a_regular_component_is_not_suspected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

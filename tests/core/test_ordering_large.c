@@ -166,6 +166,65 @@ static void graphs_without_separators_are_ordered(void **state) {
     }
 }
 
+/* A complete graph has so many edges that its degrees are not compared: one supernode. */
+static void complete_graphs_are_one_supernode(void **state) {
+    (void)state;
+    const sl_int n = 1100;
+    gen_list_t t = gen_list(n);
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int i = j + 1; i < n; i++) {
+            gen_add(&t, i, j, 1.0);
+        }
+    }
+    gen_matrix_t M = store(&t);
+    sl_symbolic *S;
+    sl_stats stats;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, &stats));
+    assert_int_equal(stats.symbolic.supernodes, 1);
+    assert_int_equal(stats.symbolic.nnz_l, n * (n + 1) / 2);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* Every allocation of an order by coordinates fails once. */
+static void an_order_by_points_may_lack_memory(void **state) {
+    (void)state;
+    enum { SIDE = 70 };
+    static double points[3 * SIDE * SIDE];
+    gen_list_t t = gen_list(SIDE * SIDE);
+    for (sl_int v = 0; v < SIDE * SIDE; v++) {
+        const sl_int column = v % SIDE, row = v / SIDE;
+        points[3 * v] = column;
+        points[3 * v + 1] = row;
+        points[3 * v + 2] = 0.0;
+        if (column + 1 < SIDE) {
+            gen_add(&t, v + 1, v, 1.0);
+        }
+        if (row + 1 < SIDE) {
+            gen_add(&t, v + SIDE, v, 1.0);
+        }
+        if (column + 1 < SIDE && row + 1 < SIDE) {
+            gen_add(&t, v + SIDE + 1, v, 1.0);
+        }
+    }
+    gen_matrix_t M = store(&t);
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    sl_symbolic *S = NULL;
+    sl_status status = SL_ERR_MEMORY;
+    opt.coordinates = points;
+    opt.dimensions = 3;
+    for (sl_off k = 0; status != SL_OK; k++) {
+        counter.fail_at = k;
+        status = sl_symbolic_create(&S, &M.view, &opt, NULL);
+        assert_true(status == SL_OK || (status == SL_ERR_MEMORY && S == NULL));
+        sl_symbolic_free(S);
+        COUNTER_CLEAN(&counter);
+        counter = counter_make();
+    }
+    gen_matrix_free(&M);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_direction_of_the_points_does_not_matter),
@@ -173,6 +232,8 @@ int main(void) {
         cmocka_unit_test(metis_ignores_points),
         cmocka_unit_test(heavy_vertices_stay_whole),
         cmocka_unit_test(graphs_without_separators_are_ordered),
+        cmocka_unit_test(complete_graphs_are_one_supernode),
+        cmocka_unit_test(an_order_by_points_may_lack_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

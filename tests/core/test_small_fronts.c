@@ -83,9 +83,41 @@ static void tall_panels_are_changed(void **state) {
     }
 }
 
+/* Any pivot of a tile may be too small or too large for its reciprocal. */
+static void every_pivot_may_have_no_reciprocal(void **state) {
+    (void)state;
+    static const double extremes[2] = {1e-310, 1.7e308};
+    const isa_list_t isas = isas_present();
+    for (int way = 0; way < 2 * isas.count; way++) {
+        sl_options opt = options_none();
+        opt.isa = isas.isa[way / 2];
+        opt.method = SL_METHOD_SUPERNODAL;
+        opt.growth_limit = opt.error_limit = -1.0;
+        factored_t y = front_make(WIDEST, 3, &opt);
+        const sl_int n = y.M.view.n_cols;
+        double b[MOST], x[MOST];
+        for (sl_int k = 0; k < n; k++) {
+            for (sl_int j = 0; j < n; j++) {
+                const double d = j == k ? extremes[way % 2] : 2.0;
+                for (sl_int q = y.M.p[j]; q < y.M.p[j + 1]; q++) {
+                    y.M.x[q] = y.M.i[q] == j ? d : 0.0;
+                }
+                b[j] = (1.0 + j % 4) * (d / 4.0);
+            }
+            SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+            SL_CHECK(sl_factor_solve(y.F, x, (size_t)n, b, (size_t)n, 1, NULL));
+            for (sl_int j = 0; j < n; j++) {
+                assert_true(fabs(x[j] - (1.0 + j % 4) / 4.0) <= 1e-12); /* b may be subnormal */
+            }
+        }
+        factored_free(&y);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_small_front_solves),
+        cmocka_unit_test(every_pivot_may_have_no_reciprocal),
         cmocka_unit_test(tall_panels_are_changed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -262,7 +262,7 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
                                                    const sl_int *scatter_from,
                                                    sli_failure *failure) {
     const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
-    const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX;
+    const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX; /* untested: constant */
     const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
     double largest = F->extents[s].entry;
     uint64_t *marks = panel == NULL ? NULL : F->marks, mark = 0; /* untested: constant */
@@ -275,10 +275,11 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
             scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
         const double size = fabs(a);
         if (!(size <= most)) {
-            return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-                            -1, m, a);
+            const sl_status status = /* untested: finite only in float */
+                sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE; /* untested: the same */
+            return sli_fail(failure, status, s, -1, m, a);
         }
-        if (panel == NULL) {
+        if (panel == NULL) { /* untested: constant */
             single[to[m] - begin] += sli_single(a);
         } else if (is_half) { /* untested: constant */
             if ((to[m] & SLI_TILE) == 0) {

@@ -99,7 +99,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
     SLV_DECLARE(z)
     SLI_EACH8(SLI_SUM_DECLARE, a)
     SLI_EACH8(SLI_SUM_ZERO, a)
-    if (row > 0 && count > 0) {
+    if ((w == SLI_TILE || row > 0) && count > 0) {
         at -= count;
         l -= SLI_TILE / 2 * w;
         SLV_GATHER(v, x, SLI_ROW_AT_PART)

@@ -119,7 +119,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(dots2)(const SLV_VALUE *l0, const SLV_VAL
 #define SLI_TAKE_SUM(k, unused) \
     if (SLI_IS_IN(k, inner)) { \
         SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
-        if (inner < SLI_TILE) { \
+        if ((k) < SLI_TILE - 1 && inner < SLI_TILE) { \
             SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
         } \
     } else { \

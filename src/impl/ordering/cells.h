@@ -94,7 +94,7 @@ static sli_tree_cost sli_cells_cost(sli_dissection *d, const sl_int *label, sli_
     const sli_level *g = &d->levels[1];
     const sl_int n = d->levels[0].n;
     const sl_off edges = d->levels[0].begin[n] / 2;
-    const uint64_t across = (uint64_t)(edges - n > n / 2 ? edges - n : n / 2);
+    const uint64_t across = (uint64_t)(edges - n); /* of a lattice: more than n */
     sli_tree_cost cost = {0, 0};
     sl_int *cut = d->nodes, k;
     sl_off e;
