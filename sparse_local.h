@@ -1,89 +1,90 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bd2191681e400f51
+ * FNV-1a of the lines after this comment, without the license: 171965c7b95936aa
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     91 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    161 config.h     macros that a user may define before the include, the version, and the integer types
- *    240 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    396 options.h    options of all calls, threads, and the allocator
- *    536 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    718 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    890 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1030 factor.h     the numerical factorization P A P' = L D L'
- *   1311 solve.h      full solves, and the workspace of all solves
- *   1424 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1518 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1631 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1744 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1880 batch.h      many independent solves by one call, distributed over threads
- *   1930 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2108 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2228 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2332 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2471 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2589 change.h     a factor that follows small changes of its matrix
- *   2676 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2768 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2899 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2948 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *     92 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    162 config.h     macros that a user may define before the include, the version, and the integer types
+ *    241 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    411 options.h    options of all calls, threads, and the allocator
+ *    551 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    746 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    918 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1058 factor.h     the numerical factorization P A P' = L D L'
+ *   1339 solve.h      full solves, and the workspace of all solves
+ *   1452 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1546 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1659 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1772 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1908 batch.h      many independent solves by one call, distributed over threads
+ *   1958 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2136 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2256 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2360 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2499 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2617 change.h     a factor that follows small changes of its matrix
+ *   2704 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2847 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2978 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3027 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3039 base.h   3333 status.h   3394 options.h   3452 alloc.h   3562 hash.h   3692 file_map.h
- *   3789 sort.h   3853 parallel.h
+ *   3118 base.h   3412 status.h   3473 options.h   3531 alloc.h   3641 hash.h   3771 file_map.h
+ *   3868 sort.h   3932 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4044 panel.h   4070 step.h   4144 pivot_rule.h   4218 front.h   4278 pairs.h
- *   4485 inverse_front.h   4557 table.h   4585 simd.h   4680 simd_scalar_single.h
- *   4726 simd_scalar.h   4854 simd_avx2_single.h   4908 simd_avx2.h   5126 simd_avx512_single.h
- *   5181 simd_avx512.h   5340 simd_neon_single.h   5382 simd_neon.h   5596 dispatch.h
+ *   4123 panel.h   4149 step.h   4223 pivot_rule.h   4297 front.h   4357 pairs.h
+ *   4564 inverse_front.h   4636 table.h   4664 simd.h   4759 simd_scalar_single.h
+ *   4805 simd_scalar.h   4933 simd_avx2_single.h   4987 simd_avx2.h   5205 simd_avx512_single.h
+ *   5260 simd_avx512.h   5419 simd_neon_single.h   5461 simd_neon.h   5675 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5676 csc.h   5790 csc_build.h   5924 csc64.h   5995 csc_triangle.h   6061 csc_products.h
- *   6178 permute.h   6244 sum.h   6326 output_file.h   6535 matrix_market.h
+ *   5755 csc.h   5869 csc_build.h   6003 csc64.h   6074 csc_triangle.h   6140 csc_products.h
+ *   6257 permute.h   6323 sum.h   6405 output_file.h   6614 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   6981 graph.h   7130 coarsen.h   7442 labels.h   7663 subgraph.h   7858 heap.h   7918 bisect.h
- *   8145 separator.h   8407 mindeg.h   8590 dissect.h   8957 levelset.h   9063 geometric.h
- *   9238 cells.h   9418 septree.h   9494 metis.h   9643 metis_refined.h   9757 nd.h
- *   9956 compress.h  10077 peel.h  10255 quotient.h  10668 order.h
+ *   7060 graph.h   7209 coarsen.h   7521 labels.h   7742 subgraph.h   7937 heap.h   7997 bisect.h
+ *   8224 separator.h   8486 mindeg.h   8669 dissect.h   9036 levelset.h   9142 geometric.h
+ *   9317 cells.h   9497 septree.h   9573 metis.h   9722 metis_refined.h   9836 nd.h
+ *  10035 compress.h  10156 peel.h  10334 quotient.h  10747 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11014 symbolic_types.h  11051 etree.h  11124 counts.h  11181 supernodes.h  11403 structure.h
- *  11524 schedule.h  11804 symbolic.h  12234 reach.h
+ *  11093 symbolic_types.h  11130 etree.h  11203 counts.h  11260 supernodes.h  11482 structure.h
+ *  11603 schedule.h  11883 symbolic.h  12313 reach.h
  * (factor: the numbers of L and D)
- *  12505 factor_types.h  12916 storage.h  13056 pivot_search.h  13402 pivoted.h  13470 scatter.h
- *  13628 uplooking.h  13700 null_product.h  13904 null_dense.h  13981 null_basis.h
- *  14289 null_vectors.h  14431 multifrontal.h  14621 gather.h  14669 kept.h  14836 front_tasks.h
- *  15179 nullspace.h  15382 growth.h  15458 factor_setup.h  15772 factor.h  15982 leftlooking.h
- *  16122 factor_query.h  16257 combination.h
+ *  12584 factor_types.h  12995 storage.h  13135 pivot_search.h  13481 pivoted.h  13549 scatter.h
+ *  13707 uplooking.h  13779 null_product.h  13983 null_dense.h  14060 null_basis.h
+ *  14368 null_vectors.h  14510 multifrontal.h  14700 gather.h  14748 kept.h  14915 front_tasks.h
+ *  15258 nullspace.h  15461 growth.h  15537 factor_setup.h  15851 factor.h  16061 leftlooking.h
+ *  16207 factor_query.h  16342 combination.h
  * (solve: full and local solves)
- *  16318 region_types.h  16422 work.h  16522 query.h  16730 singular.h  17000 backward.h
- *  17030 sweep_tasks.h  17364 sweep.h  17575 compile.h  17768 plan.h  17875 local.h  18027 parts.h
- *  18316 refine.h  18495 refine_local.h  18711 rcond.h  18867 defects.h
+ *  16403 region_types.h  16507 work.h  16607 query.h  16815 singular.h  17085 backward.h
+ *  17115 sweep_tasks.h  17449 sweep.h  17660 compile.h  17853 plan.h  17960 local.h  18112 parts.h
+ *  18401 refine.h  18580 refine_local.h  18796 rcond.h  18952 defects.h
  * (inverse: entries of the inverse, regions)
- *  18945 traversal.h  19190 traversal_run.h  19373 row_sets.h  19400 unit_vectors.h
- *  19627 bilinear.h  19804 entries.h  20085 block.h  20325 reserve.h  20517 selected.h
- *  20727 selected_query.h  20829 region_choose.h  21053 region.h
+ *  19030 traversal.h  19275 traversal_run.h  19458 row_sets.h  19485 unit_vectors.h
+ *  19712 bilinear.h  19889 entries.h  20170 block.h  20410 reserve.h  20602 selected.h
+ *  20812 selected_query.h  20914 region_choose.h  21138 region.h
  * (change: a factor that follows changes of its matrix)
- *  21301 update.h  21651 rank.h  21989 edges.h  22143 choose.h  22341 pins_types.h
- *  22393 pins_nulls.h  22571 pins_capacitance.h  22798 pins.h  22967 pins_solve.h  23215 subset.h
- *  23322 restrict_analysis.h  23619 restrict_anew.h  23673 restrict_symbolic.h  23854 restrict.h
- *  24082 edit_match.h  24281 edit_place.h  24530 edit_separate.h  24843 edit_order.h
- *  24998 edit_graph.h  25093 edit_join.h  25369 edit.h  25532 edit_factor.h
+ *  21386 update.h  21736 rank.h  22074 edges.h  22228 choose.h  22426 pins_types.h
+ *  22504 pins_nulls.h  22682 pins_capacitance.h  22933 pins_held.h  23142 pins_choose.h
+ *  23212 pins_rebuild.h  23432 pins_matrix.h  23578 pins.h  23865 pins_solve.h  24195 subset.h
+ *  24302 restrict_analysis.h  24599 restrict_anew.h  24653 restrict_symbolic.h  24834 restrict.h
+ *  25062 edit_match.h  25261 edit_place.h  25510 edit_separate.h  25823 edit_order.h
+ *  25978 edit_graph.h  26073 edit_join.h  26349 edit.h  26512 edit_factor.h
  * (save: factors in files)
- *  25790 format.h  26086 decode.h  26234 check.h  26564 write.h  26869 load.h  27137 load_inverse.h
- *  27466 load_calls.h
+ *  26770 format.h  27066 decode.h  27214 check.h  27544 write.h  27849 load.h  28117 load_inverse.h
+ *  28446 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  27665 batch_solve.h  27874 batch_factor.h  28075 batch_diagonal.h
+ *  28645 batch_solve.h  28854 batch_factor.h  29055 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  28215 hermitian.h  28377 complex_rows.h
+ *  29195 hermitian.h  29357 complex_rows.h
  * (last: undefine every internal macro)
- *  28545 undef.h
+ *  29525 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  28786 front.inl.h  28788 product.inl.h  29283 words_undef.inl.h  29365 multi_rhs.inl.h
- *  29384 multi_rhs_small.inl.h  29552 multi_rhs_tiles.inl.h  29857 complex_groups.inl.h
- *  30089 sweeps.inl.h  30091 unit_triangle.inl.h  30128 two_rhs.inl.h  30299 small_supernode.inl.h
- *  30459 single_rhs.inl.h  30708 kernel_set.inl.h  30710 complex_small.inl.h
- *  30874 complex_rows.inl.h  31106 inverse_front.inl.h  31391 row.inl.h  31421 change.inl.h
- *  31485 interleave.inl.h
+ *  29774 front.inl.h  29776 product.inl.h  30271 words_undef.inl.h  30353 multi_rhs.inl.h
+ *  30372 multi_rhs_small.inl.h  30540 multi_rhs_tiles.inl.h  30845 complex_groups.inl.h
+ *  31077 sweeps.inl.h  31079 unit_triangle.inl.h  31116 two_rhs.inl.h  31287 small_supernode.inl.h
+ *  31447 single_rhs.inl.h  31696 kernel_set.inl.h  31698 complex_small.inl.h
+ *  31862 complex_rows.inl.h  32094 inverse_front.inl.h  32379 row.inl.h  32409 change.inl.h
+ *  32473 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -383,6 +384,20 @@ typedef enum sl_change_reason {
     SL_CHANGE_DRIFT,        /* the errors of earlier changes have reached their limit */
     SL_CHANGE_REFUSED       /* rank-one changes met a pivot that they refuse */
 } sl_change_reason;
+
+/** How pins hold rows. */
+typedef enum sl_pins_method {
+    SL_PINS_CAPACITANCE = 0, /* all by a small dense matrix on top of the factor */
+    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, what came later on top of it */
+} sl_pins_method;
+
+/** Why pins hold rows in their way. */
+typedef enum sl_pins_reason {
+    SL_PINS_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
+    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_set_matrix */
+    SL_PINS_UNSUITED,     /* several null vectors, regularization, or SL_STORAGE_COMPLEX */
+    SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
+} sl_pins_reason;
 
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
@@ -691,6 +706,18 @@ typedef struct sl_reuse_info {
     double seconds;          /* processor seconds, summed over all threads */
 } sl_reuse_info;
 
+/** A set of pins: sl_pins_set_matrix, _add, _add_rows, _add_equality, _release_rows. */
+typedef struct sl_pins_info {
+    sl_pins_method method; /* the way in use */
+    sl_pins_reason reason; /* why */
+    sl_int count;          /* pins and equalities */
+    sl_int eliminated;     /* those that are eliminated */
+    /* of the last choice, as estimated from counts; 0: there was none yet */
+    double seconds_capacitance;
+    double seconds_elimination; /* the same */
+    double seconds;             /* processor seconds of the call */
+} sl_pins_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -708,8 +735,9 @@ typedef struct sl_stats {
     sl_edit_info edit;
     sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
+    sl_pins_info pins;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[3];
+    sl_off reserved[24];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -2677,7 +2705,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
- *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep.
+ *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. If
+ *  the matrix is known (sl_pins_set_matrix), many pins are eliminated instead: a second factor, in
+ *  which their rows are those of the identity, over the same analysis.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -2710,10 +2740,23 @@ SL_API void sl_pins_free(sl_pins *P);
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
- *           the path, and 4 per row below its supernodes.
+ *           the path, and 4 per row below its supernodes. If the matrix is known, k counts the pins
+ *           since the last elimination, and once their cost exceeds that of the next one, all are
+ *           eliminated: pins that come one by one cost at most about twice as much as together.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
+
+/** Adds pins, all or none, by the cheaper way. They become the last ones of P, in this order.
+ *
+ *  rows   [in]   count >= 0 rows.
+ *  stats  [out]  pins; error.row; may be NULL.
+ *  Returns, Threads  as in sl_pins_add.
+ *  Cost     by the capacitance matrix as in sl_pins_add; by elimination a copy of the factor if P
+ *           has none yet, and a refactorization of the reach of the changed rows, or of all.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count,
+                                                 sl_stats *stats);
 
 /** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
  *  value 1.
@@ -2727,14 +2770,49 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
 
 /** Releases pin number `index`, 0-based. Those after it move down by one.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT.  Cost  O(k^2).  Threads  exclusive use of P.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; of a pin that is eliminated as sl_pins_release_rows.
+ *  Cost     O(k^2); of a pin that is eliminated as sl_pins_release_rows.
+ *  Threads  exclusive use of P.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
+
+/** Releases pins, all or none. The others move together and keep their order.
+ *
+ *  indices  [in]   count >= 0 different numbers of pins, in any order.
+ *  stats    [out]  pins; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
+ *           also SL_ERR_STATE: F has changed, and the errors of sl_pins_add. On error P is as
+ *           before.
+ *  Cost     O(k^2) for each. If some are eliminated, the others are eliminated anew, by the reach
+ *           of the released rows, or added anew by the capacitance matrix: release them together.
+ *  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices,
+                                                     sl_int count, sl_stats *stats);
+
+/** Gives P the matrix of F, so that pins may be eliminated. After F has changed this also takes
+ *  its present numbers, as sl_pins_refactor does, by the cheaper way. Both ways give the same
+ *  solutions, to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX pins
+ *  stay with the capacitance matrix (stats.pins.reason).
+ *
+ *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
+ *                with a random right-hand side.
+ *  stats  [out]  pins; error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: not the
+ *           analyzed pattern; SL_ERR_STATE: failed factor; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; after F
+ *           has changed also the errors of sl_pins_refactor.
+ *  Cost     a solve and two products with A; 8 bytes per entry of A. Elimination keeps a second
+ *           factor.
+ *  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats);
 
 /** The number k of pins and equalities. */
 SL_API sl_int sl_pins_count(const sl_pins *P);
 
-/** Takes the present numbers of the factor, after it has changed.
+/** Takes the present numbers of the factor, after it has changed. The matrix that P may have been
+ *  given is forgotten, and all pins use the capacitance matrix: sl_pins_set_matrix does the same
+ *  with the new matrix.
  *
  *  Returns  as sl_pins_add. On error solves are refused until a later call succeeds.
  *  Cost     k forward sweeps and O(k^3).  Threads  exclusive use of P; F is read.
@@ -2757,8 +2835,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
  *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: rounding hides
  *           whether the pins rule out the motions of a body; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
- *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side
- *           and for each null vector of components with pins.
+ *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
+ *           over shared columns, twice, and O(k^2); as much for each null vector of components with
+ *           pins. Eliminated pins: with a plan the forward sweep of their neighbors.
  *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
@@ -16055,6 +16134,26 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
   return total;
 }
 
+static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                   const uint64_t *seeds, sl_int count, double started,
+                   sl_stats *stats) {
+  sli_failure failure;
+  memset(&failure, 0, sizeof failure);
+  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    (void)sli_null_vectors_check(F, from, &failure);
+  }
+  if (failure.status == SL_OK && !sli_nulls_remain(F)) {
+    return sli_factor_numbers(F, from, started, stats);
+  }
+  if (failure.status == SL_OK) {
+    (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
+  }
+  if (failure.status == SL_OK && sli_null_is_suspected(F)) {
+    return sli_factor_numbers(F, from, started, stats);
+  }
+  return sli_factor_done(F, from, &failure, started, stats);
+}
+
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                       sl_int count, sl_stats *stats) {
   const double started = sli_seconds();
@@ -16062,7 +16161,6 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   sli_left_work work;
   sli_block b = {NULL, 0, 0};
   uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
-  sli_failure failure;
   sl_status status;
   sl_int k;
   int pass;
@@ -16094,7 +16192,6 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   if (status != SL_OK) {
     return status;
   }
-  memset(&failure, 0, sizeof failure);
   sli_factor_begin(F);
   for (k = 0; k < count; k++) {
     const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
@@ -16102,21 +16199,9 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     F->identity = sli_hash_words(F->identity, A->x + p, q - p);
   }
   count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    (void)sli_null_vectors_check(F, &from, &failure);
-  }
-  if (failure.status == SL_OK && !sli_nulls_remain(F)) {
-    sli_free(&F->allocator, b.base);
-    return sli_factor_numbers(F, &from, started, stats);
-  }
-  if (failure.status == SL_OK) {
-    (void)sli_left_factor_all(F, &work, &from, seeds, count, &failure);
-  }
+  status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
   sli_free(&F->allocator, b.base);
-  if (failure.status == SL_OK && sli_null_is_suspected(F)) {
-    return sli_factor_numbers(F, &from, started, stats);
-  }
-  return sli_factor_done(F, &from, &failure, started, stats);
+  return status;
 }
 
 /* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
@@ -22341,6 +22426,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
 /* src/impl/change/pins_types.h: a set of pins: the method, and what it keeps */
 
 typedef struct sli_pin {
+  sl_int index;
   sl_int count;
   sl_int *rows;
   double *values;
@@ -22357,12 +22443,32 @@ struct sl_pins {
   sli_numbers numbers;
   double sign;
   double delta;
-  sl_int count, capacity;
+  sl_int count, room;
+  sl_int *rows;
+
+  const sl_factor *base;
+  sl_int n_pins, capacity;
   sli_pin **pins;
   double *K;
   double *scratch;
   sl_int *uses;
   sl_int n_used;
+
+  sl_pins_reason reason;
+  double *values;
+  sl_factor *G;
+  sl_int n_held, n_couplings;
+  sl_int *held;
+  sl_int *held_pin;
+  sl_int
+    *coupling_from;
+  sl_int *coupling_column;
+  const sl_int *coupling_to;
+  double *couplings;
+  sli_reach held_reach;
+  double spent;
+  double threshold;
+  double capacitance, elimination;
 };
 
 static double sli_dot(const double *a, const double *b, sl_int count) {
@@ -22388,6 +22494,11 @@ static void sli_divide(const sl_factor *F, const sli_reach *R, double *y, sl_int
       }
     }
   }
+}
+
+SLI_INLINE sl_int sli_held_find(const sl_pins *P, sl_int column) {
+  const sl_int at = sli_lower_bound(P->held, P->n_held, column);
+  return at < P->n_held && P->held[at] == column ? at : -1;
 }
 
 /* src/impl/change/pins_nulls.h: null vectors under pins: their products with the pins, and what remains free */
@@ -22455,14 +22566,14 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
   sli_free(&P->allocator, pin->nulls);
   pin->nulls = NULL;
   pin->n_nulls = 0;
-  if (P->F->n_nulls > 0) {
-    status = sli_pin_visit_nulls(P->F, pin, 0, row);
+  if (P->base->n_nulls > 0) {
+    status = sli_pin_visit_nulls(P->base, pin, 0, row);
   }
   for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
     pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
     pin->z = SLI_TAKE(&b, double, pin->n_nulls);
-    status =
-      pass == 0 ? sli_block_alloc(&b, &P->allocator) : sli_pin_visit_nulls(P->F, pin, 1, row);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator)
+               : sli_pin_visit_nulls(P->base, pin, 1, row);
   }
   pin->nulls = (sl_int *)(void *)b.base;
   return status;
@@ -22506,50 +22617,50 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
   const uint64_t count = (uint64_t)P->n_used;
   w->count = P->n_used;
   w->numbers = SLI_TAKE(b, sl_int, count);
-  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->F->n_nulls : 0);
+  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->n_nulls : 0);
   w->is_free = SLI_TAKE(b, unsigned char, count);
-  w->W = SLI_TAKE(b, double, count *(uint64_t)P->count);
+  w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
   w->S = SLI_TAKE(b, double, count *count);
   w->s = SLI_TAKE(b, double, SLI_TILE *count);
 }
 
 static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
   sl_int p, k;
-  memset(w->W, 0, (size_t)w->count * (size_t)P->count * sizeof(double));
+  memset(w->W, 0, (size_t)w->count * (size_t)P->n_pins * sizeof(double));
   memset(w->s, 0, (size_t)w->count * sizeof(double));
-  for (p = 0; p < P->count; p++) {
+  for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
     const double square = sli_dot(pin->values, pin->values, pin->count);
     for (k = 0; k < pin->n_nulls; k++) {
       const sl_int at = w->place[pin->nulls[k]];
-      w->W[(size_t)at * (size_t)P->count + (size_t)p] = pin->z[k];
-      w->s[at] += P->F->null_vectors > 1 ? square : 0.0;
+      w->W[(size_t)at * (size_t)P->n_pins + (size_t)p] = pin->z[k];
+      w->s[at] += P->base->null_vectors > 1 ? square : 0.0;
     }
   }
 }
 
 static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
-  const size_t count = (size_t)P->count;
+  const size_t count = (size_t)P->n_pins;
   sl_int a, b, p, n_free = 0;
   for (a = 0; a < w->count; a++) {
     double *x = w->W + (size_t)a * count;
-    double after = sqrt(sli_dot(x, x, P->count));
+    double after = sqrt(sli_dot(x, x, P->n_pins));
     const double least = SLI_NULL_DEPENDENT * fmax(after, sqrt(w->s[a]));
     int pass;
     for (pass = 0; pass < 2 && after > 0.0; pass++) {
       for (b = 0; b < a; b++) {
         const double *q = w->W + (size_t)b * count;
-        const double c = w->is_free[b] ? 0.0 : sli_dot(q, x, P->count);
-        for (p = 0; c != 0.0 && p < P->count; p++) {
+        const double c = w->is_free[b] ? 0.0 : sli_dot(q, x, P->n_pins);
+        for (p = 0; c != 0.0 && p < P->n_pins; p++) {
           x[p] -= c * q[p];
         }
       }
-      after = sqrt(sli_dot(x, x, P->count));
+      after = sqrt(sli_dot(x, x, P->n_pins));
       after = after > least ? after : 0.0;
     }
     w->is_free[a] = after == 0.0;
     n_free += w->is_free[a];
-    for (p = 0; p < P->count; p++) {
+    for (p = 0; p < P->n_pins; p++) {
       x[p] = after == 0.0 ? 0.0 : x[p] / after;
     }
   }
@@ -22571,13 +22682,15 @@ static sl_int sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
 /* src/impl/change/pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
 static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
-  const sl_factor *F = P->F;
+  const sl_factor *F = P->base;
   const sl_symbolic *S = F->S;
   const sl_status status = sli_pin_find_nulls(P, pin, row);
   sl_int k;
   memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
   for (k = 0; k < pin->count; k++) {
-    pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
+    const sl_int column = S->iperm[pin->rows[k]];
+    pin->y[sli_reach_index_of(&pin->R, column)] +=
+      sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
   }
   sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
   for (k = 0; k < pin->n_nulls; k++) {
@@ -22598,7 +22711,7 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
                 const double *values, sl_int count, sl_stats *stats) {
-  const sl_symbolic *S = P->F->S;
+  const sl_symbolic *S = P->base->S;
   sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sli_set set = sli_set_of(S, rows, count);
   sli_reach R;
@@ -22680,12 +22793,12 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
 }
 
 static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin, double *y) {
-  const sl_int k = P->count;
+  const sl_int k = P->n_pins;
   const size_t ld = (size_t)P->capacity;
   double *row = P->K + (size_t)k * ld, own, d;
   sl_int i;
   memcpy(y, pin->y, (size_t)pin->R.columns * sizeof *y);
-  sli_divide(P->F, &pin->R, y, 1);
+  sli_divide(P->base, &pin->R, y, 1);
   sli_pin_dot(pin, &pin->R, y, 1, &own);
   own += sli_pin_nulls_dot(pin, pin) / P->delta;
   d = own;
@@ -22710,28 +22823,28 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
   const size_t ld = (size_t)P->capacity;
   double *w = P->scratch, alpha = P->K[(size_t)p * ld + (size_t)p];
   sl_int i, j;
-  for (i = p + 1; i < P->count; i++) {
+  for (i = p + 1; i < P->n_pins; i++) {
     w[i] = P->K[(size_t)i * ld + (size_t)p];
   }
-  for (j = p + 1; j < P->count; j++) {
+  for (j = p + 1; j < P->n_pins; j++) {
     double *at = &P->K[(size_t)j * ld + (size_t)j];
     const double y = w[j], d = *at, e = d + alpha * y * y, b = alpha * y / e;
     alpha *= d / e;
     *at = e;
-    for (i = j + 1; i < P->count; i++) {
+    for (i = j + 1; i < P->n_pins; i++) {
       double *l = &P->K[(size_t)i * ld + (size_t)j];
       w[i] -= y * *l;
       *l += b * w[i];
     }
   }
-  for (i = p; i + 1 < P->count; i++) {
+  for (i = p; i + 1 < P->n_pins; i++) {
     double *to = P->K + (size_t)i * ld;
     const double *from = to + ld;
     memmove(to, from, (size_t)p * sizeof *to);
     memmove(to + p, from + p + 1, (size_t)(i + 1 - p) * sizeof *to);
     P->pins[i] = P->pins[i + 1];
   }
-  P->count--;
+  P->n_pins--;
 }
 
 static sl_status sli_pins_grow(sl_pins *P) {
@@ -22742,7 +22855,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
   sl_status status = SL_OK;
   sl_int i;
   int pass;
-  if (P->count < P->capacity) {
+  if (P->n_pins < P->capacity) {
     return SL_OK;
   }
   SLI_ASSERT(P->capacity <= INT32_MAX / 4);
@@ -22755,7 +22868,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
   if (status != SL_OK) {
     return status;
   }
-  for (i = 0; i < P->count; i++) {
+  for (i = 0; i < P->n_pins; i++) {
     pins[i] = P->pins[i];
     memcpy(K + (size_t)i * (size_t)capacity, P->K + (size_t)i * (size_t)P->capacity,
          ((size_t)i + 1) * sizeof *K);
@@ -22768,10 +22881,32 @@ static sl_status sli_pins_grow(sl_pins *P) {
   return SL_OK;
 }
 
+static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
+                 sl_int count, sl_stats *stats) {
+  sli_pin *pin = NULL;
+  double *y = NULL;
+  sl_status status = sli_pins_grow(P);
+  status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
+  status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
+  sli_free(&P->allocator, y);
+  if (status != SL_OK) {
+    sli_pin_free(P, pin);
+    return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
+  }
+  pin->index = index;
+  sli_pins_count_nulls(P, pin, 1);
+  P->pins[P->n_pins++] = pin;
+  return SL_OK;
+}
+
 static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   const size_t ld = (size_t)P->capacity;
   sl_int i, j, r;
-  for (i = 1; i < P->count; i++) {
+  for (i = 1; i < P->n_pins; i++) {
     const double *l = P->K + (size_t)i * ld;
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
     sli_chains_add(chains, l, f, i, lanes);
@@ -22780,12 +22915,12 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
       f[(ptrdiff_t)i * lanes + r] -= sums[r];
     }
   }
-  for (i = 0; i < P->count; i++) {
+  for (i = 0; i < P->n_pins; i++) {
     for (r = 0; r < lanes; r++) {
       f[(ptrdiff_t)i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
     }
   }
-  for (i = P->count - 1; i > 0; i--) {
+  for (i = P->n_pins - 1; i > 0; i--) {
     const double *l = P->K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
     for (j = 0; j < i; j++) {
       for (r = 0; r < lanes; r++) {
@@ -22795,44 +22930,657 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   }
 }
 
-/* src/impl/change/pins.h: sets of pins: created, added, released, refactored */
+/* src/impl/change/pins_held.h: eliminated rows: the factor of A with identity rows, and what they hand to others */
 
-static sl_status sli_pins_take(sl_pins *P) {
-  const sl_factor *F = P->F;
-  const sl_factor_info *info = &F->stats.factor;
-  sl_status status = SL_OK;
-  sl_int *uses = NULL;
-  if (!F->is_valid) {
-    return SL_ERR_STATE;
-  }
-  if (F->E != NULL || (info->positive > 0 && info->negative > 0)) {
-    return SL_ERR_UNSUPPORTED;
-  }
-  P->sign = info->negative > 0 ? -1.0 : 1.0;
-  P->delta = P->sign * (info->pivot_max > 0.0 ? info->pivot_max : 1.0);
-  if (F->n_nulls > 0) {
-    status = SL_ERR_MEMORY;
-    uses = (sl_int *)sli_alloc(&P->allocator, (size_t)F->n_nulls * sizeof *uses);
-    if (uses != NULL) {
-      memset(uses, 0, (size_t)F->n_nulls * sizeof *uses);
-      status = SL_OK;
+typedef struct sli_holding {
+  sl_int count;
+  sl_int *columns;
+  sl_int *index;
+  uint64_t *list;
+  unsigned char *marks;
+  double *values;
+  uint64_t *room, *seeds;
+  sl_int n_seeds;
+  sl_off couplings;
+  sli_left_work left;
+  void *block;
+  sli_way way;
+  int is_new, is_local;
+} sli_holding;
+
+static void sli_holding_layout(sli_holding *h, sli_block *b, const sl_symbolic *S) {
+  h->columns = SLI_TAKE(b, sl_int, h->count);
+  h->index = SLI_TAKE(b, sl_int, h->count);
+  h->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)h->count);
+  h->marks = SLI_TAKE(b, unsigned char, S->n);
+  h->values = SLI_TAKE(b, double, S->scatter_begin[S->n_supers]);
+  h->room = SLI_TAKE(b, uint64_t, S->n_supers);
+  sli_left_work_layout(&h->left, b, S);
+}
+
+static void sli_holding_mask(sli_holding *h, const sl_pins *P) {
+  const sl_symbolic *S = P->F->S;
+  sl_off m;
+  sl_int s, k, j;
+  h->n_seeds = S->n_supers;
+  h->couplings = 0;
+  for (s = S->n_supers - 1; s >= 0; s--) {
+    sl_int tile = sli_last_tile(S, s);
+    int is_changed = 0;
+    for (m = S->scatter_begin[s + 1] - 1; m >= S->scatter_begin[s]; m--) {
+      int marks;
+      sli_scatter_map_pivots(S, s, m, &tile, &k, &j);
+      marks = h->marks[k] | h->marks[j];
+      h->values[m] = P->values[m];
+      if ((marks & 1) != 0) {
+        const int is_last =
+          m + 1 == S->scatter_begin[s + 1] || S->scatter_to[m + 1] != S->scatter_to[m];
+        h->values[m] = k == j && is_last ? P->delta : 0.0;
+        h->couplings += ((h->marks[k] ^ h->marks[j]) & 1) != 0 && P->values[m] != 0.0;
+      }
+      is_changed |= marks == 1 || marks == 2;
+    }
+    if (is_changed) {
+      h->room[--h->n_seeds] = sli_keyed(S->super_first[s], 0);
     }
   }
-  if (status == SL_OK) {
-    sli_free(&P->allocator, P->uses);
-    P->uses = uses;
-    P->n_used = 0;
-    P->numbers = sli_numbers_of(F);
+  h->seeds = h->room + h->n_seeds;
+  h->n_seeds = S->n_supers - h->n_seeds;
+}
+
+static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_int *rows,
+                   sl_int count, int is_stale, sl_stats *stats) {
+  const sl_symbolic *S = P->F->S;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int k;
+  int pass;
+  memset(h, 0, sizeof *h);
+  for (k = 0; k < count; k++) {
+    h->count += rows[k] != -1;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_holding_layout(h, &b, S);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  h->block = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
+  h->is_new = is_stale || P->G == NULL;
+  h->count = 0;
+  for (k = 0; k < count; k++) {
+    if (rows[k] != -1) {
+      h->list[h->count++] = sli_keyed(S->iperm[rows[k]], k);
+    }
+  }
+  sli_sort(h->list, h->count, h->list + h->count);
+  memset(h->marks, 0, (size_t)S->n);
+  for (k = 0; k < h->count; k++) {
+    h->columns[k] = sli_key(h->list[k]);
+    h->index[k] = sli_value(h->list[k]);
+    if (h->marks[h->columns[k]]) {
+      return sli_fail_at(stats, SL_ERR_PIVOT, S->perm[h->columns[k]], -1, 0.0);
+    }
+    h->marks[h->columns[k]] = 1;
+  }
+  for (k = 0; k < P->n_held && !h->is_new; k++) {
+    h->marks[P->held[k]] |= 2;
+  }
+  sli_holding_mask(h, P);
+  return SL_OK;
+}
+
+static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_allocator *a) {
+  sl_options opt = sli_options_with(a);
+  sl_status status;
+  opt.isa = F->kernels->isa;
+  opt.method = F->method;
+  opt.storage = F->storage;
+  opt.threads = F->threads;
+  opt.null_pivots = F->null_pivots;
+  opt.null_tolerance = F->rule.null_tolerance;
+  opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
+  status = sli_factor_new(G, F->S, &opt, NULL);
+  if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));
   }
   return status;
 }
 
+static int sli_held_is_local(const sl_factor *F, int is_new) {
+  return F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE &&
+       (F->null_pivots == SL_NULL_PIVOT_REFUSE || !is_new);
+}
+
+static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_holding *h) {
+  const double started = sli_seconds(), one = 1.0;
+  const double *const values = h->values;
+  const sl_symbolic *S = F->S;
+  sli_source from;
+  from.A = NULL;
+  from.values = &values;
+  from.coefficients = &one;
+  from.terms = 1;
+  sli_factor_begin(G);
+  if (!h->is_local) {
+    return sli_factor_numbers(G, &from, started, NULL);
+  }
+  if (h->is_new) {
+    memcpy(G->values, F->values, (size_t)S->panel_begin[S->n_supers] * sizeof(double));
+    memcpy(G->D, F->D, (size_t)S->n * sizeof(double));
+    memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
+  }
+  sli_factor_identify(G, &from);
+  return sli_left_refactor(G, &h->left, &from, h->seeds, h->n_seeds, started, NULL);
+}
+
+static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
+  const sl_symbolic *S = P->F->S;
+  const sl_off total = S->scatter_begin[S->n_supers];
+  sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sl_status status = h->couplings > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+  sl_int *rows = NULL, *held = NULL, k, j, s = 0;
+  double *values = NULL;
+  sli_set set;
+  sl_off m;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    rows = SLI_TAKE(&b, sl_int, h->couplings);
+    held = SLI_TAKE(&b, sl_int, h->couplings);
+    values = SLI_TAKE(&b, double, h->couplings);
+    set = sli_set_of(S, rows == NULL ? S->perm : rows, (sl_int)h->couplings);
+    sli_set_layout_seeds(&set, &b);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  for (m = 0, P->n_couplings = 0; m < total && status == SL_OK; m++) {
+    sl_int tile;
+    if (h->values[m] == P->values[m]) {
+      continue;
+    }
+    while (m >= S->scatter_begin[s + 1]) {
+      s++;
+    }
+    tile = sli_last_tile(S, s);
+    sli_scatter_map_pivots(S, s, m, &tile, &k, &j);
+    if (((h->marks[k] ^ h->marks[j]) & 1) != 0) {
+      const sl_int at = P->n_couplings++, out = (h->marks[k] & 1) != 0 ? k : j;
+      rows[at] = S->perm[out == k ? j : k];
+      held[at] = sli_lower_bound(h->columns, h->count, out);
+      values[at] = P->values[m];
+    }
+  }
+  status = status == SL_OK ? sli_set_sort(S, &set, NULL) : status;
+  if (status == SL_OK) {
+    sli_set_measure(S, &set, &P->held_reach);
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    P->held = SLI_TAKE(&kept, sl_int, h->count);
+    P->held_pin = SLI_TAKE(&kept, sl_int, h->count);
+    P->coupling_from = SLI_TAKE(&kept, sl_int, h->couplings);
+    P->coupling_column = SLI_TAKE(&kept, sl_int, h->couplings);
+    P->couplings = SLI_TAKE(&kept, double, h->couplings);
+    sli_set_layout_reach(&set, &kept, &P->held_reach);
+    status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
+  }
+  P->held = (sl_int *)(void *)kept.base;
+  if (status == SL_OK) {
+    P->n_held = h->count;
+    memcpy(P->held, h->columns, (size_t)h->count * sizeof(sl_int));
+    memcpy(P->held_pin, h->index, (size_t)h->count * sizeof(sl_int));
+    memcpy(P->coupling_from, held, (size_t)h->couplings * sizeof(sl_int));
+    memcpy(P->couplings, values, (size_t)h->couplings * sizeof(double));
+    sli_set_fill(S, &set, &P->held_reach, &P->coupling_to);
+    for (k = 0; k < P->n_couplings; k++) {
+      P->coupling_column[k] = S->iperm[rows[k]];
+    }
+  }
+  sli_free(&P->allocator, b.base);
+  return status;
+}
+
+/* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
+
+#define SLI_PINS_ENTRY 0.35e-9
+#define SLI_PINS_TERM 0.35e-9
+#define SLI_PINS_STEP 12e-9
+#define SLI_PINS_DENSE 0.35e-9
+#define SLI_PINS_MAP 5e-9
+#define SLI_PINS_MEMORY 2.5e-9
+
+static double sli_pins_flop(sl_isa isa) {
+  switch (isa) {
+  case SL_ISA_AVX512:
+    return 0.016e-9;
+  case SL_ISA_AVX2:
+    return 0.035e-9;
+  case SL_ISA_NEON:
+    return 0.08e-9;
+  default:
+    return 0.3e-9;
+  }
+}
+
+static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                    sl_int others, sl_int *uses) {
+  const double before = others, after = before + count;
+  double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before);
+  sl_int k, s;
+  for (k = 0; k < count && uses != NULL; k++) {
+    uses[S->super_of[sli_key(seeds[k])]]++;
+  }
+  s = count == 0 ? -1 : uses != NULL ? 0 : S->super_of[sli_key(seeds[0])];
+  while (s != -1 && s < S->n_supers) {
+    const double u = uses == NULL ? 1.0 : uses[s], w = S->steps[s].width;
+    const double pairs = u * (before + 0.5 * u);
+    const sl_int up = S->super_parent[s];
+    if (u > 0.0) {
+      seconds += SLI_PINS_ENTRY * u * (double)sli_panel_size((sl_int)w, S->steps[s].below) +
+             (SLI_PINS_TERM * w + SLI_PINS_STEP) * pairs;
+    }
+    if (uses != NULL) {
+      if (up != -1) {
+        uses[up] += uses[s];
+      }
+      uses[s++] = 0;
+    } else {
+      s = up;
+    }
+  }
+  return seconds;
+}
+
+static double sli_pins_look_cost(const sl_pins *P) {
+  const sl_symbolic *S = P->F->S;
+  return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers];
+}
+
+static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
+  const sl_symbolic *S = P->F->S;
+  const double flop = sli_pins_flop(P->F->kernels->isa);
+  const double whole = flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT * S->n_supers;
+  double part;
+  h->way.seeds = h->seeds;
+  h->way.n_seeds = h->n_seeds;
+  sli_way_measure(&h->way, S, 1);
+  part = h->way.changed + (flop - SLI_CHANGE_FRONT_FLOP) * h->way.flops_changed;
+  h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
+  return (h->is_local ? part : whole) + sli_pins_look_cost(P) +
+       (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
+}
+
+/* src/impl/change/pins_rebuild.h: sets of pins made anew: other numbers, or the other way */
+
+static sl_status sli_pins_take(sl_pins *P) {
+  const sl_factor *F = P->F;
+  const sl_factor_info *info = &F->stats.factor;
+  P->sign = info->negative > 0 ? -1.0 : 1.0;
+  P->delta = P->sign * (info->pivot_max > 0.0 ? info->pivot_max : 1.0);
+  P->numbers = sli_numbers_of(F);
+  P->n_used = 0;
+  P->uses = NULL;
+  if (P->base->n_nulls > 0) {
+    const size_t bytes = (size_t)P->base->n_nulls * sizeof *P->uses;
+    P->uses = (sl_int *)sli_alloc(&P->allocator, bytes);
+    if (P->uses == NULL) {
+      return SL_ERR_MEMORY;
+    }
+    memset(P->uses, 0, bytes);
+  }
+  return SL_OK;
+}
+
+static sl_status sli_pins_check(const sl_factor *F) {
+  const sl_factor_info *info = &F->stats.factor;
+  if (!F->is_valid) {
+    return SL_ERR_STATE;
+  }
+  return F->E != NULL || (info->positive > 0 && info->negative > 0) ? SL_ERR_UNSUPPORTED : SL_OK;
+}
+
+static void sli_pins_release(sl_pins *P) {
+  sl_int k;
+  for (k = 0; k < P->n_pins; k++) {
+    sli_pin_free(P, P->pins[k]);
+  }
+  sli_free(&P->allocator, P->pins);
+  sli_free(&P->allocator, P->uses);
+  sli_free(&P->allocator, P->rows);
+  sli_free(&P->allocator, P->held);
+}
+
+static sl_status sli_pins_reserve(sl_pins *P, sl_off count) {
+  const sl_off room = count < 8 ? 8 : count < INT32_MAX / 2 ? 2 * count : INT32_MAX;
+  sl_int *rows;
+  if (count <= P->room) {
+    return SL_OK;
+  }
+  if (count > INT32_MAX) {     /* untested: 2^31 pins */
+    return SL_ERR_TOO_LARGE; /* untested: the same */
+  }
+  rows = (sl_int *)sli_alloc(&P->allocator, (size_t)room * sizeof *rows);
+  if (rows == NULL) {
+    return SL_ERR_MEMORY;
+  }
+  if (P->count > 0) {
+    memcpy(rows, P->rows, (size_t)P->count * sizeof *rows);
+  }
+  sli_free(&P->allocator, P->rows);
+  P->rows = rows;
+  P->room = (sl_int)room;
+  return SL_OK;
+}
+
+typedef struct sli_pins_target {
+  sl_int count;
+  sl_int *rows;
+  sl_int *from;
+  uint64_t *list;
+  sl_int *uses;
+} sli_pins_target;
+
+static sl_status sli_pins_target_make(sli_pins_target *t, sli_block *b, const sl_pins *P,
+                    sl_off more) {
+  const sl_off count = P->count + more;
+  sl_status status = count > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    t->rows = SLI_TAKE(b, sl_int, count);
+    t->from = SLI_TAKE(b, sl_int, count);
+    t->list = SLI_TAKE(b, uint64_t, 2 * count);
+    t->uses = SLI_TAKE(b, sl_int, P->F->S->n_supers);
+    status = pass == 0 ? sli_block_alloc(b, &P->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    memset(t->uses, 0, (size_t)P->F->S->n_supers * sizeof(sl_int));
+  }
+  t->count = 0;
+  return status;
+}
+
+static void sli_pins_target_add(sli_pins_target *t, const sl_pins *P, const unsigned char *gone) {
+  sl_int k, at = 0;
+  for (k = 0; k < P->count; k++) {
+    while (at < P->n_pins && P->pins[at]->index < k) {
+      at++;
+    }
+    if (gone == NULL || !gone[k]) {
+      t->from[t->count] = at;
+      t->rows[t->count++] = P->rows[k];
+    }
+  }
+}
+
+static double sli_pins_target_cost(const sli_pins_target *t, const sl_pins *P) {
+  sl_int k, count = 0;
+  for (k = 0; k < t->count; k++) {
+    if (t->rows[k] != -1) {
+      t->list[count++] = sli_keyed(P->F->S->iperm[t->rows[k]], 0);
+    }
+  }
+  sli_sort(t->list, count, t->list + count);
+  return sli_pins_capacitance_cost(P->F->S, t->list, count, t->count - count, t->uses);
+}
+
+static void sli_held_restore(const sl_pins *P, sli_holding *h) {
+  sl_int k;
+  for (k = 0; k < P->F->S->n; k++) {
+    h->marks[k] = h->marks[k] >> 1;
+  }
+  sli_holding_mask(h, P);
+  h->is_local = 0;
+  (void)sli_held_numbers(P->G, P->F, h);
+}
+
+static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_target *t,
+                 const sli_holding *h, sl_stats *stats) {
+  const double one = 1.0;
+  sl_status status = h == NULL ? SL_OK : sli_held_take(D, h);
+  sl_int k;
+  D->base = h == NULL ? D->F : D->G;
+  status = status == SL_OK ? sli_pins_take(D) : status;
+  status = status == SL_OK ? sli_pins_reserve(D, t->count) : status;
+  for (k = 0; k < t->count && status == SL_OK; k++) {
+    D->rows[k] = t->rows[k];
+    if (t->rows[k] == -1) {
+      const sli_pin *pin = P->pins[t->from[k]];
+      status = sli_pins_push(D, k, pin->rows, pin->values, pin->count, stats);
+    } else if (h == NULL) {
+      status = sli_pins_push(D, k, &t->rows[k], &one, 1, stats);
+    }
+  }
+  D->count = t->count;
+  return status;
+}
+
+static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_holding *h,
+                  int is_stale, sl_stats *stats) {
+  sl_pins D = *P;
+  sl_status status = SL_OK;
+  D.count = D.room = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
+  D.rows = D.uses = D.held = NULL;
+  D.pins = NULL;
+  if (h == NULL) {
+    D.G = NULL;
+  } else if (P->G == NULL) {
+    status = sli_held_factor(&D.G, P->F, &P->allocator);
+  }
+  status = status == SL_OK && h != NULL ? sli_held_numbers(D.G, P->F, h) : status;
+  status = status == SL_OK ? sli_pins_fill(&D, P, t, h, stats) : status;
+  if (status != SL_OK) {
+    sli_pins_release(&D);
+    if (D.G != P->G) {
+      sl_factor_free(D.G);
+    } else if (h != NULL && P->G != NULL && !is_stale) {
+      sli_held_restore(P, h);
+    }
+    return status;
+  }
+  sli_pins_release(P);
+  if (D.G != P->G) {
+    sl_factor_free(P->G);
+  }
+  *P = D;
+  return SL_OK;
+}
+
+static int sli_pins_is_numeric(sl_status status) {
+  return status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE || status == SL_ERR_INACCURATE ||
+       status == SL_ERR_UNSUPPORTED;
+}
+
+static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *values,
+                 double margin, int is_stale, sl_stats *stats) {
+  const double capacitance = sli_pins_target_cost(t, P);
+  double elimination = 0.0, *old = P->values;
+  sl_status status = SL_OK;
+  sli_holding h;
+  int is_held = 0, is_refused = 0;
+  memset(&h, 0, sizeof h);
+  P->values = values;
+  if (values != NULL) {
+    status = sli_holding_begin(&h, P, t->rows, t->count, is_stale, stats);
+    elimination = status == SL_OK ? sli_pins_elimination_cost(P, &h) : 0.0;
+    is_held = status == SL_OK && margin * capacitance > elimination && h.count > 0;
+  }
+  if (is_held) {
+    status = sli_pins_rebuild(P, t, &h, is_stale, stats);
+    is_refused = sli_pins_is_numeric(status);
+    is_held = !is_refused;
+  }
+  if (!is_held && (status == SL_OK || is_refused)) {
+    status = sli_pins_rebuild(P, t, NULL, is_stale, stats);
+  }
+  sli_free(&P->allocator, h.block);
+  if (status != SL_OK) {
+    P->values = old;
+    return status;
+  }
+  if (old != values) {
+    sli_free(&P->allocator, old);
+  }
+  P->reason = is_refused       ? SL_PINS_REFUSED
+        : values == NULL ? SL_PINS_NO_MATRIX
+                 : SL_PINS_CHEAPEST;
+  P->spent = is_held ? 0.0 : capacitance;
+  P->threshold = is_refused ? (double)INFINITY : elimination;
+  P->capacitance = capacitance;
+  P->elimination = elimination;
+  return SL_OK;
+}
+
+/* src/impl/change/pins_matrix.h: sl_pins_set_matrix: the matrix of the factor, whose rows can then be eliminated */
+
+#define SLI_PINS_OTHER 1e-7
+#define SLI_PINS_OTHER_FLOAT 1e-3
+
+static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, const sl_allocator *a,
+                sl_int *row, double *error) {
+  const sl_symbolic *S = F->S;
+  const sli_reach all = sli_reach_all(S);
+  uint64_t random = 1;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sli_null_row *rows = NULL;
+  double *x = NULL, *y = NULL, *scratch = NULL;
+  sl_int k;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    rows = SLI_TAKE(&b, sli_null_row, S->n);
+    x = SLI_TAKE(&b, double, S->n);
+    y = SLI_TAKE(&b, double, S->n);
+    scratch = SLI_TAKE(&b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  *error = 0.0;
+  *row = -1;
+  for (k = 0; k < S->n && status == SL_OK; k++) {
+    random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    x[k] = 0.5 + (double)(random >> 40) / 33554432.0;
+  }
+  if (status == SL_OK) {
+    (void)sli_null_product(S, from, 0, rows, x, NULL);
+    for (k = 0; k < S->n; k++) {
+      x[k] = y[k] = rows[k].product;
+    }
+    sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, x, scratch);
+    for (k = 0; k < F->n_nulls; k++) {
+      x[F->nulls[k]] = 0.0;
+    }
+    sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, x,
+               scratch);
+    (void)sli_null_product(S, from, 0, rows, x, NULL);
+  }
+  for (k = 0; k < S->n && status == SL_OK; k++) {
+    const double size = rows[k].size + fabs(y[k]), r = fabs(rows[k].product - y[k]);
+    if (size != 0.0 && !(r <= *error * size)) {
+      *error = r / size;
+      *row = S->perm[k];
+      k = *error == *error ? k : S->n;
+    }
+  }
+  sli_free(a, b.base);
+  return status;
+}
+
+static int sli_pins_can_hold(const sl_factor *F) {
+  return F->null_vectors == 1 && F->rule.regularization == 0.0 &&
+       F->storage != SL_STORAGE_COMPLEX;
+}
+
+static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
+  if (stats != NULL) {
+    sl_pins_info *info = &stats->pins;
+    info->method = P->n_held > 0 ? SL_PINS_ELIMINATION : SL_PINS_CAPACITANCE;
+    info->reason = P->reason;
+    info->count = P->count;
+    info->eliminated = P->n_held;
+    info->seconds_capacitance = P->capacitance;
+    info->seconds_elimination = P->elimination;
+    info->seconds = sli_seconds() - started;
+  }
+}
+
+static sl_status sli_pins_renew(sl_pins *P, double *values, sl_stats *stats) {
+  sli_pins_target t;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = sli_pins_check(P->F);
+  memset(&t, 0, sizeof t);
+  status = status == SL_OK ? sli_pins_target_make(&t, &b, P, 0) : status;
+  if (status == SL_OK) {
+    sli_pins_target_add(&t, P, NULL);
+    status = sli_pins_remake(P, &t, values, 1.0, 1, stats);
+  }
+  sli_free(&P->allocator, b.base);
+  if (status != SL_OK) {
+    P->numbers.generation = 0;
+  }
+  return status;
+}
+
+SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats) {
+  const double started = sli_seconds(), one = 1.0;
+  sli_source from;
+  double *values, error;
+  sl_status status;
+  sl_int row;
+  sl_off m, entries;
+  sli_stats_clear_error(stats);
+  if (P == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_factor_fits(P->F, A);
+  if (status != SL_OK) {
+    return status;
+  }
+  entries = P->F->S->scatter_begin[P->F->S->n_supers];
+  values = (double *)sli_alloc(&P->allocator, ((size_t)entries + 1) * sizeof *values);
+  if (values == NULL) {
+    return SL_ERR_MEMORY;
+  }
+  for (m = 0; m < entries; m++) {
+    values[m] = A->x[P->F->S->scatter_from[m]];
+  }
+  from.A = NULL;
+  from.values = (const double *const *)&values;
+  from.coefficients = &one;
+  from.terms = 1;
+  status = sli_pins_probe(P->F, &from, &P->allocator, &row, &error);
+  if (status == SL_OK &&
+    !(error <= (sli_is_float(P->F) ? SLI_PINS_OTHER_FLOAT : SLI_PINS_OTHER))) {
+    status = sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, error);
+  }
+  if (status == SL_OK && !sli_pins_can_hold(P->F)) {
+    status = sli_numbers_are_of(&P->numbers, P->F) ? SL_OK : sli_pins_renew(P, NULL, stats);
+    P->reason = SL_PINS_UNSUITED;
+    sli_free(&P->allocator, values);
+  } else if (status == SL_OK && sli_numbers_are_of(&P->numbers, P->F)) {
+    sli_free(&P->allocator, P->values);
+    P->values = values;
+    P->reason = SL_PINS_CHEAPEST;
+    P->threshold = sli_pins_look_cost(P);
+  } else {
+    status = status == SL_OK ? sli_pins_renew(P, values, stats) : status;
+    if (status != SL_OK) {
+      sli_free(&P->allocator, values);
+    }
+  }
+  if (status == SL_OK) {
+    sli_pins_report(P, started, stats);
+  }
+  return status;
+}
+
+SL_API sl_status sl_pins_refactor(sl_pins *P) {
+  return P == NULL ? SL_ERR_ARGUMENT : sli_pins_renew(P, NULL, NULL);
+}
+
+/* src/impl/change/pins.h: sets of pins: created, added, released */
+
 SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
   const sl_allocator a = sli_allocator(opt);
-  sli_block b = {NULL, 0, 0};
   sl_pins *P = NULL;
-  sl_status status = SL_OK;
-  int pass;
+  sl_status status;
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
   }
@@ -22840,20 +23588,23 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
   if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
     return SL_ERR_ARGUMENT;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    P = (sl_pins *)sli_take(&b, 1, sizeof *P);
-    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+  status = sli_pins_check(F);
+  if (status != SL_OK) {
+    return status;
   }
+  P = (sl_pins *)sli_alloc(&a, sizeof *P);
+  if (P == NULL) {
+    return SL_ERR_MEMORY;
+  }
+  memset(P, 0, sizeof *P);
+  P->allocator = a;
+  P->F = P->base = F;
+  P->reason = SL_PINS_NO_MATRIX;
+  status = sli_pins_take(P);
   if (status == SL_OK) {
-    memset(P, 0, sizeof *P);
-    P->allocator = a;
-    P->F = F;
-    status = sli_pins_take(P);
-    if (status == SL_OK) {
-      *out = P;
-    } else {
-      sl_pins_free(P);
-    }
+    *out = P;
+  } else {
+    sl_pins_free(P);
   }
   return status;
 }
@@ -22861,20 +23612,36 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
 SL_API void sl_pins_free(sl_pins *P) {
   if (P != NULL) {
     const sl_allocator a = P->allocator;
-    sl_int k;
-    for (k = 0; k < P->count; k++) {
-      sli_pin_free(P, P->pins[k]);
-    }
-    sli_free(&a, P->pins);
-    sli_free(&a, P->uses);
+    sli_pins_release(P);
+    sl_factor_free(P->G);
+    sli_free(&a, P->values);
     sli_free(&a, P);
   }
 }
 
+static void sli_pins_drop(sl_pins *P, sl_int index) {
+  sl_int k, at = 0;
+  while (P->pins[at]->index != index) {
+    at++;
+  }
+  if (P->numbers.generation != 0) {
+    sli_pins_count_nulls(P, P->pins[at], 0);
+  }
+  sli_pin_free(P, P->pins[at]);
+  sli_pins_remove(P, at);
+  for (k = 0; k < P->n_pins; k++) {
+    P->pins[k]->index -= P->pins[k]->index > index;
+  }
+  for (k = 0; k < P->n_held; k++) {
+    P->held_pin[k] -= P->held_pin[k] > index;
+  }
+  P->count--;
+  memmove(P->rows + index, P->rows + index + 1, (size_t)(P->count - index) * sizeof *P->rows);
+}
+
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                     sl_int count, sl_stats *stats) {
-  sli_pin *pin = NULL;
-  double *y = NULL;
+  const double started = sli_seconds();
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
@@ -22889,79 +23656,210 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
     }
   }
-  status = sli_pins_grow(P);
-  status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
-  if (status != SL_OK) {
-    return status;
+  status = sli_pins_reserve(P, (sl_off)P->count + 1);
+  status = status == SL_OK ? sli_pins_push(P, P->count, rows, values, count, stats) : status;
+  if (status == SL_OK) {
+    P->rows[P->count++] = -1;
+    sli_pins_report(P, started, stats);
   }
-  y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
-  status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
-  sli_free(&P->allocator, y);
-  if (status != SL_OK) {
-    sli_pin_free(P, pin);
-    return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
+  return status;
+}
+
+static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_int count,
+                       sl_stats *stats) {
+  const double one = 1.0;
+  const sl_int before = P->count;
+  sl_status status = sli_pins_reserve(P, (sl_off)P->count + count);
+  sl_int k;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status = sli_pins_push(P, P->count, &rows[k], &one, 1, stats);
+    if (status == SL_OK) {
+      P->rows[P->count++] = rows[k];
+    }
   }
-  sli_pins_count_nulls(P, pin, 1);
-  P->pins[P->count++] = pin;
-  return SL_OK;
+  while (status != SL_OK && P->count > before) {
+    sli_pins_drop(P, P->count - 1);
+  }
+  return status;
+}
+
+static sl_status sli_pins_adding_cost(const sl_pins *P, const sl_int *rows, sl_int count,
+                    double *seconds) {
+  const sl_symbolic *S = P->F->S;
+  sli_block b = {NULL, 0, 0};
+  uint64_t *list = NULL, one;
+  sl_int *uses = NULL, k;
+  sl_status status = SL_OK;
+  int pass;
+  if (count == 1) {
+    one = sli_keyed(S->iperm[rows[0]], 0);
+    *seconds = sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
+    return SL_OK;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    list = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
+    uses = SLI_TAKE(&b, sl_int, S->n_supers);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    memset(uses, 0, (size_t)S->n_supers * sizeof *uses);
+    for (k = 0; k < count; k++) {
+      list[k] = sli_keyed(S->iperm[rows[k]], 0);
+    }
+    sli_sort(list, count, list + count);
+    *seconds = sli_pins_capacitance_cost(S, list, count, P->n_pins, uses);
+  }
+  sli_free(&P->allocator, b.base);
+  return status;
+}
+
+static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_int count,
+                       double seconds, int *is_done, sl_stats *stats) {
+  sli_pins_target t;
+  sli_holding h;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = sli_pins_target_make(&t, &b, P, count);
+  double elimination = 0.0;
+  memset(&h, 0, sizeof h);
+  if (status == SL_OK) {
+    sli_pins_target_add(&t, P, NULL);
+    memcpy(t.rows + t.count, rows, (size_t)count * sizeof *rows);
+    t.count += count;
+    status = sli_holding_begin(&h, P, t.rows, t.count, 0, stats);
+  }
+  if (status == SL_OK) {
+    elimination = sli_pins_elimination_cost(P, &h);
+    P->capacitance = P->spent + seconds;
+    P->elimination = elimination;
+    *is_done = P->capacitance > elimination;
+    if (!*is_done) {
+      P->threshold = fmax(0.9 * elimination, 1.2 * P->capacitance);
+    }
+  }
+  if (*is_done) {
+    status = sli_pins_rebuild(P, &t, &h, 0, stats);
+    *is_done = status == SL_OK;
+    P->reason = sli_pins_is_numeric(status) ? SL_PINS_REFUSED : SL_PINS_CHEAPEST;
+    if (*is_done) {
+      P->spent = 0.0;
+      P->threshold = sli_pins_look_cost(P);
+    } else if (sli_pins_is_numeric(status)) {
+      P->threshold = (double)INFINITY;
+      status = SL_OK;
+    }
+  }
+  sli_free(&P->allocator, h.block);
+  sli_free(&P->allocator, b.base);
+  return status;
+}
+
+SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
+  const double started = sli_seconds();
+  double seconds = 0.0;
+  sl_status status = SL_OK;
+  sl_int k;
+  int is_done = 0;
+  sli_stats_clear_error(stats);
+  if (P == NULL || count < 0 || (count > 0 && rows == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
+    return SL_ERR_STATE;
+  }
+  for (k = 0; k < count; k++) {
+    if (rows[k] < 0 || rows[k] >= P->F->S->n) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0);
+    }
+    if (sli_held_find(P, P->F->S->iperm[rows[k]]) != -1) {
+      return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0);
+    }
+  }
+  if (P->values != NULL && count > 0) {
+    status = sli_pins_adding_cost(P, rows, count, &seconds);
+    if (status == SL_OK && P->spent + seconds > P->threshold) {
+      status = sli_pins_add_by_elimination(P, rows, count, seconds, &is_done, stats);
+    }
+  }
+  if (status == SL_OK && !is_done) {
+    status = sli_pins_add_by_capacitance(P, rows, count, stats);
+    P->spent += status == SL_OK ? seconds : 0.0;
+  }
+  if (status == SL_OK) {
+    sli_pins_report(P, started, stats);
+  }
+  return status;
 }
 
 SL_API sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats) {
-  const double one = 1.0;
-  return sl_pins_add_equality(P, &row, &one, 1, stats);
+  return sl_pins_add_rows(P, &row, 1, stats);
+}
+
+SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int count,
+                    sl_stats *stats) {
+  const double started = sli_seconds();
+  sli_pins_target t;
+  sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
+  unsigned char *gone = NULL;
+  sl_status status = SL_OK;
+  sl_int k, held = 0;
+  int pass;
+  sli_stats_clear_error(stats);
+  if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    gone = SLI_TAKE(&b, unsigned char, P->count);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  if (status == SL_OK && P->count > 0) {
+    memset(gone, 0, (size_t)P->count);
+  }
+  for (k = 0; k < count && status == SL_OK; k++) {
+    if (indices[k] < 0 || indices[k] >= P->count || gone[indices[k]]) {
+      status = SL_ERR_ARGUMENT;
+    } else {
+      gone[indices[k]] = 1;
+    }
+  }
+  for (k = 0; k < P->n_held && status == SL_OK; k++) {
+    held += gone[P->held_pin[k]];
+  }
+  if (status == SL_OK && held > 0) {
+    if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
+      status = SL_ERR_STATE;
+    }
+    status = status == SL_OK ? sli_pins_target_make(&t, &targets, P, 0) : status;
+    if (status == SL_OK) {
+      sli_pins_target_add(&t, P, gone);
+      status = sli_pins_remake(P, &t, P->values, 2.0, 0, stats);
+    }
+    sli_free(&P->allocator, targets.base);
+  }
+  for (k = P->count - 1; k >= 0 && status == SL_OK && held == 0; k--) {
+    if (gone[k]) {
+      sli_pins_drop(P, k);
+    }
+  }
+  sli_free(&P->allocator, b.base);
+  if (status == SL_OK) {
+    sli_pins_report(P, started, stats);
+  }
+  return status;
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
-  sli_pin *pin;
   if (P == NULL || index < 0 || index >= P->count) {
     return SL_ERR_ARGUMENT;
   }
-  pin = P->pins[index];
-  sli_pins_remove(P, index);
-  if (P->numbers.generation != 0) {
-    sli_pins_count_nulls(P, pin, 0);
+  if (P->rows[index] == -1 || sli_held_find(P, P->F->S->iperm[P->rows[index]]) == -1) {
+    sli_pins_drop(P, index);
+    return SL_OK;
   }
-  sli_pin_free(P, pin);
-  return SL_OK;
+  return sl_pins_release_rows(P, &index, 1, NULL);
 }
 
 SL_API sl_int sl_pins_count(const sl_pins *P) {
   return P == NULL ? 0 : P->count;
-}
-
-SL_API sl_status sl_pins_refactor(sl_pins *P) {
-  sli_block b = {NULL, 0, 0};
-  double *scratch = NULL, *y = NULL;
-  sl_status status;
-  sl_int count, k, row, columns = 0;
-  int pass;
-  if (P == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_pins_take(P);
-  P->numbers.generation = 0;
-  for (k = 0; k < P->count; k++) {
-    columns = sli_max(columns, P->pins[k]->R.columns);
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
-    y = SLI_TAKE(&b, double, columns);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
-  }
-  count = P->count;
-  P->count = 0;
-  for (k = 0; k < count && status == SL_OK; k++) {
-    status = sli_pin_sweep(P, P->pins[k], scratch, &row);
-    status = status == SL_OK ? sli_pins_append(P, P->pins[k], y) : status;
-    P->count++;
-  }
-  P->count = count;
-  for (k = 0; k < count && status == SL_OK; k++) {
-    sli_pins_count_nulls(P, P->pins[k], 1);
-  }
-  P->numbers.generation = status == SL_OK ? P->F->generation : 0;
-  sli_free(&P->allocator, b.base);
-  return status;
 }
 
 /* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */
@@ -22970,20 +23868,31 @@ typedef struct sli_pins_work {
   unsigned char *memory;
   double *u;
   double *f;
+  double *e;
+  double *scratch;
   sli_pins_nulls nulls;
 } sli_pins_work;
+
+SLI_INLINE int sli_pins_is_whole(const sli_query *q) {
+  return q->forward.steps == q->S->steps;
+}
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
               sl_int nrhs) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
-  w->u = SLI_TAKE(b, double, P->count == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
-  w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
+  w->u = SLI_TAKE(b, double, P->n_pins == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
+  w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
+  if (P->n_held > 0 && !sli_pins_is_whole(q)) {
+    const sli_reach *R = &P->held_reach;
+    w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
+    w->scratch = SLI_TAKE(b, double, 2 * sli_sweep_scratch(R->tallest, R->widest, 8));
+  }
   sli_pins_nulls_layout(&w->nulls, b, P);
 }
 
 static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
-  const size_t count = (size_t)P->count, ld = (size_t)w->count;
+  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
   sl_int a, b, p, k;
   (void)sli_pins_nulls_begin(w, P);
   sli_pins_nulls_load(w, P);
@@ -22991,7 +23900,7 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
   for (a = 0; a < w->count; a++) {
     sli_pins_apply(P, w->W + (size_t)a * count, 1);
   }
-  for (p = 0; p < P->count; p++) {
+  for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
     for (k = 0; k < pin->n_nulls; k++) {
       const size_t row = (size_t)w->place[pin->nulls[k]];
@@ -23022,7 +23931,7 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
 
 static void sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
                const double *b, sl_int lanes) {
-  const sl_factor *F = P->F;
+  const sl_factor *F = P->base;
   const sli_reach *R = &q->forward;
   sl_int first = 0, s, m, k;
   memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
@@ -23060,9 +23969,9 @@ static void sli_pins_clear(const sl_factor *F, const sli_reach *R, double *y, sl
 }
 
 static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes) {
-  const size_t count = (size_t)P->count, ld = (size_t)w->count;
+  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
   sl_int a, b, p, k, r;
-  for (p = 0; p < P->count; p++) {
+  for (p = 0; p < P->n_pins; p++) {
     for (k = 0; k < P->pins[p]->n_nulls; k++) {
       double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
       for (r = 0; r < lanes; r++) {
@@ -23085,7 +23994,7 @@ static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *
       }
     }
     for (a = 0; a < w->count; a++) {
-      for (p = 0; p < P->count && s[a * lanes] != 0.0; p++) {
+      for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
         f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
       }
     }
@@ -23094,7 +24003,7 @@ static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *
 
 static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
                sl_int lanes) {
-  const sl_factor *F = P->F;
+  const sl_factor *F = P->base;
   const sli_reach *R = &q->backward;
   sl_int first = 0, root, s, m, k, r;
   for (root = 0; root < R->count && w->count > 0; root++) {
@@ -23122,26 +24031,64 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
   }
 }
 
-static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
-               sli_dense x_at, const double *B, sli_dense b_at, const double *G,
-               size_t ldg, sl_int nrhs) {
-  const sl_factor *F = P->F;
-  const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
+static void sli_pins_couple(const sl_pins *P, double *y, int is_whole, const double *G, size_t ldg,
+              sl_int lanes, sl_int nrhs) {
+  const sl_int *to = is_whole ? P->coupling_column : P->coupling_to;
+  sl_int k, r;
+  for (k = 0; k < P->n_couplings; k++) {
+    const double *g = G + P->held_pin[P->coupling_from[k]];
+    for (r = 0; r < nrhs; r++) {
+      y[(ptrdiff_t)to[k] * lanes + r] -= P->couplings[k] * g[ldg * (size_t)r];
+    }
+  }
+}
+
+static void sli_pins_set_held(const sl_pins *P, const sli_reach *R, double *x, sl_int lanes,
+                const double *G, size_t ldg, sl_int nrhs) {
+  sl_int k, r;
+  for (k = 0; k < P->n_held; k++) {
+    const sl_int at = sli_reach_index_of(R, P->held[k]);
+    for (r = 0; r < lanes && at != -1; r++) {
+      x[(ptrdiff_t)at * lanes + r] =
+        G != NULL && r < nrhs ? G[(size_t)P->held_pin[k] + ldg * (size_t)r] : 0.0;
+    }
+  }
+}
+
+static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
+              const double *G, size_t ldg, sl_int nrhs) {
+  const sli_reach *R = &P->held_reach;
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
-  sl_int p, r, k;
-  sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
-  sli_pins_defects(P, q, &w->nulls, v.y, lanes);
-  sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
-  sli_pins_clear(F, &q->forward, v.y, lanes);
-  if (P->count > 0) {
-    memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
-    sli_divide(F, &q->forward, w->u, lanes);
+  sli_intersection m = sli_intersection_of(R, &q->backward);
+  sl_int k;
+  memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
+  sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
+  sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
+  sli_pins_clear(P->base, R, w->e, lanes);
+  while (sli_intersection_next(&m)) {
+    const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
+    double *to = x + (ptrdiff_t)m.in_b * lanes;
+    for (k = 0; k < m.count * lanes; k++) {
+      to[k] += e[k];
+    }
   }
-  for (p = 0; p < P->count; p++) {
+  sli_divide(P->base, R, w->e, lanes);
+}
+
+static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
+              const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
+  sl_int p, r, k;
+  for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
-    double sums[SLI_TILE];
+    double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
     sli_pin_dot(pin, &q->forward, w->u, lanes, sums);
+    if (P->n_held > 0 && !sli_pins_is_whole(q)) {
+      sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
+      for (r = 0; r < lanes; r++) {
+        sums[r] += more[r];
+      }
+    }
     for (k = 0; k < pin->n_nulls; k++) {
       const double *s = w->nulls.s + (ptrdiff_t)w->nulls.place[pin->nulls[k]] * lanes;
       for (r = 0; r < lanes; r++) {
@@ -23149,20 +24096,53 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
       }
     }
     for (r = 0; r < lanes; r++) {
-      w->f[p * lanes + r] = r < nrhs ? G[(size_t)p + ldg * (size_t)r] - sums[r] : 0.0;
+      f[r] = r < nrhs ? G[(size_t)pin->index + ldg * (size_t)r] - sums[r] : 0.0;
+    }
+    for (k = 0; k < pin->count && P->n_held > 0; k++) {
+      const sl_int at = sli_held_find(P, P->F->S->iperm[pin->rows[k]]);
+      for (r = 0; r < nrhs && at != -1; r++) {
+        f[r] -= pin->values[k] * G[(size_t)P->held_pin[at] + ldg * (size_t)r];
+      }
     }
   }
-  sli_pins_apply(P, w->f, lanes);
-  sli_pins_balance(P, &w->nulls, w->f, lanes);
+}
+
+static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
+               sli_dense x_at, const double *B, sli_dense b_at, const double *G,
+               size_t ldg, sl_int nrhs) {
+  const sl_factor *F = P->base;
+  const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
+  const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
+  const sl_int lanes = (sl_int)1 << kind;
+  sl_int p;
+  sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
+  sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
+  sli_pins_defects(P, q, &w->nulls, v.y, lanes);
+  if (is_whole) {
+    sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);
+  }
+  sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
+  sli_pins_clear(F, &q->forward, v.y, lanes);
+  if (P->n_pins > 0) {
+    memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+    sli_divide(F, &q->forward, w->u, lanes);
+  }
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
   }
-  for (p = 0; p < P->count; p++) {
+  if (P->n_held > 0 && !is_whole) {
+    sli_pins_spread(P, q, w, v.x, G, ldg, nrhs);
+  }
+  sli_pins_load(P, q, w, G, ldg, lanes, nrhs);
+  sli_pins_apply(P, w->f, lanes);
+  sli_pins_balance(P, &w->nulls, w->f, lanes);
+  for (p = 0; p < P->n_pins; p++) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
   sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
              q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
   sli_pins_shift(P, q, &w->nulls, v.x, lanes);
+  sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
   sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
 }
 
@@ -28764,6 +29744,14 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_LATTICE_SHARE
 #undef SLI_NULL_ANCHOR
 #undef SLI_NULL_DEPENDENT
+#undef SLI_PINS_ENTRY
+#undef SLI_PINS_TERM
+#undef SLI_PINS_STEP
+#undef SLI_PINS_DENSE
+#undef SLI_PINS_MAP
+#undef SLI_PINS_MEMORY
+#undef SLI_PINS_OTHER
+#undef SLI_PINS_OTHER_FLOAT
 #undef SLI_NULL_VECTORS_MAX
 #undef SLI_PAGES_PER_COLUMN
 #undef SLI_PAGE_BITS

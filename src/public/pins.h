@@ -7,7 +7,9 @@
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
- *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep.
+ *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. If
+ *  the matrix is known (sl_pins_set_matrix), many pins are eliminated instead: a second factor, in
+ *  which their rows are those of the identity, over the same analysis.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
@@ -40,10 +42,23 @@ SL_API void sl_pins_free(sl_pins *P);
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
- *           the path, and 4 per row below its supernodes.
+ *           the path, and 4 per row below its supernodes. If the matrix is known, k counts the pins
+ *           since the last elimination, and once their cost exceeds that of the next one, all are
+ *           eliminated: pins that come one by one cost at most about twice as much as together.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
+
+/** Adds pins, all or none, by the cheaper way. They become the last ones of P, in this order.
+ *
+ *  rows   [in]   count >= 0 rows.
+ *  stats  [out]  pins; error.row; may be NULL.
+ *  Returns, Threads  as in sl_pins_add.
+ *  Cost     by the capacitance matrix as in sl_pins_add; by elimination a copy of the factor if P
+ *           has none yet, and a refactorization of the reach of the changed rows, or of all.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count,
+                                                 sl_stats *stats);
 
 /** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
  *  value 1.
@@ -57,14 +72,49 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
 
 /** Releases pin number `index`, 0-based. Those after it move down by one.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT.  Cost  O(k^2).  Threads  exclusive use of P.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; of a pin that is eliminated as sl_pins_release_rows.
+ *  Cost     O(k^2); of a pin that is eliminated as sl_pins_release_rows.
+ *  Threads  exclusive use of P.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
+
+/** Releases pins, all or none. The others move together and keep their order.
+ *
+ *  indices  [in]   count >= 0 different numbers of pins, in any order.
+ *  stats    [out]  pins; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
+ *           also SL_ERR_STATE: F has changed, and the errors of sl_pins_add. On error P is as
+ *           before.
+ *  Cost     O(k^2) for each. If some are eliminated, the others are eliminated anew, by the reach
+ *           of the released rows, or added anew by the capacitance matrix: release them together.
+ *  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices,
+                                                     sl_int count, sl_stats *stats);
+
+/** Gives P the matrix of F, so that pins may be eliminated. After F has changed this also takes
+ *  its present numbers, as sl_pins_refactor does, by the cheaper way. Both ways give the same
+ *  solutions, to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX pins
+ *  stay with the capacitance matrix (stats.pins.reason).
+ *
+ *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
+ *                with a random right-hand side.
+ *  stats  [out]  pins; error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: not the
+ *           analyzed pattern; SL_ERR_STATE: failed factor; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; after F
+ *           has changed also the errors of sl_pins_refactor.
+ *  Cost     a solve and two products with A; 8 bytes per entry of A. Elimination keeps a second
+ *           factor.
+ *  Threads  exclusive use of P; F is read.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats);
 
 /** The number k of pins and equalities. */
 SL_API sl_int sl_pins_count(const sl_pins *P);
 
-/** Takes the present numbers of the factor, after it has changed.
+/** Takes the present numbers of the factor, after it has changed. The matrix that P may have been
+ *  given is forgotten, and all pins use the capacitance matrix: sl_pins_set_matrix does the same
+ *  with the new matrix.
  *
  *  Returns  as sl_pins_add. On error solves are refused until a later call succeeds.
  *  Cost     k forward sweeps and O(k^3).  Threads  exclusive use of P; F is read.
@@ -87,8 +137,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
  *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: rounding hides
  *           whether the pins rule out the motions of a body; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
- *  Cost     a solve, k products over shared columns, twice, and O(k^2), for each right-hand side
- *           and for each null vector of components with pins.
+ *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
+ *           over shared columns, twice, and O(k^2); as much for each null vector of components with
+ *           pins. Eliminated pins: with a plan the forward sweep of their neighbors.
  *  Threads  any number at once on one P, each with its own W.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,

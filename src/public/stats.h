@@ -160,6 +160,18 @@ typedef struct sl_reuse_info {
     double seconds;          /* processor seconds, summed over all threads */
 } sl_reuse_info;
 
+/** A set of pins: sl_pins_set_matrix, _add, _add_rows, _add_equality, _release_rows. */
+typedef struct sl_pins_info {
+    sl_pins_method method; /* the way in use */
+    sl_pins_reason reason; /* why */
+    sl_int count;          /* pins and equalities */
+    sl_int eliminated;     /* those that are eliminated */
+    /* of the last choice, as estimated from counts; 0: there was none yet */
+    double seconds_capacitance;
+    double seconds_elimination; /* the same */
+    double seconds;             /* processor seconds of the call */
+} sl_pins_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -177,8 +189,9 @@ typedef struct sl_stats {
     sl_edit_info edit;
     sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
+    sl_pins_info pins;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[3];
+    sl_off reserved[24];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

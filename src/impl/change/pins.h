@@ -1,46 +1,13 @@
-/* pins.h: sets of pins: created, added, released, refactored */
+/* pins.h: sets of pins: created, added, released */
 #ifndef SLI_CHANGE_PINS_H
 #define SLI_CHANGE_PINS_H
 
-#include "pins_capacitance.h"
-
-/* Takes the numbers of F. */
-static sl_status sli_pins_take(sl_pins *P) {
-    const sl_factor *F = P->F;
-    const sl_factor_info *info = &F->stats.factor;
-    sl_status status = SL_OK;
-    sl_int *uses = NULL;
-    if (!F->is_valid) {
-        return SL_ERR_STATE;
-    }
-    if (F->E != NULL || (info->positive > 0 && info->negative > 0)) {
-        return SL_ERR_UNSUPPORTED;
-    }
-    P->sign = info->negative > 0 ? -1.0 : 1.0;
-    P->delta = P->sign * (info->pivot_max > 0.0 ? info->pivot_max : 1.0);
-    if (F->n_nulls > 0) {
-        status = SL_ERR_MEMORY;
-        uses = (sl_int *)sli_alloc(&P->allocator, (size_t)F->n_nulls * sizeof *uses);
-        if (uses != NULL) {
-            memset(uses, 0, (size_t)F->n_nulls * sizeof *uses);
-            status = SL_OK;
-        }
-    }
-    if (status == SL_OK) {
-        sli_free(&P->allocator, P->uses);
-        P->uses = uses;
-        P->n_used = 0;
-        P->numbers = sli_numbers_of(F);
-    }
-    return status;
-}
+#include "pins_matrix.h"
 
 SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_options *opt) {
     const sl_allocator a = sli_allocator(opt);
-    sli_block b = {NULL, 0, 0};
     sl_pins *P = NULL;
-    sl_status status = SL_OK;
-    int pass;
+    sl_status status;
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
@@ -48,20 +15,23 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
     if (F == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        P = (sl_pins *)sli_take(&b, 1, sizeof *P);
-        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    status = sli_pins_check(F);
+    if (status != SL_OK) {
+        return status;
     }
+    P = (sl_pins *)sli_alloc(&a, sizeof *P);
+    if (P == NULL) {
+        return SL_ERR_MEMORY;
+    }
+    memset(P, 0, sizeof *P);
+    P->allocator = a;
+    P->F = P->base = F;
+    P->reason = SL_PINS_NO_MATRIX;
+    status = sli_pins_take(P);
     if (status == SL_OK) {
-        memset(P, 0, sizeof *P);
-        P->allocator = a;
-        P->F = F;
-        status = sli_pins_take(P);
-        if (status == SL_OK) {
-            *out = P;
-        } else {
-            sl_pins_free(P);
-        }
+        *out = P;
+    } else {
+        sl_pins_free(P);
     }
     return status;
 }
@@ -69,20 +39,37 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
 SL_API void sl_pins_free(sl_pins *P) {
     if (P != NULL) {
         const sl_allocator a = P->allocator;
-        sl_int k;
-        for (k = 0; k < P->count; k++) {
-            sli_pin_free(P, P->pins[k]);
-        }
-        sli_free(&a, P->pins);
-        sli_free(&a, P->uses);
+        sli_pins_release(P);
+        sl_factor_free(P->G);
+        sli_free(&a, P->values);
         sli_free(&a, P);
     }
 }
 
+/* Takes pin number `index`, which is not held, out of the set. */
+static void sli_pins_drop(sl_pins *P, sl_int index) {
+    sl_int k, at = 0;
+    while (P->pins[at]->index != index) {
+        at++;
+    }
+    if (P->numbers.generation != 0) { /* else its null pivots may be those of another F */
+        sli_pins_count_nulls(P, P->pins[at], 0);
+    }
+    sli_pin_free(P, P->pins[at]);
+    sli_pins_remove(P, at);
+    for (k = 0; k < P->n_pins; k++) {
+        P->pins[k]->index -= P->pins[k]->index > index;
+    }
+    for (k = 0; k < P->n_held; k++) {
+        P->held_pin[k] -= P->held_pin[k] > index;
+    }
+    P->count--;
+    memmove(P->rows + index, P->rows + index + 1, (size_t)(P->count - index) * sizeof *P->rows);
+}
+
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                                       sl_int count, sl_stats *stats) {
-    sli_pin *pin = NULL;
-    double *y = NULL;
+    const double started = sli_seconds();
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
@@ -97,79 +84,214 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
             return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
         }
     }
-    status = sli_pins_grow(P);
-    status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
-    if (status != SL_OK) {
-        return status;
+    status = sli_pins_reserve(P, (sl_off)P->count + 1);
+    status = status == SL_OK ? sli_pins_push(P, P->count, rows, values, count, stats) : status;
+    if (status == SL_OK) {
+        P->rows[P->count++] = -1;
+        sli_pins_report(P, started, stats);
     }
-    y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
-    status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
-    sli_free(&P->allocator, y);
-    if (status != SL_OK) {
-        sli_pin_free(P, pin);
-        return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
+    return status;
+}
+
+/* Adds pins by the capacitance matrix: all of them, or none. */
+static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_int count,
+                                             sl_stats *stats) {
+    const double one = 1.0;
+    const sl_int before = P->count;
+    sl_status status = sli_pins_reserve(P, (sl_off)P->count + count);
+    sl_int k;
+    for (k = 0; k < count && status == SL_OK; k++) {
+        status = sli_pins_push(P, P->count, &rows[k], &one, 1, stats);
+        if (status == SL_OK) {
+            P->rows[P->count++] = rows[k];
+        }
     }
-    sli_pins_count_nulls(P, pin, 1);
-    P->pins[P->count++] = pin;
-    return SL_OK;
+    while (status != SL_OK && P->count > before) {
+        sli_pins_drop(P, P->count - 1);
+    }
+    return status;
+}
+
+/* Seconds of new pins beside those that are there. */
+static sl_status sli_pins_adding_cost(const sl_pins *P, const sl_int *rows, sl_int count,
+                                      double *seconds) {
+    const sl_symbolic *S = P->F->S;
+    sli_block b = {NULL, 0, 0};
+    uint64_t *list = NULL, one;
+    sl_int *uses = NULL, k;
+    sl_status status = SL_OK;
+    int pass;
+    if (count == 1) {
+        one = sli_keyed(S->iperm[rows[0]], 0);
+        *seconds = sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
+        return SL_OK;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        list = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
+        uses = SLI_TAKE(&b, sl_int, S->n_supers);
+        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+        memset(uses, 0, (size_t)S->n_supers * sizeof *uses);
+        for (k = 0; k < count; k++) {
+            list[k] = sli_keyed(S->iperm[rows[k]], 0);
+        }
+        sli_sort(list, count, list + count);
+        *seconds = sli_pins_capacitance_cost(S, list, count, P->n_pins, uses);
+    }
+    sli_free(&P->allocator, b.base);
+    return status;
+}
+
+/* Adds pins by elimination if that is cheaper than what capacitance has cost since the last choice
+ * and would cost now. *is_done: they are added. */
+static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_int count,
+                                             double seconds, int *is_done, sl_stats *stats) {
+    sli_pins_target t;
+    sli_holding h;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = sli_pins_target_make(&t, &b, P, count);
+    double elimination = 0.0;
+    memset(&h, 0, sizeof h);
+    if (status == SL_OK) {
+        sli_pins_target_add(&t, P, NULL);
+        memcpy(t.rows + t.count, rows, (size_t)count * sizeof *rows);
+        t.count += count;
+        status = sli_holding_begin(&h, P, t.rows, t.count, 0, stats);
+    }
+    if (status == SL_OK) {
+        elimination = sli_pins_elimination_cost(P, &h);
+        P->capacitance = P->spent + seconds;
+        P->elimination = elimination;
+        *is_done = P->capacitance > elimination;
+        if (!*is_done) {
+            P->threshold = fmax(0.9 * elimination, 1.2 * P->capacitance);
+        }
+    }
+    if (*is_done) {
+        status = sli_pins_rebuild(P, &t, &h, 0, stats);
+        *is_done = status == SL_OK;
+        P->reason = sli_pins_is_numeric(status) ? SL_PINS_REFUSED : SL_PINS_CHEAPEST;
+        if (*is_done) {
+            P->spent = 0.0;
+            P->threshold = sli_pins_look_cost(P);
+        } else if (sli_pins_is_numeric(status)) {
+            P->threshold = (double)INFINITY;
+            status = SL_OK;
+        }
+    }
+    sli_free(&P->allocator, h.block);
+    sli_free(&P->allocator, b.base);
+    return status;
+}
+
+SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
+    const double started = sli_seconds();
+    double seconds = 0.0;
+    sl_status status = SL_OK;
+    sl_int k;
+    int is_done = 0;
+    sli_stats_clear_error(stats);
+    if (P == NULL || count < 0 || (count > 0 && rows == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
+        return SL_ERR_STATE;
+    }
+    for (k = 0; k < count; k++) {
+        if (rows[k] < 0 || rows[k] >= P->F->S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0);
+        }
+        if (sli_held_find(P, P->F->S->iperm[rows[k]]) != -1) {
+            return sli_fail_at(stats, SL_ERR_PIVOT, rows[k], -1, 0.0);
+        }
+    }
+    if (P->values != NULL && count > 0) {
+        status = sli_pins_adding_cost(P, rows, count, &seconds);
+        if (status == SL_OK && P->spent + seconds > P->threshold) {
+            status = sli_pins_add_by_elimination(P, rows, count, seconds, &is_done, stats);
+        }
+    }
+    if (status == SL_OK && !is_done) {
+        status = sli_pins_add_by_capacitance(P, rows, count, stats);
+        P->spent += status == SL_OK ? seconds : 0.0;
+    }
+    if (status == SL_OK) {
+        sli_pins_report(P, started, stats);
+    }
+    return status;
 }
 
 SL_API sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats) {
-    const double one = 1.0;
-    return sl_pins_add_equality(P, &row, &one, 1, stats);
+    return sl_pins_add_rows(P, &row, 1, stats);
+}
+
+SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int count,
+                                      sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_pins_target t;
+    sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
+    unsigned char *gone = NULL;
+    sl_status status = SL_OK;
+    sl_int k, held = 0;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        gone = SLI_TAKE(&b, unsigned char, P->count);
+        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+    }
+    if (status == SL_OK && P->count > 0) {
+        memset(gone, 0, (size_t)P->count);
+    }
+    for (k = 0; k < count && status == SL_OK; k++) {
+        if (indices[k] < 0 || indices[k] >= P->count || gone[indices[k]]) {
+            status = SL_ERR_ARGUMENT;
+        } else {
+            gone[indices[k]] = 1;
+        }
+    }
+    for (k = 0; k < P->n_held && status == SL_OK; k++) {
+        held += gone[P->held_pin[k]];
+    }
+    if (status == SL_OK && held > 0) {
+        if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
+            status = SL_ERR_STATE;
+        }
+        status = status == SL_OK ? sli_pins_target_make(&t, &targets, P, 0) : status;
+        if (status == SL_OK) {
+            sli_pins_target_add(&t, P, gone);
+            status = sli_pins_remake(P, &t, P->values, 2.0, 0, stats);
+        }
+        sli_free(&P->allocator, targets.base);
+    }
+    for (k = P->count - 1; k >= 0 && status == SL_OK && held == 0; k--) {
+        if (gone[k]) {
+            sli_pins_drop(P, k);
+        }
+    }
+    sli_free(&P->allocator, b.base);
+    if (status == SL_OK) {
+        sli_pins_report(P, started, stats);
+    }
+    return status;
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
-    sli_pin *pin;
     if (P == NULL || index < 0 || index >= P->count) {
         return SL_ERR_ARGUMENT;
     }
-    pin = P->pins[index];
-    sli_pins_remove(P, index);
-    if (P->numbers.generation != 0) { /* else its null pivots may be those of another F */
-        sli_pins_count_nulls(P, pin, 0);
+    if (P->rows[index] == -1 || sli_held_find(P, P->F->S->iperm[P->rows[index]]) == -1) {
+        sli_pins_drop(P, index);
+        return SL_OK;
     }
-    sli_pin_free(P, pin);
-    return SL_OK;
+    return sl_pins_release_rows(P, &index, 1, NULL);
 }
 
 SL_API sl_int sl_pins_count(const sl_pins *P) {
     return P == NULL ? 0 : P->count;
-}
-
-SL_API sl_status sl_pins_refactor(sl_pins *P) {
-    sli_block b = {NULL, 0, 0};
-    double *scratch = NULL, *y = NULL;
-    sl_status status;
-    sl_int count, k, row, columns = 0;
-    int pass;
-    if (P == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_pins_take(P);
-    P->numbers.generation = 0; /* until all of them are there */
-    for (k = 0; k < P->count; k++) {
-        columns = sli_max(columns, P->pins[k]->R.columns);
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        scratch = SLI_TAKE(&b, double, sli_sweep_scratch(P->F->S->tallest, P->F->S->widest, 1));
-        y = SLI_TAKE(&b, double, columns);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
-    }
-    count = P->count;
-    P->count = 0;
-    for (k = 0; k < count && status == SL_OK; k++) {
-        status = sli_pin_sweep(P, P->pins[k], scratch, &row);
-        status = status == SL_OK ? sli_pins_append(P, P->pins[k], y) : status;
-        P->count++;
-    }
-    P->count = count;
-    for (k = 0; k < count && status == SL_OK; k++) {
-        sli_pins_count_nulls(P, P->pins[k], 1);
-    }
-    P->numbers.generation = status == SL_OK ? P->F->generation : 0;
-    sli_free(&P->allocator, b.base);
-    return status;
 }
 
 #endif

@@ -6,13 +6,15 @@
 
 /* y := L^-1 P c, and the entries of W. Sets *row where a null vector is not known. */
 static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
-    const sl_factor *F = P->F;
+    const sl_factor *F = P->base;
     const sl_symbolic *S = F->S;
     const sl_status status = sli_pin_find_nulls(P, pin, row);
     sl_int k;
     memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
     for (k = 0; k < pin->count; k++) {
-        pin->y[sli_reach_index_of(&pin->R, S->iperm[pin->rows[k]])] += pin->values[k];
+        const sl_int column = S->iperm[pin->rows[k]];
+        pin->y[sli_reach_index_of(&pin->R, column)] +=
+            sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
     }
     sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
     for (k = 0; k < pin->n_nulls; k++) {
@@ -34,7 +36,7 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
 /* Makes an equality. */
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
                                 const double *values, sl_int count, sl_stats *stats) {
-    const sl_symbolic *S = P->F->S;
+    const sl_symbolic *S = P->base->S;
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sli_set set = sli_set_of(S, rows, count);
     sli_reach R;
@@ -117,15 +119,15 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
     }
 }
 
-/* Appends the last of P->count + 1 equalities to the factor of K. A pin that depends on the others
+/* Appends the last of P->n_pins + 1 equalities to the factor of K. A pin that depends on the others
  * leaves a pivot of rounding errors. y: R.columns of scratch. */
 static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin, double *y) {
-    const sl_int k = P->count;
+    const sl_int k = P->n_pins;
     const size_t ld = (size_t)P->capacity;
     double *row = P->K + (size_t)k * ld, own, d;
     sl_int i;
     memcpy(y, pin->y, (size_t)pin->R.columns * sizeof *y);
-    sli_divide(P->F, &pin->R, y, 1);
+    sli_divide(P->base, &pin->R, y, 1);
     sli_pin_dot(pin, &pin->R, y, 1, &own);
     own += sli_pin_nulls_dot(pin, pin) / P->delta;
     d = own;
@@ -152,28 +154,28 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
     const size_t ld = (size_t)P->capacity;
     double *w = P->scratch, alpha = P->K[(size_t)p * ld + (size_t)p];
     sl_int i, j;
-    for (i = p + 1; i < P->count; i++) {
+    for (i = p + 1; i < P->n_pins; i++) {
         w[i] = P->K[(size_t)i * ld + (size_t)p];
     }
-    for (j = p + 1; j < P->count; j++) {
+    for (j = p + 1; j < P->n_pins; j++) {
         double *at = &P->K[(size_t)j * ld + (size_t)j];
         const double y = w[j], d = *at, e = d + alpha * y * y, b = alpha * y / e;
         alpha *= d / e;
         *at = e;
-        for (i = j + 1; i < P->count; i++) {
+        for (i = j + 1; i < P->n_pins; i++) {
             double *l = &P->K[(size_t)i * ld + (size_t)j];
             w[i] -= y * *l;
             *l += b * w[i];
         }
     }
-    for (i = p; i + 1 < P->count; i++) {
+    for (i = p; i + 1 < P->n_pins; i++) {
         double *to = P->K + (size_t)i * ld;
         const double *from = to + ld;
         memmove(to, from, (size_t)p * sizeof *to);
         memmove(to + p, from + p + 1, (size_t)(i + 1 - p) * sizeof *to);
         P->pins[i] = P->pins[i + 1];
     }
-    P->count--;
+    P->n_pins--;
 }
 
 /* Makes room for one more equality. */
@@ -185,7 +187,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
     sl_status status = SL_OK;
     sl_int i;
     int pass;
-    if (P->count < P->capacity) {
+    if (P->n_pins < P->capacity) {
         return SL_OK;
     }
     SLI_ASSERT(P->capacity <= INT32_MAX / 4); /* a larger K has 2^61 bytes */
@@ -198,7 +200,7 @@ static sl_status sli_pins_grow(sl_pins *P) {
     if (status != SL_OK) {
         return status;
     }
-    for (i = 0; i < P->count; i++) {
+    for (i = 0; i < P->n_pins; i++) {
         pins[i] = P->pins[i];
         memcpy(K + (size_t)i * (size_t)capacity, P->K + (size_t)i * (size_t)P->capacity,
                ((size_t)i + 1) * sizeof *K);
@@ -211,11 +213,34 @@ static sl_status sli_pins_grow(sl_pins *P) {
     return SL_OK;
 }
 
+/* Adds an equality, number `index` of the set. On error P is as before. */
+static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
+                               sl_int count, sl_stats *stats) {
+    sli_pin *pin = NULL;
+    double *y = NULL;
+    sl_status status = sli_pins_grow(P);
+    status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
+    if (status != SL_OK) {
+        return status;
+    }
+    y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
+    status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
+    sli_free(&P->allocator, y);
+    if (status != SL_OK) {
+        sli_pin_free(P, pin);
+        return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
+    }
+    pin->index = index;
+    sli_pins_count_nulls(P, pin, 1);
+    P->pins[P->n_pins++] = pin;
+    return SL_OK;
+}
+
 /* f := K^-1 f, lanes numbers in each row. */
 static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
     const size_t ld = (size_t)P->capacity;
     sl_int i, j, r;
-    for (i = 1; i < P->count; i++) {
+    for (i = 1; i < P->n_pins; i++) {
         const double *l = P->K + (size_t)i * ld;
         double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
         sli_chains_add(chains, l, f, i, lanes);
@@ -224,12 +249,12 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
             f[(ptrdiff_t)i * lanes + r] -= sums[r];
         }
     }
-    for (i = 0; i < P->count; i++) {
+    for (i = 0; i < P->n_pins; i++) {
         for (r = 0; r < lanes; r++) {
             f[(ptrdiff_t)i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
         }
     }
-    for (i = P->count - 1; i > 0; i--) {
+    for (i = P->n_pins - 1; i > 0; i--) {
         const double *l = P->K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
         for (j = 0; j < i; j++) {
             for (r = 0; r < lanes; r++) {

@@ -75,14 +75,14 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
     sli_free(&P->allocator, pin->nulls);
     pin->nulls = NULL;
     pin->n_nulls = 0;
-    if (P->F->n_nulls > 0) {
-        status = sli_pin_visit_nulls(P->F, pin, 0, row);
+    if (P->base->n_nulls > 0) {
+        status = sli_pin_visit_nulls(P->base, pin, 0, row);
     }
     for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
         pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
         pin->z = SLI_TAKE(&b, double, pin->n_nulls);
-        status =
-            pass == 0 ? sli_block_alloc(&b, &P->allocator) : sli_pin_visit_nulls(P->F, pin, 1, row);
+        status = pass == 0 ? sli_block_alloc(&b, &P->allocator)
+                           : sli_pin_visit_nulls(P->base, pin, 1, row);
     }
     pin->nulls = (sl_int *)(void *)b.base;
     return status;
@@ -129,9 +129,9 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
     const uint64_t count = (uint64_t)P->n_used;
     w->count = P->n_used;
     w->numbers = SLI_TAKE(b, sl_int, count);
-    w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->F->n_nulls : 0);
+    w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->n_nulls : 0);
     w->is_free = SLI_TAKE(b, unsigned char, count);
-    w->W = SLI_TAKE(b, double, count *(uint64_t)P->count);
+    w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
     w->S = SLI_TAKE(b, double, count *count);
     w->s = SLI_TAKE(b, double, SLI_TILE *count);
 }
@@ -140,42 +140,42 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
  * combined from several, and exact. */
 static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
     sl_int p, k;
-    memset(w->W, 0, (size_t)w->count * (size_t)P->count * sizeof(double));
+    memset(w->W, 0, (size_t)w->count * (size_t)P->n_pins * sizeof(double));
     memset(w->s, 0, (size_t)w->count * sizeof(double));
-    for (p = 0; p < P->count; p++) {
+    for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
         const double square = sli_dot(pin->values, pin->values, pin->count);
         for (k = 0; k < pin->n_nulls; k++) {
             const sl_int at = w->place[pin->nulls[k]];
-            w->W[(size_t)at * (size_t)P->count + (size_t)p] = pin->z[k];
-            w->s[at] += P->F->null_vectors > 1 ? square : 0.0;
+            w->W[(size_t)at * (size_t)P->n_pins + (size_t)p] = pin->z[k];
+            w->s[at] += P->base->null_vectors > 1 ? square : 0.0;
         }
     }
 }
 
 /* Marks the columns of W that depend on those before them. Returns how many. */
 static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
-    const size_t count = (size_t)P->count;
+    const size_t count = (size_t)P->n_pins;
     sl_int a, b, p, n_free = 0;
     for (a = 0; a < w->count; a++) {
         double *x = w->W + (size_t)a * count;
-        double after = sqrt(sli_dot(x, x, P->count));
+        double after = sqrt(sli_dot(x, x, P->n_pins));
         const double least = SLI_NULL_DEPENDENT * fmax(after, sqrt(w->s[a]));
         int pass;
         for (pass = 0; pass < 2 && after > 0.0; pass++) {
             for (b = 0; b < a; b++) {
                 const double *q = w->W + (size_t)b * count;
-                const double c = w->is_free[b] ? 0.0 : sli_dot(q, x, P->count);
-                for (p = 0; c != 0.0 && p < P->count; p++) {
+                const double c = w->is_free[b] ? 0.0 : sli_dot(q, x, P->n_pins);
+                for (p = 0; c != 0.0 && p < P->n_pins; p++) {
                     x[p] -= c * q[p];
                 }
             }
-            after = sqrt(sli_dot(x, x, P->count));
+            after = sqrt(sli_dot(x, x, P->n_pins));
             after = after > least ? after : 0.0;
         }
         w->is_free[a] = after == 0.0;
         n_free += w->is_free[a];
-        for (p = 0; p < P->count; p++) {
+        for (p = 0; p < P->n_pins; p++) {
             x[p] = after == 0.0 ? 0.0 : x[p] / after;
         }
     }

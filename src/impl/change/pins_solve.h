@@ -8,22 +8,34 @@
 typedef struct sli_pins_work {
     unsigned char *memory; /* of the sweeps */
     double *u;             /* forward.columns x lanes: D^-1 y */
-    double *f;             /* count x lanes: K f, then f */
+    double *f;             /* n_pins x lanes: K f, then f */
+    double *e;             /* held_reach.columns x lanes: L^-1 P A(:, H) g, for local solves */
+    double *scratch;       /* of its sweep */
     sli_pins_nulls nulls;
 } sli_pins_work;
+
+/* Is this a solve of all rows? */
+SLI_INLINE int sli_pins_is_whole(const sli_query *q) {
+    return q->forward.steps == q->S->steps;
+}
 
 static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
                             sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
-    w->u = SLI_TAKE(b, double, P->count == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
-    w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->count);
+    w->u = SLI_TAKE(b, double, P->n_pins == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
+    w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
+    if (P->n_held > 0 && !sli_pins_is_whole(q)) {
+        const sli_reach *R = &P->held_reach;
+        w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
+        w->scratch = SLI_TAKE(b, double, 2 * sli_sweep_scratch(R->tallest, R->widest, 8));
+    }
     sli_pins_nulls_layout(&w->nulls, b, P);
 }
 
 /* Factors W' K^-1 W for the columns of W that are not left out. */
 static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
-    const size_t count = (size_t)P->count, ld = (size_t)w->count;
+    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
     sl_int a, b, p, k;
     (void)sli_pins_nulls_begin(w, P);
     sli_pins_nulls_load(w, P);
@@ -31,7 +43,7 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
     for (a = 0; a < w->count; a++) {
         sli_pins_apply(P, w->W + (size_t)a * count, 1);
     }
-    for (p = 0; p < P->count; p++) {
+    for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
         for (k = 0; k < pin->n_nulls; k++) {
             const size_t row = (size_t)w->place[pin->nulls[k]];
@@ -63,7 +75,7 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
 /* s := Z' b before the forward sweep. */
 static void sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
                              const double *b, sl_int lanes) {
-    const sl_factor *F = P->F;
+    const sl_factor *F = P->base;
     const sli_reach *R = &q->forward;
     sl_int first = 0, s, m, k;
     memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
@@ -103,9 +115,9 @@ static void sli_pins_clear(const sl_factor *F, const sli_reach *R, double *y, sl
 
 /* s := v, where W' f = -Z' b; f := that of this v. */
 static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes) {
-    const size_t count = (size_t)P->count, ld = (size_t)w->count;
+    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
     sl_int a, b, p, k, r;
-    for (p = 0; p < P->count; p++) {
+    for (p = 0; p < P->n_pins; p++) {
         for (k = 0; k < P->pins[p]->n_nulls; k++) {
             double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
             for (r = 0; r < lanes; r++) {
@@ -128,7 +140,7 @@ static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *
             }
         }
         for (a = 0; a < w->count; a++) {
-            for (p = 0; p < P->count && s[a * lanes] != 0.0; p++) {
+            for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
                 f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
             }
         }
@@ -138,7 +150,7 @@ static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *
 /* x += Z v */
 static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
                            sl_int lanes) {
-    const sl_factor *F = P->F;
+    const sl_factor *F = P->base;
     const sli_reach *R = &q->backward;
     sl_int first = 0, root, s, m, k, r;
     for (root = 0; root < R->count && w->count > 0; root++) {
@@ -166,27 +178,68 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
     }
 }
 
-/* Solves one block of up to 8 right-hand sides. */
-static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
-                           sli_dense x_at, const double *B, sli_dense b_at, const double *G,
-                           size_t ldg, sl_int nrhs) {
-    const sl_factor *F = P->F;
-    const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
+/* y -= A(:, H) g, where y is a vector of all columns, or that of held_reach. */
+static void sli_pins_couple(const sl_pins *P, double *y, int is_whole, const double *G, size_t ldg,
+                            sl_int lanes, sl_int nrhs) {
+    const sl_int *to = is_whole ? P->coupling_column : P->coupling_to;
+    sl_int k, r;
+    for (k = 0; k < P->n_couplings; k++) {
+        const double *g = G + P->held_pin[P->coupling_from[k]];
+        for (r = 0; r < nrhs; r++) {
+            y[(ptrdiff_t)to[k] * lanes + r] -= P->couplings[k] * g[ldg * (size_t)r];
+        }
+    }
+}
+
+/* Sets the held rows of a vector to g, or to 0 if G is NULL. */
+static void sli_pins_set_held(const sl_pins *P, const sli_reach *R, double *x, sl_int lanes,
+                              const double *G, size_t ldg, sl_int nrhs) {
+    sl_int k, r;
+    for (k = 0; k < P->n_held; k++) {
+        const sl_int at = sli_reach_index_of(R, P->held[k]);
+        for (r = 0; r < lanes && at != -1; r++) {
+            x[(ptrdiff_t)at * lanes + r] =
+                G != NULL && r < nrhs ? G[(size_t)P->held_pin[k] + ldg * (size_t)r] : 0.0;
+        }
+    }
+}
+
+/* e := L^-1 P (-A(:, H) g) in the vector of held_reach; x += e; e := D^-1 e. */
+static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
+                            const double *G, size_t ldg, sl_int nrhs) {
+    const sli_reach *R = &P->held_reach;
     const int kind = sli_lanes_kind(nrhs);
     const sl_int lanes = (sl_int)1 << kind;
-    sl_int p, r, k;
-    sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
-    sli_pins_defects(P, q, &w->nulls, v.y, lanes);
-    sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
-    sli_pins_clear(F, &q->forward, v.y, lanes);
-    if (P->count > 0) {
-        memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
-        sli_divide(F, &q->forward, w->u, lanes);
+    sli_intersection m = sli_intersection_of(R, &q->backward);
+    sl_int k;
+    memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
+    sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
+    sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
+    sli_pins_clear(P->base, R, w->e, lanes);
+    while (sli_intersection_next(&m)) {
+        const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
+        double *to = x + (ptrdiff_t)m.in_b * lanes;
+        for (k = 0; k < m.count * lanes; k++) {
+            to[k] += e[k];
+        }
     }
-    for (p = 0; p < P->count; p++) {
+    sli_divide(P->base, R, w->e, lanes);
+}
+
+/* f := K f = g - C' A^-1 b, where u and e are D^-1 L^-1 P b. */
+static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
+                          const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
+    sl_int p, r, k;
+    for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
-        double sums[SLI_TILE];
+        double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
         sli_pin_dot(pin, &q->forward, w->u, lanes, sums);
+        if (P->n_held > 0 && !sli_pins_is_whole(q)) {
+            sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
+            for (r = 0; r < lanes; r++) {
+                sums[r] += more[r];
+            }
+        }
         for (k = 0; k < pin->n_nulls; k++) {
             const double *s = w->nulls.s + (ptrdiff_t)w->nulls.place[pin->nulls[k]] * lanes;
             for (r = 0; r < lanes; r++) {
@@ -194,20 +247,54 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
             }
         }
         for (r = 0; r < lanes; r++) {
-            w->f[p * lanes + r] = r < nrhs ? G[(size_t)p + ldg * (size_t)r] - sums[r] : 0.0;
+            f[r] = r < nrhs ? G[(size_t)pin->index + ldg * (size_t)r] - sums[r] : 0.0;
+        }
+        for (k = 0; k < pin->count && P->n_held > 0; k++) { /* held rows of an equality */
+            const sl_int at = sli_held_find(P, P->F->S->iperm[pin->rows[k]]);
+            for (r = 0; r < nrhs && at != -1; r++) {
+                f[r] -= pin->values[k] * G[(size_t)P->held_pin[at] + ldg * (size_t)r];
+            }
         }
     }
-    sli_pins_apply(P, w->f, lanes);
-    sli_pins_balance(P, &w->nulls, w->f, lanes);
+}
+
+/* Solves one block of up to 8 right-hand sides. */
+static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
+                           sli_dense x_at, const double *B, sli_dense b_at, const double *G,
+                           size_t ldg, sl_int nrhs) {
+    const sl_factor *F = P->base;
+    const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
+    const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
+    const sl_int lanes = (sl_int)1 << kind;
+    sl_int p;
+    sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
+    sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
+    sli_pins_defects(P, q, &w->nulls, v.y, lanes);
+    if (is_whole) {
+        sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);
+    }
+    sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
+    sli_pins_clear(F, &q->forward, v.y, lanes);
+    if (P->n_pins > 0) {
+        memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
+        sli_divide(F, &q->forward, w->u, lanes);
+    }
     if (!q->is_shared) {
         sli_sweep_transfer(q, v.y, v.x, lanes);
     }
-    for (p = 0; p < P->count; p++) {
+    if (P->n_held > 0 && !is_whole) {
+        sli_pins_spread(P, q, w, v.x, G, ldg, nrhs);
+    }
+    sli_pins_load(P, q, w, G, ldg, lanes, nrhs);
+    sli_pins_apply(P, w->f, lanes);
+    sli_pins_balance(P, &w->nulls, w->f, lanes);
+    for (p = 0; p < P->n_pins; p++) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
     }
     sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
                        q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
     sli_pins_shift(P, q, &w->nulls, v.x, lanes);
+    sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
     sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
 }
 

@@ -88,6 +88,28 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
     return total;
 }
 
+/* Refactors F, where the values of `from` differ from those of F in the columns `seeds` of L alone.
+ * If the null pivots do not remain, all of L is computed. */
+static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                                   const uint64_t *seeds, sl_int count, double started,
+                                   sl_stats *stats) {
+    sli_failure failure;
+    memset(&failure, 0, sizeof failure);
+    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+        (void)sli_null_vectors_check(F, from, &failure);
+    }
+    if (failure.status == SL_OK && !sli_nulls_remain(F)) {
+        return sli_factor_numbers(F, from, started, stats);
+    }
+    if (failure.status == SL_OK) {
+        (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
+    }
+    if (failure.status == SL_OK && sli_null_is_suspected(F)) {
+        return sli_factor_numbers(F, from, started, stats);
+    }
+    return sli_factor_done(F, from, &failure, started, stats);
+}
+
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                                             sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
@@ -95,7 +117,6 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     sli_left_work work;
     sli_block b = {NULL, 0, 0};
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
-    sli_failure failure;
     sl_status status;
     sl_int k;
     int pass;
@@ -127,7 +148,6 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     if (status != SL_OK) {
         return status;
     }
-    memset(&failure, 0, sizeof failure);
     sli_factor_begin(F);
     for (k = 0; k < count; k++) {
         const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
@@ -135,21 +155,9 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         F->identity = sli_hash_words(F->identity, A->x + p, q - p);
     }
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-        (void)sli_null_vectors_check(F, &from, &failure);
-    }
-    if (failure.status == SL_OK && !sli_nulls_remain(F)) {
-        sli_free(&F->allocator, b.base);
-        return sli_factor_numbers(F, &from, started, stats);
-    }
-    if (failure.status == SL_OK) {
-        (void)sli_left_factor_all(F, &work, &from, seeds, count, &failure);
-    }
+    status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
     sli_free(&F->allocator, b.base);
-    if (failure.status == SL_OK && sli_null_is_suspected(F)) {
-        return sli_factor_numbers(F, &from, started, stats);
-    }
-    return sli_factor_done(F, &from, &failure, started, stats);
+    return status;
 }
 
 #endif

@@ -80,6 +80,9 @@ _EditInfo = _struct("_EditInfo", [
 _ReuseInfo = _struct("_ReuseInfo", [
     ("kept", _INT), ("computed", _INT), ("entries", _OFF), ("flops", _REAL),
     ("flops_anew", _REAL), ("is_anew", ctypes.c_int), ("reason", _ENUM), ("seconds", _REAL)])
+_PinsInfo = _struct("_PinsInfo", [
+    ("method", _ENUM), ("reason", _ENUM), ("count", _INT), ("eliminated", _INT),
+    ("seconds_capacitance", _REAL), ("seconds_elimination", _REAL), ("seconds", _REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", _INT), ("backward_error", _REAL)])
 
 
@@ -90,7 +93,7 @@ class Stats(ctypes.Structure):
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", _OFF), ("reuse", _ReuseInfo),
-                ("reserved", _OFF * 3)]
+                ("pins", _PinsInfo), ("reserved", _OFF * 24)]
 
 
 class SavedSet(ctypes.Structure):

@@ -1,0 +1,82 @@
+/* pins_choose.h: what pins cost by the capacitance matrix and by elimination */
+#ifndef SLI_CHANGE_PINS_CHOOSE_H
+#define SLI_CHANGE_PINS_CHOOSE_H
+
+#include "pins_held.h"
+
+/* Seconds of the parts of both ways, from their counts; measured on grids of 1e5 and 1e6 rows. */
+#define SLI_PINS_ENTRY 0.35e-9 /* an entry of L in a forward sweep */
+#define SLI_PINS_TERM 0.35e-9  /* a product of a sum over shared columns */
+#define SLI_PINS_STEP 12e-9    /* a supernode of the same */
+#define SLI_PINS_DENSE 0.35e-9 /* a product in the factor of K */
+#define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
+#define SLI_PINS_MEMORY 2.5e-9 /* an entry of a new factor */
+
+/* Seconds of a flop in a front. */
+static double sli_pins_flop(sl_isa isa) {
+    switch (isa) {
+    case SL_ISA_AVX512:
+        return 0.016e-9;
+    case SL_ISA_AVX2:
+        return 0.035e-9;
+    case SL_ISA_NEON:
+        return 0.08e-9;
+    default:
+        return 0.3e-9;
+    }
+}
+
+/* Seconds of new pins by the capacitance matrix, beside `others` that are there. seeds: their
+ * columns, ascending; uses: n_supers of scratch, 0 before and after; NULL: for one pin, whose path
+ * alone is visited. */
+static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                                        sl_int others, sl_int *uses) {
+    const double before = others, after = before + count;
+    double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before);
+    sl_int k, s;
+    for (k = 0; k < count && uses != NULL; k++) {
+        uses[S->super_of[sli_key(seeds[k])]]++;
+    }
+    s = count == 0 ? -1 : uses != NULL ? 0 : S->super_of[sli_key(seeds[0])];
+    while (s != -1 && s < S->n_supers) {
+        const double u = uses == NULL ? 1.0 : uses[s], w = S->steps[s].width;
+        const double pairs = u * (before + 0.5 * u);
+        const sl_int up = S->super_parent[s];
+        if (u > 0.0) {
+            seconds += SLI_PINS_ENTRY * u * (double)sli_panel_size((sl_int)w, S->steps[s].below) +
+                       (SLI_PINS_TERM * w + SLI_PINS_STEP) * pairs;
+        }
+        if (uses != NULL) {
+            if (up != -1) {
+                uses[up] += uses[s];
+            }
+            uses[s++] = 0;
+        } else {
+            s = up;
+        }
+    }
+    return seconds;
+}
+
+/* Seconds to find out what elimination costs. */
+static double sli_pins_look_cost(const sl_pins *P) {
+    const sl_symbolic *S = P->F->S;
+    return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers];
+}
+
+/* Seconds of elimination. Decides whether it is computed in the reach of the changes. */
+static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
+    const sl_symbolic *S = P->F->S;
+    const double flop = sli_pins_flop(P->F->kernels->isa);
+    const double whole = flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT * S->n_supers;
+    double part;
+    h->way.seeds = h->seeds;
+    h->way.n_seeds = h->n_seeds;
+    sli_way_measure(&h->way, S, 1);
+    part = h->way.changed + (flop - SLI_CHANGE_FRONT_FLOP) * h->way.flops_changed;
+    h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
+    return (h->is_local ? part : whole) + sli_pins_look_cost(P) +
+           (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
+}
+
+#endif

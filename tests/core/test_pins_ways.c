@@ -1,0 +1,279 @@
+/* test_pins_ways.c: pins that are eliminated: adding and releasing across the switch of the way */
+#include "tests/lib/pinned.h"
+
+enum { STEPS = 40 };
+
+/* What a test has seen. */
+typedef struct ways_t {
+    int eliminated, back, mixed;
+} ways_t;
+
+static void note(ways_t *w, const sl_stats *stats, sl_pins_method before) {
+    w->eliminated += stats->pins.method == SL_PINS_ELIMINATION;
+    w->back += before == SL_PINS_ELIMINATION && stats->pins.method == SL_PINS_CAPACITANCE;
+    w->mixed +=
+        stats->pins.method == SL_PINS_ELIMINATION && stats->pins.eliminated < stats->pins.count;
+}
+
+/* How many pins and equalities have this row; a pin counts 1000. */
+static int uses(const pinned_t *p, sl_int row) {
+    int sum = 0;
+    for (sl_int k = 0; k < p->count; k++) {
+        const double c = p->C[(size_t)p->n * (size_t)k + (size_t)row];
+        sum += c == 1.0 ? 1000 : c != 0.0;
+    }
+    return sum;
+}
+
+/* Rows without a pin and outside of equalities, at most `most` of them. */
+static sl_int free_rows(const pinned_t *p, sl_int *rows, sl_int most, uint64_t *seed) {
+    sl_int count = 0, first = gen_below(seed, p->n), step = 1 + 2 * gen_below(seed, 3);
+    for (sl_int k = 0; k < p->n && count < most; k++) {
+        const sl_int row = (first + k * step) % p->n;
+        int is_new = uses(p, row) == 0;
+        for (sl_int m = 0; m < count; m++) {
+            is_new = is_new && rows[m] != row;
+        }
+        if (is_new) {
+            rows[count++] = row;
+        }
+    }
+    return count;
+}
+
+static void add_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_stats *stats) {
+    SL_CHECK(sl_pins_add_rows(p->P, rows, count, stats));
+    for (sl_int k = 0; k < count; k++) {
+        p->C[(size_t)p->n * (size_t)p->count++ + (size_t)rows[k]] = 1.0;
+    }
+}
+
+/* Releases `count` of the pins from number `least` on. */
+static void release_rows(pinned_t *p, sl_int least, sl_int count, uint64_t *seed, sl_stats *stats) {
+    const size_t n = (size_t)p->n;
+    sl_int *set = test_ints((size_t)p->count + 1), kept = 0;
+    gen_set(set, count, p->count - least, gen_bits(seed));
+    for (sl_int k = 0; k < count; k++) {
+        set[k] += least;
+    }
+    SL_CHECK(sl_pins_release_rows(p->P, set, count, stats));
+    for (sl_int k = 0; k < p->count; k++) {
+        int is_gone = 0;
+        for (sl_int m = 0; m < count; m++) {
+            is_gone |= set[m] == k;
+        }
+        if (!is_gone) {
+            memmove(p->C + n * (size_t)kept++, p->C + n * (size_t)k, n * sizeof(double));
+        }
+    }
+    memset(p->C + n * (size_t)kept, 0, n * (size_t)(p->count - kept) * sizeof(double));
+    p->count = kept;
+    assert_int_equal(sl_pins_count(p->P), kept);
+    free(set);
+}
+
+static void add_equality(pinned_t *p, uint64_t *seed) {
+    const sl_int first = gen_below(seed, p->n);
+    const sl_int rows[3] = {first, (first + 4) % p->n, (first + 9) % p->n};
+    double values[3];
+    for (int k = 0; k < 3; k++) {
+        values[k] = 2.0 + 0.5 * gen_real(seed);
+    }
+    int is_independent = 0;
+    for (int k = 0; k < 3; k++) {
+        is_independent |= uses(p, rows[k]) < 1000;
+    }
+    if (!is_independent) {
+        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_equality(p->P, rows, values, 3, NULL));
+        return;
+    }
+    SL_CHECK(sl_pins_add_equality(p->P, rows, values, 3, NULL));
+    for (int k = 0; k < 3; k++) {
+        p->C[(size_t)p->n * (size_t)p->count + (size_t)rows[k]] += values[k];
+    }
+    p->count++;
+}
+
+/* Random changes of a set that keep the first `least` pins: a singular matrix needs one. */
+static void change(pinned_t *p, sl_int least, uint64_t *seed, ways_t *w) {
+    sl_int *rows = test_ints((size_t)p->n);
+    sl_pins_method before = SL_PINS_CAPACITANCE;
+    sl_stats stats;
+    for (int step = 0; step < STEPS; step++) {
+        const int kind = (int)gen_below(seed, 8);
+        if (kind < 3 && p->count < p->n / 2) {
+            const sl_int most = kind == 0 ? 1 : 1 + gen_below(seed, 1 + p->n / 4);
+            add_rows(p, rows, free_rows(p, rows, most, seed), &stats);
+        } else if (kind == 3 && p->count > least) {
+            release(p, least + gen_below(seed, p->count - least));
+            continue;
+        } else if (kind < 6) {
+            release_rows(p, least, gen_below(seed, p->count - least + 1), seed, &stats);
+        } else if (p->count < p->n / 2 && p->count > 2) {
+            add_equality(p, seed);
+            assert_pinned(p, gen_bits(seed));
+            continue;
+        } else {
+            continue;
+        }
+        note(w, &stats, before);
+        before = stats.pins.method;
+        assert_int_equal(stats.pins.count, p->count);
+        assert_int_equal(stats.pins.reason, SL_PINS_CHEAPEST);
+        assert_true(stats.pins.seconds >= 0.0);
+        assert_pinned(p, gen_bits(seed));
+    }
+    free(rows);
+}
+
+static void both_ways_give_the_same(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[6] = {GEN_PATH,  GEN_STAR,       GEN_GRID2,
+                                        GEN_GRID3, GEN_COMPONENTS, GEN_SINGULAR};
+    variant_list_t variants = variants_present();
+    uint64_t seed = 5;
+    ways_t w = {0, 0, 0};
+    for (int k = 0; k < 6 * variants.count; k++) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+            sl_options opt = options_none();
+            opt.isa = variants.variant[k / 6].isa;
+            opt.method = variants.variant[k / 6].method;
+            opt.null_pivots =
+                kinds[k % 6] == GEN_SINGULAR ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+            pinned_t p = pinned_make(kinds[k % 6], 90, sign, &opt);
+            SL_CHECK(sl_pins_set_matrix(p.P, &p.y.M.view, NULL));
+            const sl_int least = kinds[k % 6] == GEN_SINGULAR;
+            if (least > 0) {
+                pin(&p, 7);
+            }
+            change(&p, least, &seed, &w);
+            pinned_free(&p);
+        }
+    }
+    assert_true(w.eliminated > 20 && w.back > 0 && w.mixed > 5);
+}
+
+/* Each allocation of a switch fails once: the pins stay as they were. */
+static void failing_allocations_leave_the_way(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    sl_options opt = options_counted(&counter);
+    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
+    sl_int rows[50], some[10];
+    sl_stats stats;
+    sl_pins_free(p.P);
+    SL_CHECK(sl_pins_create(&p.P, p.y.F, &opt));
+    for (sl_int k = 0; k < 50; k++) {
+        rows[k] = 2 * k + 1;
+        some[k % 10] = 3 * (k % 10);
+    }
+    for (int step = 0; step < 6; step++) {
+        sl_status status = SL_ERR_MEMORY;
+        for (int m = 0; status != SL_OK; m++) {
+            counter.fail_at = (int64_t)counter.calls + m;
+            status = step == 0   ? sl_pins_set_matrix(p.P, &p.y.M.view, &stats)
+                     : step == 1 ? sl_pins_add_rows(p.P, rows, 40, &stats)
+                     : step == 2 ? sl_pins_add_rows(p.P, rows + 40, 9, &stats)
+                     : step == 3 ? sl_pins_add(p.P, rows[49], &stats)
+                     : step == 4 ? sl_pins_release_rows(p.P, some, 10, &stats)
+                                 : sl_pins_release(p.P, 0);
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            counter.fail_at = -1;
+            if (status == SL_OK && step >= 1 && step <= 3) {
+                const sl_int first = step == 1 ? 0 : step == 2 ? 40 : 49;
+                for (sl_int k = first; k < (step == 1 ? 40 : step == 2 ? 49 : 50); k++) {
+                    p.C[(size_t)p.n * (size_t)p.count++ + (size_t)rows[k]] = 1.0;
+                }
+            } else if (status == SL_OK && step >= 4) {
+                const size_t n = (size_t)p.n;
+                sl_int kept = 0;
+                for (sl_int k = 0; k < p.count; k++) {
+                    if (step == 4 ? k % 3 != 0 || k >= 30 : k > 0) {
+                        memmove(p.C + n * (size_t)kept++, p.C + n * (size_t)k, n * sizeof(double));
+                    }
+                }
+                memset(p.C + n * (size_t)kept, 0, n * (size_t)(p.count - kept) * sizeof(double));
+                p.count = kept;
+            }
+            assert_int_equal(sl_pins_count(p.P), p.count);
+            assert_pinned(&p, (uint64_t)m);
+        }
+        assert_int_equal(step == 5 ? SL_PINS_ELIMINATION : stats.pins.method,
+                         step == 0 ? SL_PINS_CAPACITANCE : SL_PINS_ELIMINATION);
+    }
+    pinned_free(&p);
+    COUNTER_CLEAN(&counter);
+}
+
+/* New numbers: by sl_pins_set_matrix the rows stay eliminated, by sl_pins_refactor the matrix is
+ * forgotten. A matrix of other values is refused with the row. */
+static void new_numbers_are_taken(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
+    const size_t n = (size_t)p.n;
+    sl_csc *A = &p.y.M.view;
+    double *x = test_reals(n * 50), *values = test_reals((size_t)A->p[n]);
+    sl_int rows[40];
+    sl_stats stats;
+    for (sl_int k = 0; k < 40; k++) {
+        rows[k] = 2 * k;
+    }
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(NULL, A, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(p.P, NULL, NULL));
+    add_rows(&p, rows, 2, &stats);
+    assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
+    SL_CHECK(sl_pins_set_matrix(p.P, A, &stats));
+    add_rows(&p, rows + 2, 38, &stats);
+    assert_int_equal(stats.pins.eliminated, 40);
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, 4, &stats));
+    assert_int_equal(stats.error.row, 4);
+    memcpy(values, A->x, (size_t)A->p[n] * sizeof(double));
+    A->x = values;
+    for (sl_int k = 0; k < A->p[n]; k++) {
+        values[k] *= 1.5;
+    }
+    for (size_t k = 0; k < n * n; k++) {
+        p.dense[k] *= 1.5;
+    }
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(p.P, A, &stats));
+    assert_true(stats.error.row >= 0 && stats.error.row < p.n && stats.error.value > 0.1);
+    SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, n, x, n, x, n, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_release(p.P, 0));
+    SL_CHECK(sl_pins_set_matrix(p.P, A, &stats));
+    assert_int_equal(stats.pins.eliminated, 40);
+    assert_pinned(&p, 4);
+    SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
+    SL_CHECK(sl_pins_refactor(p.P));
+    assert_pinned(&p, 5);
+    release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
+    assert_int_equal(stats.pins.method, SL_PINS_CAPACITANCE);
+    assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
+    assert_pinned(&p, 6);
+    const sl_int twice[2] = {3, 3}, outside[2] = {3, p.n};
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, twice, 2, &stats));
+    assert_int_equal(stats.error.row, 3);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(p.P, outside, 2, &stats));
+    assert_int_equal(stats.error.row, p.n);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(p.P, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(p.P, twice, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, twice, 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, outside, 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, NULL, 1, NULL));
+    assert_pinned(&p, 7);
+    A->x = p.y.M.x;
+    free(values);
+    free(x);
+    pinned_free(&p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_ways_give_the_same),
+        cmocka_unit_test(failing_allocations_leave_the_way),
+        cmocka_unit_test(new_numbers_are_taken),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
