@@ -1,90 +1,91 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 171965c7b95936aa
+ * FNV-1a of the lines after this comment, without the license: 7839054b775ed3e6
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     92 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    162 config.h     macros that a user may define before the include, the version, and the integer types
- *    241 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    411 options.h    options of all calls, threads, and the allocator
- *    551 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    746 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    918 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1058 factor.h     the numerical factorization P A P' = L D L'
- *   1339 solve.h      full solves, and the workspace of all solves
- *   1452 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1546 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1659 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1772 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1908 batch.h      many independent solves by one call, distributed over threads
- *   1958 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2136 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2256 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2360 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2499 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2617 change.h     a factor that follows small changes of its matrix
- *   2704 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2847 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2978 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3027 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *     93 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    163 config.h     macros that a user may define before the include, the version, and the integer types
+ *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    412 options.h    options of all calls, threads, and the allocator
+ *    552 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    747 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    919 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1059 factor.h     the numerical factorization P A P' = L D L'
+ *   1340 solve.h      full solves, and the workspace of all solves
+ *   1453 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1547 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1660 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1773 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1909 batch.h      many independent solves by one call, distributed over threads
+ *   1959 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2137 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2257 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2361 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2500 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2618 change.h     a factor that follows small changes of its matrix
+ *   2705 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2848 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2979 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3028 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3118 base.h   3412 status.h   3473 options.h   3531 alloc.h   3641 hash.h   3771 file_map.h
- *   3868 sort.h   3932 parallel.h
+ *   3119 base.h   3413 status.h   3474 options.h   3532 alloc.h   3642 hash.h   3772 file_map.h
+ *   3869 sort.h   3933 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4123 panel.h   4149 step.h   4223 pivot_rule.h   4297 front.h   4357 pairs.h
- *   4564 inverse_front.h   4636 table.h   4664 simd.h   4759 simd_scalar_single.h
- *   4805 simd_scalar.h   4933 simd_avx2_single.h   4987 simd_avx2.h   5205 simd_avx512_single.h
- *   5260 simd_avx512.h   5419 simd_neon_single.h   5461 simd_neon.h   5675 dispatch.h
+ *   4126 panel.h   4152 step.h   4226 pivot_rule.h   4300 front.h   4360 pairs.h
+ *   4567 inverse_front.h   4639 table.h   4667 simd.h   4762 simd_scalar_single.h
+ *   4808 simd_scalar.h   4936 simd_avx2_single.h   4990 simd_avx2.h   5208 simd_avx512_single.h
+ *   5263 simd_avx512.h   5422 simd_neon_single.h   5464 simd_neon.h   5678 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5755 csc.h   5869 csc_build.h   6003 csc64.h   6074 csc_triangle.h   6140 csc_products.h
- *   6257 permute.h   6323 sum.h   6405 output_file.h   6614 matrix_market.h
+ *   5758 csc.h   5872 csc_build.h   6006 csc64.h   6077 csc_triangle.h   6143 csc_products.h
+ *   6260 permute.h   6326 sum.h   6408 output_file.h   6617 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7060 graph.h   7209 coarsen.h   7521 labels.h   7742 subgraph.h   7937 heap.h   7997 bisect.h
- *   8224 separator.h   8486 mindeg.h   8669 dissect.h   9036 levelset.h   9142 geometric.h
- *   9317 cells.h   9497 septree.h   9573 metis.h   9722 metis_refined.h   9836 nd.h
- *  10035 compress.h  10156 peel.h  10334 quotient.h  10747 order.h
+ *   7063 graph.h   7212 contract.h   7466 coarsen.h   7629 labels.h   7850 subgraph.h   8045 heap.h
+ *   8105 bisect.h   8332 separator.h   8594 mindeg.h   8777 dissect.h   9101 tree_cost.h
+ *   9153 levelset.h   9259 geometric.h   9434 cells.h   9614 septree.h   9690 metis.h
+ *   9839 metis_refined.h   9953 nd.h  10152 compress.h  10273 peel.h  10451 quotient.h
+ *  10864 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11093 symbolic_types.h  11130 etree.h  11203 counts.h  11260 supernodes.h  11482 structure.h
- *  11603 schedule.h  11883 symbolic.h  12313 reach.h
+ *  11208 symbolic_types.h  11245 etree.h  11318 counts.h  11375 supernodes.h  11597 structure.h
+ *  11718 schedule.h  11998 symbolic.h  12428 reach.h
  * (factor: the numbers of L and D)
- *  12584 factor_types.h  12995 storage.h  13135 pivot_search.h  13481 pivoted.h  13549 scatter.h
- *  13707 uplooking.h  13779 null_product.h  13983 null_dense.h  14060 null_basis.h
- *  14368 null_vectors.h  14510 multifrontal.h  14700 gather.h  14748 kept.h  14915 front_tasks.h
- *  15258 nullspace.h  15461 growth.h  15537 factor_setup.h  15851 factor.h  16061 leftlooking.h
- *  16207 factor_query.h  16342 combination.h
+ *  12699 factor_types.h  13110 storage.h  13250 pivot_search.h  13596 pivoted.h  13664 scatter.h
+ *  13822 uplooking.h  13894 null_product.h  14098 null_dense.h  14175 null_basis.h
+ *  14483 null_vectors.h  14625 multifrontal.h  14815 gather.h  14863 kept.h  15030 front_tasks.h
+ *  15373 nullspace.h  15576 growth.h  15652 factor_setup.h  15966 factor.h  16176 leftlooking.h
+ *  16322 factor_query.h  16457 combination.h
  * (solve: full and local solves)
- *  16403 region_types.h  16507 work.h  16607 query.h  16815 singular.h  17085 backward.h
- *  17115 sweep_tasks.h  17449 sweep.h  17660 compile.h  17853 plan.h  17960 local.h  18112 parts.h
- *  18401 refine.h  18580 refine_local.h  18796 rcond.h  18952 defects.h
+ *  16518 region_types.h  16622 work.h  16722 query.h  16930 singular.h  17200 backward.h
+ *  17230 sweep_tasks.h  17564 sweep.h  17775 compile.h  17968 plan.h  18075 local.h  18227 parts.h
+ *  18516 refine.h  18695 refine_local.h  18911 rcond.h  19067 defects.h
  * (inverse: entries of the inverse, regions)
- *  19030 traversal.h  19275 traversal_run.h  19458 row_sets.h  19485 unit_vectors.h
- *  19712 bilinear.h  19889 entries.h  20170 block.h  20410 reserve.h  20602 selected.h
- *  20812 selected_query.h  20914 region_choose.h  21138 region.h
+ *  19145 traversal.h  19390 traversal_run.h  19573 row_sets.h  19600 unit_vectors.h
+ *  19827 bilinear.h  20004 entries.h  20285 block.h  20525 reserve.h  20717 selected.h
+ *  20927 selected_query.h  21029 region_choose.h  21253 region.h
  * (change: a factor that follows changes of its matrix)
- *  21386 update.h  21736 rank.h  22074 edges.h  22228 choose.h  22426 pins_types.h
- *  22504 pins_nulls.h  22682 pins_capacitance.h  22933 pins_held.h  23142 pins_choose.h
- *  23212 pins_rebuild.h  23432 pins_matrix.h  23578 pins.h  23865 pins_solve.h  24195 subset.h
- *  24302 restrict_analysis.h  24599 restrict_anew.h  24653 restrict_symbolic.h  24834 restrict.h
- *  25062 edit_match.h  25261 edit_place.h  25510 edit_separate.h  25823 edit_order.h
- *  25978 edit_graph.h  26073 edit_join.h  26349 edit.h  26512 edit_factor.h
+ *  21501 update.h  21851 rank.h  22189 edges.h  22343 choose.h  22541 pins_types.h
+ *  22619 pins_nulls.h  22797 pins_capacitance.h  23048 pins_held.h  23257 pins_choose.h
+ *  23327 pins_rebuild.h  23547 pins_matrix.h  23693 pins.h  23980 pins_solve.h  24310 subset.h
+ *  24417 restrict_analysis.h  24714 restrict_anew.h  24768 restrict_symbolic.h  24949 restrict.h
+ *  25177 edit_match.h  25376 edit_place.h  25625 edit_separate.h  25938 edit_order.h
+ *  26093 edit_graph.h  26188 edit_join.h  26464 edit.h  26627 edit_factor.h
  * (save: factors in files)
- *  26770 format.h  27066 decode.h  27214 check.h  27544 write.h  27849 load.h  28117 load_inverse.h
- *  28446 load_calls.h
+ *  26885 format.h  27181 decode.h  27329 check.h  27659 write.h  27964 load.h  28232 load_inverse.h
+ *  28561 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28645 batch_solve.h  28854 batch_factor.h  29055 batch_diagonal.h
+ *  28760 batch_solve.h  28969 batch_factor.h  29170 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29195 hermitian.h  29357 complex_rows.h
+ *  29310 hermitian.h  29472 complex_rows.h
  * (last: undefine every internal macro)
- *  29525 undef.h
+ *  29640 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29774 front.inl.h  29776 product.inl.h  30271 words_undef.inl.h  30353 multi_rhs.inl.h
- *  30372 multi_rhs_small.inl.h  30540 multi_rhs_tiles.inl.h  30845 complex_groups.inl.h
- *  31077 sweeps.inl.h  31079 unit_triangle.inl.h  31116 two_rhs.inl.h  31287 small_supernode.inl.h
- *  31447 single_rhs.inl.h  31696 kernel_set.inl.h  31698 complex_small.inl.h
- *  31862 complex_rows.inl.h  32094 inverse_front.inl.h  32379 row.inl.h  32409 change.inl.h
- *  32473 interleave.inl.h
+ *  29892 front.inl.h  29894 product.inl.h  30389 words_undef.inl.h  30471 multi_rhs.inl.h
+ *  30490 multi_rhs_small.inl.h  30658 multi_rhs_tiles.inl.h  30963 complex_groups.inl.h
+ *  31195 sweeps.inl.h  31197 unit_triangle.inl.h  31234 two_rhs.inl.h  31405 small_supernode.inl.h
+ *  31565 single_rhs.inl.h  31814 kernel_set.inl.h  31816 complex_small.inl.h
+ *  31980 complex_rows.inl.h  32212 inverse_front.inl.h  32497 row.inl.h  32527 change.inl.h
+ *  32591 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4005,6 +4006,8 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
   }
 }
 
+#define SLI_TEAM_MAX 16
+
 typedef struct sli_team {
   sl_int workers;
   void (*lead)(struct sli_team *team, void *data);
@@ -7206,7 +7209,7 @@ static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
   return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
-/* src/impl/ordering/coarsen.h: multilevel coarsening: each graph is contracted along a matching of its vertices */
+/* src/impl/ordering/contract.h: contraction of a graph, and what its edges cost, in loops that workers share */
 
 typedef struct sli_level {
   sl_int n;
@@ -7223,7 +7226,6 @@ typedef struct sli_clusters {
   sl_int *start;
 } sli_clusters;
 
-#define SLI_COARSEN_STALL 0.95
 #define SLI_LEVELS_MAX 64
 
 SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
@@ -7234,6 +7236,236 @@ SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
   return g->edge == NULL ? 1 : g->edge[e];
 }
 
+typedef struct sli_shares {
+  sli_team *team;
+  sl_off *scratch;
+  sl_int room;
+  unsigned char begun[SLI_TEAM_MAX];
+} sli_shares;
+
+#define SLI_SHARES 4
+#if defined(SLI_SMALL_TASKS)
+#define SLI_SHARES_FROM 50
+#else
+#define SLI_SHARES_FROM 5000
+#endif
+#define SLI_SHARES_MAX (SLI_SHARES * SLI_TEAM_MAX)
+
+SLI_INLINE sl_int sli_shares_count(const sli_shares *r, sl_int n) {
+  return r->team->workers == 1 || n < SLI_SHARES_FROM ? 1 : SLI_SHARES * r->team->workers;
+}
+
+SLI_INLINE sl_int sli_share_begin(const sli_shares *r, sl_int n, sl_int item) {
+  return (sl_int)((int64_t)n * item / sli_shares_count(r, n));
+}
+
+SLI_INLINE sl_off *sli_shares_scratch(sli_shares *r, sl_int worker, int *is_new) {
+  *is_new = !r->begun[worker];
+  r->begun[worker] = 1;
+  return r->scratch + (size_t)worker * (size_t)r->room;
+}
+
+typedef struct sli_contraction {
+  const sli_level *g;
+  const sli_clusters *clusters;
+  sli_level *c;
+  sli_shares *ranges;
+  sl_off begin[SLI_SHARES_MAX + 1], end[SLI_SHARES_MAX];
+} sli_contraction;
+
+static void sli_contract_count(void *data, sl_int item, sl_int worker) {
+  sli_contraction *t = (sli_contraction *)data;
+  const sl_int *start = t->clusters->start;
+  const sl_int last = start[sli_share_begin(t->ranges, t->c->n, item + 1)];
+  sl_off count = 0;
+  sl_int m;
+  (void)worker;
+  for (m = start[sli_share_begin(t->ranges, t->c->n, item)]; m < last; m++) {
+    const sl_int v = t->clusters->member[m];
+    count += t->g->begin[v + 1] - t->g->begin[v];
+  }
+  t->begin[item + 1] = count;
+}
+
+static void sli_contract_item(void *data, sl_int item, sl_int worker) {
+  sli_contraction *t = (sli_contraction *)data;
+  const sli_level *g = t->g;
+  const sli_clusters *clusters = t->clusters;
+  sli_level *c = t->c;
+  const sl_int last = sli_share_begin(t->ranges, c->n, item + 1);
+  int is_new;
+  sl_off e, count = t->begin[item], *at = sli_shares_scratch(t->ranges, worker, &is_new);
+  sl_int k, m;
+  for (k = 0; k < c->n && is_new; k++) {
+    at[k] = -1;
+  }
+  for (k = sli_share_begin(t->ranges, c->n, item); k < last; k++) {
+    const sl_off first = count;
+    c->begin[k] = first;
+    c->weight[k] = 0;
+    for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
+      const sl_int v = clusters->member[m];
+      c->weight[k] += sli_level_weight(g, v);
+      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int u = g->coarse[g->to[e]];
+        if (u == k) {
+          continue;
+        }
+        if (at[u] < first) {
+          at[u] = count;
+          c->to[count] = u;
+          c->edge[count++] = sli_level_edge(g, e);
+        } else {
+          c->edge[at[u]] += sli_level_edge(g, e);
+        }
+      }
+    }
+  }
+  t->end[item] = count;
+}
+
+static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
+             sli_shares *ranges) {
+  const sl_int count = sli_shares_count(ranges, c->n);
+  sl_off total;
+  sl_int k, item;
+  sli_contraction t;
+  t.g = g;
+  t.clusters = clusters;
+  t.c = c;
+  t.ranges = ranges;
+  memset(ranges->begun, 0, sizeof ranges->begun);
+  t.begin[0] = 0;
+  if (count > 1) {
+    sli_team_loop(ranges->team, count, NULL, sli_contract_count, &t);
+  }
+  for (item = 1; item < count; item++) {
+    t.begin[item] += t.begin[item - 1];
+  }
+  sli_team_loop(ranges->team, count, NULL, sli_contract_item, &t);
+  total = t.end[0];
+  for (item = 1; item < count; item++) {
+    const sl_off first = t.begin[item], edges = t.end[item] - first;
+    const sl_int last = sli_share_begin(ranges, c->n, item + 1);
+    memmove(c->to + total, c->to + first, (size_t)edges * sizeof(sl_int));
+    memmove(c->edge + total, c->edge + first, (size_t)edges * sizeof(sl_int));
+    for (k = sli_share_begin(ranges, c->n, item); k < last; k++) {
+      c->begin[k] -= first - total;
+    }
+    total += edges;
+  }
+  c->begin[c->n] = total;
+}
+
+static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
+                    sli_level *c, sli_shares *ranges, const sl_allocator *a) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  c->n = n;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
+    c->weight = SLI_TAKE(&b, sl_int, n);
+    c->coarse = SLI_TAKE(&b, sl_int, n);
+    c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+    c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  c->block = b.base;
+  if (status == SL_OK) {
+    sli_contract(g, clusters, c, ranges);
+  }
+  return status;
+}
+
+typedef struct sli_edge_weights {
+  sli_level *levels;
+  int l;
+  sl_int *cluster, *member, *start, *to, *count;
+  sli_shares *ranges;
+} sli_edge_weights;
+
+static void sli_cluster_members(sli_edge_weights *w) {
+  const sli_level *levels = w->levels;
+  const int l = w->l;
+  const sl_int n = levels[0].n, clusters = levels[l].n;
+  sl_int v, k;
+  int m;
+  memset(w->start, 0, ((size_t)clusters + 1) * sizeof(sl_int));
+  for (v = 0; v < n; v++) {
+    sl_int c = v;
+    for (m = 0; m < l; m++) {
+      c = levels[m].coarse[c];
+    }
+    w->cluster[v] = c;
+    w->start[c + 1]++;
+  }
+  for (k = 0; k < clusters; k++) {
+    w->start[k + 1] += w->start[k];
+  }
+  for (v = 0; v < n; v++) {
+    w->member[w->start[w->cluster[v]]++] = v;
+  }
+  memmove(w->start + 1, w->start, (size_t)clusters * sizeof(sl_int));
+  w->start[0] = 0;
+}
+
+static void sli_weigh_item(void *data, sl_int item, sl_int worker) {
+  sli_edge_weights *w = (sli_edge_weights *)data;
+  const sli_level *finest = &w->levels[0], *g = &w->levels[w->l];
+  const sl_int last = sli_share_begin(w->ranges, g->n, item + 1);
+  int is_new;
+  sl_off e, *at = sli_shares_scratch(w->ranges, worker, &is_new);
+  sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
+  for (k = 0; k < g->n && is_new; k++) {
+    seen[k] = -1;
+  }
+  for (k = sli_share_begin(w->ranges, g->n, item); k < last; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      at[g->to[e]] = e;
+      g->edge[e] = 0;
+    }
+    for (i = w->start[k]; i < w->start[k + 1]; i++) {
+      const sl_int v = w->member[i];
+      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
+        const sl_int c = w->cluster[finest->to[e]];
+        if (c != k && seen[c] != v) {
+          seen[c] = v;
+          g->edge[at[c]]++;
+        }
+      }
+    }
+  }
+}
+
+static void sli_weigh_edges(sli_edge_weights *w) {
+  const sli_level *g = &w->levels[w->l];
+  sl_off e, *at = w->ranges->scratch;
+  sl_int k;
+  sli_cluster_members(w);
+  memset(w->ranges->begun, 0, sizeof w->ranges->begun);
+  sli_team_loop(w->ranges->team, sli_shares_count(w->ranges, g->n), NULL, sli_weigh_item, w);
+  memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      const sl_off there = at[g->to[e]]++;
+      w->to[there] = k;
+      w->count[there] = g->edge[e];
+    }
+  }
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      at[g->to[e]] = e;
+    }
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      g->edge[at[w->to[e]]] += w->count[e];
+    }
+  }
+}
+
+/* src/impl/ordering/coarsen.h: multilevel coarsening: each graph is contracted along a matching of its vertices */
+
+#define SLI_COARSEN_STALL 0.95
 SLI_INLINE uint32_t sli_hash32(uint32_t v) {
   v ^= v >> 16;
   v *= 0x7feb352du;
@@ -7332,59 +7564,6 @@ static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate, sli_clust
   return count;
 }
 
-static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
-             sl_off *at) {
-  sl_int k, m;
-  sl_off e, count = 0;
-  for (k = 0; k < c->n; k++) {
-    at[k] = -1;
-  }
-  for (k = 0; k < c->n; k++) {
-    const sl_off first = count;
-    c->begin[k] = first;
-    c->weight[k] = 0;
-    for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
-      const sl_int v = clusters->member[m];
-      c->weight[k] += sli_level_weight(g, v);
-      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-        const sl_int u = g->coarse[g->to[e]];
-        if (u == k) {
-          continue;
-        }
-        if (at[u] < first) {
-          at[u] = count;
-          c->to[count] = u;
-          c->edge[count++] = sli_level_edge(g, e);
-        } else {
-          c->edge[at[u]] += sli_level_edge(g, e);
-        }
-      }
-    }
-  }
-  c->begin[k] = count;
-}
-
-static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
-                    sli_level *c, sl_off *at, const sl_allocator *a) {
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  int pass;
-  c->n = n;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
-    c->weight = SLI_TAKE(&b, sl_int, n);
-    c->coarse = SLI_TAKE(&b, sl_int, n);
-    c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-    c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  c->block = b.base;
-  if (status == SL_OK) {
-    sli_contract(g, clusters, c, at);
-  }
-  return status;
-}
-
 #define SLI_WIDE_DEGREE 16
 #define SLI_NEIGHBORHOOD_PAIRS 8
 #define SLI_NEIGHBORHOOD_SHRINK 4
@@ -7423,7 +7602,7 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
 }
 
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
-               sli_clusters *clusters, sl_off *at, int *shrunk,
+               sli_clusters *clusters, sli_shares *ranges, int *shrunk,
                const sl_allocator *a) {
   sl_int pairs, count = g->n;
   memset(c, 0, sizeof *c);
@@ -7444,78 +7623,7 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
     }
     count = sli_number_pairs(g, mate, clusters);
   }
-  return sli_coarsen_clusters(g, count, clusters, c, at, a);
-}
-
-typedef struct sli_edge_weights {
-  sl_int *cluster, *member, *start, *seen, *to, *count;
-  sl_off *at;
-} sli_edge_weights;
-
-static void sli_cluster_members(const sli_level *levels, int l, sli_edge_weights *w) {
-  const sl_int n = levels[0].n, clusters = levels[l].n;
-  sl_int v, k;
-  int m;
-  memset(w->start, 0, ((size_t)clusters + 1) * sizeof(sl_int));
-  for (v = 0; v < n; v++) {
-    sl_int c = v;
-    for (m = 0; m < l; m++) {
-      c = levels[m].coarse[c];
-    }
-    w->cluster[v] = c;
-    w->start[c + 1]++;
-  }
-  for (k = 0; k < clusters; k++) {
-    w->start[k + 1] += w->start[k];
-  }
-  for (v = 0; v < n; v++) {
-    w->member[w->start[w->cluster[v]]++] = v;
-  }
-  memmove(w->start + 1, w->start, (size_t)clusters * sizeof(sl_int));
-  w->start[0] = 0;
-}
-
-static void sli_weigh_edges(sli_level *levels, int l, sli_edge_weights *w) {
-  const sli_level *finest = &levels[0];
-  sli_level *g = &levels[l];
-  sl_int k, i;
-  sl_off e;
-  sli_cluster_members(levels, l, w);
-  for (k = 0; k < g->n; k++) {
-    w->seen[k] = -1;
-  }
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      w->at[g->to[e]] = e;
-      g->edge[e] = 0;
-    }
-    for (i = w->start[k]; i < w->start[k + 1]; i++) {
-      const sl_int v = w->member[i];
-      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
-        const sl_int c = w->cluster[finest->to[e]];
-        if (c != k && w->seen[c] != v) {
-          w->seen[c] = v;
-          g->edge[w->at[c]]++;
-        }
-      }
-    }
-  }
-  memcpy(w->at, g->begin, (size_t)g->n * sizeof(sl_off));
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      const sl_off there = w->at[g->to[e]]++;
-      w->to[there] = k;
-      w->count[there] = g->edge[e];
-    }
-  }
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      w->at[g->to[e]] = e;
-    }
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      g->edge[w->at[w->to[e]]] += w->count[e];
-    }
-  }
+  return sli_coarsen_clusters(g, count, clusters, c, ranges, a);
 }
 
 /* src/impl/ordering/labels.h: the separator tree during dissection: a label for each vertex, and border lists */
@@ -8666,7 +8774,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   memcpy(vertices, order, (size_t)count * sizeof(sl_int));
 }
 
-/* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph, and the estimated cost of a tree */
+/* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
 
 #define SLI_DISSECT_LEAF 200
 #define SLI_DISSECT_LEAF_REFINED 140
@@ -8692,6 +8800,7 @@ typedef struct sli_dissect_worker {
 typedef struct sli_dissection {
   const sl_allocator *a;
   sli_team *team;
+  sli_shares ranges;
   sli_level levels[SLI_LEVELS_MAX];
   int n_levels, level;
   sl_int total;
@@ -8711,6 +8820,7 @@ typedef struct sli_dissection {
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
   const sl_int room = n + 1;
   sl_int k, *head;
+  sl_off *next;
   d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
   sli_label_tree_layout(&d->tree, b, room);
   head = SLI_TAKE(b, sl_int, room);
@@ -8720,10 +8830,14 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
   d->order = SLI_TAKE(b, sl_int, n);
   d->nodes = SLI_TAKE(b, sl_int, room);
   d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
+  next = SLI_TAKE(b, sl_off, (uint64_t)n * (uint64_t)d->team->workers);
+  d->ranges.team = d->team;
+  d->ranges.scratch = next;
+  d->ranges.room = n;
   for (k = 0; k < d->team->workers; k++) {
     sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
     sli_subgraph_layout(&w->subgraph, b, n, edges);
-    w->next = SLI_TAKE(b, sl_off, n);
+    w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
     w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
     w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
     w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
@@ -8900,14 +9014,15 @@ static void sli_dissect_project(sli_dissection *d) {
 
 static void sli_dissect_weigh(sli_dissection *d, int l) {
   sli_edge_weights w;
+  w.levels = d->levels;
+  w.l = l;
   w.cluster = d->label;
   w.member = d->order;
   w.start = d->nodes;
-  w.seen = d->begin;
   w.to = d->workers->subgraph.to;
   w.count = d->workers->subgraph.edge;
-  w.at = d->workers->next;
-  sli_weigh_edges(d->levels, l, &w);
+  w.ranges = &d->ranges;
+  sli_weigh_edges(&w);
 }
 
 static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
@@ -8932,8 +9047,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
       break;
     }
-    status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters,
-               d->workers->next, &shrunk, d->a);
+    status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, &d->ranges,
+               &shrunk, d->a);
     if (status != SL_OK || !shrunk) {
       break;
     }
@@ -8982,6 +9097,8 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
   sli_dissect_free_levels(d);
   return status;
 }
+
+/* src/impl/ordering/tree_cost.h: the estimated cost of a separator tree */
 
 typedef struct sli_tree_cost {
   uint64_t high, low;
@@ -9452,7 +9569,7 @@ static sl_status sli_dissect_try_points(sli_dissection *d, const sl_int *sorted,
   if (count > g->n / SLI_CELLS_SHARE) {
     return SL_OK;
   }
-  status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], d->workers->next, d->a);
+  status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], &d->ranges, d->a);
   if (status == SL_OK) {
     d->n_levels = 2;
     status = sli_cells_compare(d, sorted, is_good);
@@ -11041,13 +11158,11 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
   return 1;
 }
 
-#define SLI_ORDER_WORKERS 16
-
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
   const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
                       opt->ordering == SL_ORDERING_METIS_REFINED);
   const double flops = 2 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
-  return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_ORDER_WORKERS) : 1;
+  return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
 }
 
 static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
@@ -29545,7 +29660,10 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_USLEEP
 #undef SLI_WORKER_FLOPS
 #undef SLI_SMALL_TASKS
-#undef SLI_ORDER_WORKERS
+#undef SLI_TEAM_MAX
+#undef SLI_SHARES
+#undef SLI_SHARES_MAX
+#undef SLI_SHARES_FROM
 #undef SLI_BORDERS_FIRST
 #undef SLI_BORDERS_RANGE
 #undef SLI_BORDERS_CHUNKS

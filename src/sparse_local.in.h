@@ -77,6 +77,7 @@ extern "C" {
 #include "impl/matrix/matrix_market.h"
 /* ordering: fill-reducing orderings of a graph */
 #include "impl/ordering/graph.h"
+#include "impl/ordering/contract.h"
 #include "impl/ordering/coarsen.h"
 #include "impl/ordering/labels.h"
 #include "impl/ordering/subgraph.h"
@@ -85,6 +86,7 @@ extern "C" {
 #include "impl/ordering/separator.h"
 #include "impl/ordering/mindeg.h"
 #include "impl/ordering/dissect.h"
+#include "impl/ordering/tree_cost.h"
 #include "impl/ordering/levelset.h"
 #include "impl/ordering/geometric.h"
 #include "impl/ordering/cells.h"

@@ -90,9 +90,12 @@ static void sli_parallel(const sl_threads *t, sl_int count, void (*body)(void *d
     }
 }
 
-/* Workers of one parallel call. The first to begin leads: it runs the whole computation, and the
- * others help with its loops, of which they draw items. So a worker alone does everything, whether
- * the others begin late or never. Workers are numbered as they begin, and the leader is 0. */
+#define SLI_TEAM_MAX 16
+
+/* Workers of one parallel call, at most SLI_TEAM_MAX where each has scratch. The first to begin
+ * leads: it runs the whole computation, and the others help with its loops, of which they draw
+ * items. So a worker alone does everything, whether the others begin late or never. Workers are
+ * numbered as they begin, and the leader is 0. */
 typedef struct sli_team {
     sl_int workers;
     void (*lead)(struct sli_team *team, void *data);

@@ -163,7 +163,7 @@ static sl_status sli_dissect_try_points(sli_dissection *d, const sl_int *sorted,
     if (count > g->n / SLI_CELLS_SHARE) {
         return SL_OK;
     }
-    status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], d->workers->next, d->a);
+    status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], &d->ranges, d->a);
     if (status == SL_OK) {
         d->n_levels = 2;
         status = sli_cells_compare(d, sorted, is_good);

@@ -2,42 +2,11 @@
 #ifndef SLI_ORDERING_COARSEN_H
 #define SLI_ORDERING_COARSEN_H
 
-#include "../base/alloc.h"
-
-/* A graph of the multilevel hierarchy, without loops or repeated edges. A vertex of a coarser level
- * represents a set of finest vertices; an edge represents all finest edges between two sets. */
-typedef struct sli_level {
-    sl_int n;
-    sl_off *begin; /* n + 1 */
-    sl_int *to;    /* begin[n] */
-    /* begin[n]: number of finest edges, or after sli_weigh_edges what a separator costs; NULL: 1
-     * each */
-    sl_int *edge;
-    sl_int *weight; /* n: number of finest vertices; NULL: 1 each */
-    sl_int *coarse; /* n: the vertex of the next coarser level that contains this one */
-    void *block;    /* the allocation that holds all arrays */
-} sli_level;
-
-/* The vertices of each cluster, a vertex of the next coarser level: those of cluster k are
- * member[start[k]] .. member[start[k + 1] - 1]. */
-typedef struct sli_clusters {
-    sl_int *member; /* as many as vertices */
-    sl_int *start;  /* one more than vertices */
-} sli_clusters;
+#include "contract.h"
 
 /* Coarsening stops when a level would keep more than this share of the vertices: such a level does
  * not repay a pass over it. */
 #define SLI_COARSEN_STALL 0.95
-#define SLI_LEVELS_MAX 64
-
-SLI_INLINE sl_int sli_level_weight(const sli_level *g, sl_int v) {
-    return g->weight == NULL ? 1 : g->weight[v];
-}
-
-SLI_INLINE sl_int sli_level_edge(const sli_level *g, sl_off e) {
-    return g->edge == NULL ? 1 : g->edge[e];
-}
-
 /* A hash of v: a reproducible pseudo-random number. */
 SLI_INLINE uint32_t sli_hash32(uint32_t v) {
     v ^= v >> 16;
@@ -147,61 +116,6 @@ static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate, sli_clust
     return count;
 }
 
-/* Fills c, whose arrays have room, with the contracted graph. at: c->n of scratch. */
-static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
-                         sl_off *at) {
-    sl_int k, m;
-    sl_off e, count = 0;
-    for (k = 0; k < c->n; k++) {
-        at[k] = -1;
-    }
-    for (k = 0; k < c->n; k++) {
-        const sl_off first = count;
-        c->begin[k] = first;
-        c->weight[k] = 0;
-        for (m = clusters->start[k]; m < clusters->start[k + 1]; m++) {
-            const sl_int v = clusters->member[m];
-            c->weight[k] += sli_level_weight(g, v);
-            for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-                const sl_int u = g->coarse[g->to[e]];
-                if (u == k) {
-                    continue;
-                }
-                if (at[u] < first) {
-                    at[u] = count;
-                    c->to[count] = u;
-                    c->edge[count++] = sli_level_edge(g, e);
-                } else {
-                    c->edge[at[u]] += sli_level_edge(g, e);
-                }
-            }
-        }
-    }
-    c->begin[k] = count;
-}
-
-/* Makes the coarser level of n clusters. at: n of scratch. */
-static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_clusters *clusters,
-                                      sli_level *c, sl_off *at, const sl_allocator *a) {
-    sli_block b = {NULL, 0, 0};
-    sl_status status = SL_OK;
-    int pass;
-    c->n = n;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
-        c->weight = SLI_TAKE(&b, sl_int, n);
-        c->coarse = SLI_TAKE(&b, sl_int, n);
-        c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-        c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    c->block = b.base;
-    if (status == SL_OK) {
-        sli_contract(g, clusters, c, at);
-    }
-    return status;
-}
-
 /* A graph with this many neighbors for each vertex, or more, is wide: that of A^2 or A^3 for a
  * Laplacian A of a mesh, which joins vertices at two or three edges (18 and 36 neighbors), or of
  * finite elements of high order. */
@@ -248,10 +162,10 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
 
 /* Makes the next coarser level, of pairs, or if the finest level is wide, of neighborhoods: these
  * replace three or four levels of pairs, each of which reads and contracts most of the edges again.
- * heaviest: a pair's largest weight; mate, at: g->n of scratch. *shrunk := whether the level is
+ * heaviest: a pair's largest weight; mate: g->n of scratch. *shrunk := whether the level is
  * small enough to be used; c is empty if not. */
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
-                             sli_clusters *clusters, sl_off *at, int *shrunk,
+                             sli_clusters *clusters, sli_shares *ranges, int *shrunk,
                              const sl_allocator *a) {
     sl_int pairs, count = g->n;
     memset(c, 0, sizeof *c);
@@ -272,86 +186,7 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
         }
         count = sli_number_pairs(g, mate, clusters);
     }
-    return sli_coarsen_clusters(g, count, clusters, c, at, a);
-}
-
-/* Scratch for weighing the edges of a level. to, count: room for the finest edges; start: n + 1;
- * the other arrays: n. */
-typedef struct sli_edge_weights {
-    sl_int *cluster, *member, *start, *seen, *to, *count;
-    sl_off *at;
-} sli_edge_weights;
-
-/* Sorts the finest vertices by the vertex of level l that contains them. */
-static void sli_cluster_members(const sli_level *levels, int l, sli_edge_weights *w) {
-    const sl_int n = levels[0].n, clusters = levels[l].n;
-    sl_int v, k;
-    int m;
-    memset(w->start, 0, ((size_t)clusters + 1) * sizeof(sl_int));
-    for (v = 0; v < n; v++) {
-        sl_int c = v;
-        for (m = 0; m < l; m++) {
-            c = levels[m].coarse[c];
-        }
-        w->cluster[v] = c;
-        w->start[c + 1]++;
-    }
-    for (k = 0; k < clusters; k++) {
-        w->start[k + 1] += w->start[k];
-    }
-    for (v = 0; v < n; v++) {
-        w->member[w->start[w->cluster[v]]++] = v;
-    }
-    memmove(w->start + 1, w->start, (size_t)clusters * sizeof(sl_int));
-    w->start[0] = 0;
-}
-
-/* Sets the weight of each edge of level l to the number of finest vertices on both sides of the
- * border that it represents: what a vertex separator there costs. The number of finest edges would
- * charge a diagonal border in a square grid twice as much as a straight one. */
-static void sli_weigh_edges(sli_level *levels, int l, sli_edge_weights *w) {
-    const sli_level *finest = &levels[0];
-    sli_level *g = &levels[l];
-    sl_int k, i;
-    sl_off e;
-    sli_cluster_members(levels, l, w);
-    for (k = 0; k < g->n; k++) {
-        w->seen[k] = -1;
-    }
-    for (k = 0; k < g->n; k++) {
-        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-            w->at[g->to[e]] = e;
-            g->edge[e] = 0;
-        }
-        for (i = w->start[k]; i < w->start[k + 1]; i++) {
-            const sl_int v = w->member[i];
-            for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
-                const sl_int c = w->cluster[finest->to[e]];
-                if (c != k && w->seen[c] != v) {
-                    w->seen[c] = v;
-                    g->edge[w->at[c]]++;
-                }
-            }
-        }
-    }
-    /* The weights so far count the vertices of one side; add those of the other side from the
-     * transposed lists. */
-    memcpy(w->at, g->begin, (size_t)g->n * sizeof(sl_off));
-    for (k = 0; k < g->n; k++) {
-        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-            const sl_off there = w->at[g->to[e]]++;
-            w->to[there] = k;
-            w->count[there] = g->edge[e];
-        }
-    }
-    for (k = 0; k < g->n; k++) {
-        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-            w->at[g->to[e]] = e;
-        }
-        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-            g->edge[w->at[w->to[e]]] += w->count[e];
-        }
-    }
+    return sli_coarsen_clusters(g, count, clusters, c, ranges, a);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* dissect.h: multilevel nested dissection of a connected graph, and the estimated cost of a tree */
+/* dissect.h: multilevel nested dissection of a connected graph */
 #ifndef SLI_ORDERING_DISSECT_H
 #define SLI_ORDERING_DISSECT_H
 
@@ -45,6 +45,7 @@ typedef struct sli_dissect_worker {
 typedef struct sli_dissection {
     const sl_allocator *a;
     sli_team *team;
+    sli_shares ranges;                /* their scratch is `next` of the workers */
     sli_level levels[SLI_LEVELS_MAX]; /* finest first; the arrays of the finest are borrowed */
     int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
@@ -65,6 +66,7 @@ typedef struct sli_dissection {
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
     const sl_int room = n + 1; /* there are never more nodes than vertices */
     sl_int k, *head;
+    sl_off *next;
     d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
     sli_label_tree_layout(&d->tree, b, room);
     head = SLI_TAKE(b, sl_int, room);
@@ -74,10 +76,14 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     d->order = SLI_TAKE(b, sl_int, n);
     d->nodes = SLI_TAKE(b, sl_int, room);
     d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
+    next = SLI_TAKE(b, sl_off, (uint64_t)n * (uint64_t)d->team->workers);
+    d->ranges.team = d->team;
+    d->ranges.scratch = next;
+    d->ranges.room = n;
     for (k = 0; k < d->team->workers; k++) {
         sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
         sli_subgraph_layout(&w->subgraph, b, n, edges);
-        w->next = SLI_TAKE(b, sl_off, n);
+        w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
         w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
         w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
         w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
@@ -273,14 +279,15 @@ static void sli_dissect_project(sli_dissection *d) {
 /* Weighs the edges of level l by what a separator costs. */
 static void sli_dissect_weigh(sli_dissection *d, int l) {
     sli_edge_weights w;
+    w.levels = d->levels;
+    w.l = l;
     w.cluster = d->label;
     w.member = d->order;
     w.start = d->nodes;
-    w.seen = d->begin;
     w.to = d->workers->subgraph.to;
     w.count = d->workers->subgraph.edge;
-    w.at = d->workers->next;
-    sli_weigh_edges(d->levels, l, &w);
+    w.ranges = &d->ranges;
+    sli_weigh_edges(&w);
 }
 
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on
@@ -309,8 +316,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
         if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
             break;
         }
-        status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters,
-                             d->workers->next, &shrunk, d->a);
+        status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, &d->ranges,
+                             &shrunk, d->a);
         if (status != SL_OK || !shrunk) {
             break;
         }
@@ -362,62 +369,6 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
     }
     sli_dissect_free_levels(d);
     return status;
-}
-
-/* An estimate of cost, exact: high * 2^32 + low, with low < 2^32. */
-typedef struct sli_tree_cost {
-    uint64_t high, low;
-} sli_tree_cost;
-
-/* Adds a * b: a < 2^62, b < 2^31. */
-SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
-    c->low += (a & 0xffffffffu) * b;
-    c->high += (a >> 32) * b + (c->low >> 32);
-    c->low &= 0xffffffffu;
-}
-
-SLI_INLINE sli_tree_cost sli_tree_cost_times(sli_tree_cost c, uint64_t factor) {
-    c.low *= factor;
-    c.high = c.high * factor + (c.low >> 32);
-    c.low &= 0xffffffffu;
-    return c;
-}
-
-SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
-    return a.high < b.high || (a.high == b.high && a.low < b.low);
-}
-
-/* Estimates the cost of local solves with the order of a tree, as path weight: the entries of L on
- * the paths from the columns to the root. The paths of about half of a subgraph's vertices contain
- * its separator, which has about as many columns as rows below. So each node counts its weight
- * times the square of its border. *flat := the same for square flat grids of that size. */
-static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
-    const sli_level *g = &d->levels[0];
-    sl_int *border = d->nodes, v, k;
-    sl_off e;
-    sli_tree_cost cost = {0, 0};
-    memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
-    for (v = 0; v < g->n; v++) {
-        const sl_int own = d->label[v];
-        sl_int last = -1;
-        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-            const sl_int other = d->label[g->to[e]];
-            if (own < other && other != last) {
-                const sl_int node = sli_label_tree_lca(&d->tree, own, other);
-                border[node] += last == -1 || node != sli_label_tree_lca(&d->tree, own, last);
-                last = other;
-            }
-        }
-    }
-    *flat = cost;
-    for (k = 0; k < d->tree.count; k++) {
-        const uint64_t weight = (uint64_t)d->tree.weight[k], across = (uint64_t)border[k];
-        if (!sli_label_tree_is_leaf(&d->tree, k)) {
-            sli_tree_cost_add(&cost, weight * across, across);
-            sli_tree_cost_add(flat, weight, weight);
-        }
-    }
-    return cost;
 }
 
 #endif

@@ -3,7 +3,6 @@
 #define SLI_ORDERING_LABELS_H
 
 #include "coarsen.h"
-#include "../base/parallel.h"
 
 /* The separator tree of one graph. An inner node is a separator, a leaf is a subgraph that is not
  * dissected. The label of a vertex is its node. After sli_label_tree_number the nodes are numbered

@@ -2,7 +2,7 @@
 #ifndef SLI_ORDERING_LEVELSET_H
 #define SLI_ORDERING_LEVELSET_H
 
-#include "dissect.h"
+#include "tree_cost.h"
 
 /* Each side of a bisection has at least this percentage, if a level set allows it. */
 #define SLI_LEVELSET_SHARE 35

@@ -332,15 +332,12 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
     return 1;
 }
 
-/* At most so many workers order a graph: each has scratch of the size of the graph. */
-#define SLI_ORDER_WORKERS 16
-
 /* The workers that order A as the options say; those of METIS do not share. */
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
     const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
                                           opt->ordering == SL_ORDERING_METIS_REFINED);
     const double flops = 2 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
-    return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_ORDER_WORKERS) : 1;
+    return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
 }
 
 /* Finds the elimination order of a checked symmetric pattern. perm := n rows; septree := the
