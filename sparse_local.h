@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7839054b775ed3e6
+ * FNV-1a of the lines after this comment, without the license: 0d6fb977340a73f0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -30,62 +30,62 @@
  *   3028 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3119 base.h   3413 status.h   3474 options.h   3532 alloc.h   3642 hash.h   3772 file_map.h
- *   3869 sort.h   3933 parallel.h
+ *   3119 base.h   3413 status.h   3474 options.h   3532 alloc.h   3688 hash.h   3818 file_map.h
+ *   3915 sort.h   3979 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4126 panel.h   4152 step.h   4226 pivot_rule.h   4300 front.h   4360 pairs.h
- *   4567 inverse_front.h   4639 table.h   4667 simd.h   4762 simd_scalar_single.h
- *   4808 simd_scalar.h   4936 simd_avx2_single.h   4990 simd_avx2.h   5208 simd_avx512_single.h
- *   5263 simd_avx512.h   5422 simd_neon_single.h   5464 simd_neon.h   5678 dispatch.h
+ *   4172 panel.h   4198 step.h   4272 pivot_rule.h   4346 front.h   4406 pairs.h
+ *   4613 inverse_front.h   4685 table.h   4713 simd.h   4808 simd_scalar_single.h
+ *   4854 simd_scalar.h   4982 simd_avx2_single.h   5036 simd_avx2.h   5254 simd_avx512_single.h
+ *   5309 simd_avx512.h   5468 simd_neon_single.h   5510 simd_neon.h   5724 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5758 csc.h   5872 csc_build.h   6006 csc64.h   6077 csc_triangle.h   6143 csc_products.h
- *   6260 permute.h   6326 sum.h   6408 output_file.h   6617 matrix_market.h
+ *   5804 csc.h   5918 csc_build.h   6052 csc64.h   6123 csc_triangle.h   6189 csc_products.h
+ *   6306 permute.h   6372 sum.h   6454 output_file.h   6663 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7063 graph.h   7212 contract.h   7466 coarsen.h   7629 labels.h   7850 subgraph.h   8045 heap.h
- *   8105 bisect.h   8332 separator.h   8594 mindeg.h   8777 dissect.h   9101 tree_cost.h
- *   9153 levelset.h   9259 geometric.h   9434 cells.h   9614 septree.h   9690 metis.h
- *   9839 metis_refined.h   9953 nd.h  10152 compress.h  10273 peel.h  10451 quotient.h
- *  10864 order.h
+ *   7109 graph.h   7258 contract.h   7512 coarsen.h   7675 labels.h   7896 subgraph.h   8091 heap.h
+ *   8151 bisect.h   8378 separator.h   8640 mindeg.h   8823 dissect.h   9147 tree_cost.h
+ *   9199 levelset.h   9305 geometric.h   9480 cells.h   9660 septree.h   9736 metis.h
+ *   9885 metis_refined.h   9999 nd.h  10198 compress.h  10319 peel.h  10497 quotient.h
+ *  10910 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11208 symbolic_types.h  11245 etree.h  11318 counts.h  11375 supernodes.h  11597 structure.h
- *  11718 schedule.h  11998 symbolic.h  12428 reach.h
+ *  11254 symbolic_types.h  11291 etree.h  11364 counts.h  11421 supernodes.h  11643 structure.h
+ *  11764 schedule.h  12044 symbolic.h  12482 reach.h
  * (factor: the numbers of L and D)
- *  12699 factor_types.h  13110 storage.h  13250 pivot_search.h  13596 pivoted.h  13664 scatter.h
- *  13822 uplooking.h  13894 null_product.h  14098 null_dense.h  14175 null_basis.h
- *  14483 null_vectors.h  14625 multifrontal.h  14815 gather.h  14863 kept.h  15030 front_tasks.h
- *  15373 nullspace.h  15576 growth.h  15652 factor_setup.h  15966 factor.h  16176 leftlooking.h
- *  16322 factor_query.h  16457 combination.h
+ *  12753 factor_types.h  13164 storage.h  13304 pivot_search.h  13650 pivoted.h  13718 scatter.h
+ *  13876 uplooking.h  13948 null_product.h  14152 null_dense.h  14229 null_basis.h
+ *  14537 null_vectors.h  14679 multifrontal.h  14869 gather.h  14917 kept.h  15084 front_tasks.h
+ *  15427 nullspace.h  15630 growth.h  15706 factor_setup.h  16020 factor.h  16230 leftlooking.h
+ *  16376 factor_query.h  16511 combination.h
  * (solve: full and local solves)
- *  16518 region_types.h  16622 work.h  16722 query.h  16930 singular.h  17200 backward.h
- *  17230 sweep_tasks.h  17564 sweep.h  17775 compile.h  17968 plan.h  18075 local.h  18227 parts.h
- *  18516 refine.h  18695 refine_local.h  18911 rcond.h  19067 defects.h
+ *  16572 region_types.h  16676 work.h  16776 query.h  16984 singular.h  17254 backward.h
+ *  17284 sweep_tasks.h  17618 sweep.h  17829 compile.h  18022 plan.h  18129 local.h  18281 parts.h
+ *  18570 refine.h  18749 refine_local.h  18965 rcond.h  19121 defects.h
  * (inverse: entries of the inverse, regions)
- *  19145 traversal.h  19390 traversal_run.h  19573 row_sets.h  19600 unit_vectors.h
- *  19827 bilinear.h  20004 entries.h  20285 block.h  20525 reserve.h  20717 selected.h
- *  20927 selected_query.h  21029 region_choose.h  21253 region.h
+ *  19199 traversal.h  19444 traversal_run.h  19627 row_sets.h  19654 unit_vectors.h
+ *  19881 bilinear.h  20058 entries.h  20339 block.h  20579 reserve.h  20771 selected.h
+ *  20981 selected_query.h  21083 region_choose.h  21307 region.h
  * (change: a factor that follows changes of its matrix)
- *  21501 update.h  21851 rank.h  22189 edges.h  22343 choose.h  22541 pins_types.h
- *  22619 pins_nulls.h  22797 pins_capacitance.h  23048 pins_held.h  23257 pins_choose.h
- *  23327 pins_rebuild.h  23547 pins_matrix.h  23693 pins.h  23980 pins_solve.h  24310 subset.h
- *  24417 restrict_analysis.h  24714 restrict_anew.h  24768 restrict_symbolic.h  24949 restrict.h
- *  25177 edit_match.h  25376 edit_place.h  25625 edit_separate.h  25938 edit_order.h
- *  26093 edit_graph.h  26188 edit_join.h  26464 edit.h  26627 edit_factor.h
+ *  21555 update.h  21905 rank.h  22243 edges.h  22397 choose.h  22595 pins_types.h
+ *  22673 pins_nulls.h  22851 pins_capacitance.h  23102 pins_held.h  23313 pins_choose.h
+ *  23383 pins_rebuild.h  23603 pins_matrix.h  23749 pins.h  24036 pins_solve.h  24366 subset.h
+ *  24473 restrict_analysis.h  24770 restrict_anew.h  24824 restrict_symbolic.h  25005 restrict.h
+ *  25233 edit_match.h  25432 edit_place.h  25681 edit_separate.h  25994 edit_order.h
+ *  26149 edit_graph.h  26244 edit_join.h  26520 edit.h  26683 edit_factor.h
  * (save: factors in files)
- *  26885 format.h  27181 decode.h  27329 check.h  27659 write.h  27964 load.h  28232 load_inverse.h
- *  28561 load_calls.h
+ *  26941 format.h  27237 decode.h  27385 check.h  27715 write.h  28020 load.h  28288 load_inverse.h
+ *  28617 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28760 batch_solve.h  28969 batch_factor.h  29170 batch_diagonal.h
+ *  28816 batch_solve.h  29025 batch_factor.h  29226 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29310 hermitian.h  29472 complex_rows.h
+ *  29366 hermitian.h  29528 complex_rows.h
  * (last: undefine every internal macro)
- *  29640 undef.h
+ *  29696 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29892 front.inl.h  29894 product.inl.h  30389 words_undef.inl.h  30471 multi_rhs.inl.h
- *  30490 multi_rhs_small.inl.h  30658 multi_rhs_tiles.inl.h  30963 complex_groups.inl.h
- *  31195 sweeps.inl.h  31197 unit_triangle.inl.h  31234 two_rhs.inl.h  31405 small_supernode.inl.h
- *  31565 single_rhs.inl.h  31814 kernel_set.inl.h  31816 complex_small.inl.h
- *  31980 complex_rows.inl.h  32212 inverse_front.inl.h  32497 row.inl.h  32527 change.inl.h
- *  32591 interleave.inl.h
+ *  29948 front.inl.h  29950 product.inl.h  30445 words_undef.inl.h  30527 multi_rhs.inl.h
+ *  30546 multi_rhs_small.inl.h  30714 multi_rhs_tiles.inl.h  31019 complex_groups.inl.h
+ *  31251 sweeps.inl.h  31253 unit_triangle.inl.h  31290 two_rhs.inl.h  31461 small_supernode.inl.h
+ *  31621 single_rhs.inl.h  31870 kernel_set.inl.h  31872 complex_small.inl.h
+ *  32036 complex_rows.inl.h  32268 inverse_front.inl.h  32553 row.inl.h  32583 change.inl.h
+ *  32647 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3638,6 +3638,52 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 }
 
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
+
+typedef struct sli_lender {
+  sl_allocator more;
+  unsigned char *base;
+  size_t used, size;
+} sli_lender;
+
+static void *sli_lender_allocate(void *context, size_t bytes) {
+  sli_lender *l = (sli_lender *)context;
+  const size_t before = l->used;
+  unsigned char *block = l->base + before;
+  if (bytes > l->size || l->size - bytes < before + 2 * SLI_ALIGN) {
+    return l->more.allocate(l->more.context, bytes);
+  }
+  memcpy(block, &before, sizeof before);
+  l->used = before + SLI_ALIGN + (bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+  memcpy(block + sizeof before, &l->used, sizeof l->used);
+  return block + SLI_ALIGN;
+}
+
+static void sli_lender_release(void *context, void *block) {
+  sli_lender *l = (sli_lender *)context;
+  unsigned char *at = (unsigned char *)block;
+  size_t end;
+  if ((uintptr_t)at - (uintptr_t)l->base >= l->size) {
+    l->more.release(l->more.context, block);
+    return;
+  }
+  memcpy(&end, at - SLI_ALIGN + sizeof end, sizeof end);
+  if (end == l->used) {
+    memcpy(&l->used, at - SLI_ALIGN, sizeof l->used);
+  }
+}
+
+SLI_INLINE sl_allocator sli_lender_start(sli_lender *l, const sli_block *b, size_t from,
+                     const sl_allocator *more) {
+  sl_allocator a;
+  a.allocate = sli_lender_allocate;
+  a.release = sli_lender_release;
+  a.context = l;
+  l->more = *more;
+  l->base = b->base + from;
+  l->used = 0;
+  l->size = b->used - from;
+  return a;
+}
 
 /* src/impl/base/hash.h: 128-bit hashes of arrays, by which objects recognize the contents of others */
 
@@ -12011,24 +12057,28 @@ typedef struct sli_analysis {
   unsigned char *is_first;
   sl_int *earlier;
   sli_septree septree;
+  size_t ordered;
 } sli_analysis;
 
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
   w->n = rows;
+  w->perm = SLI_TAKE(b, sl_int, n);
+  w->choice.other = SLI_TAKE(b, sl_int, n);
+  w->scratch = SLI_TAKE(b, sl_int, 5 * n);
+  w->septree.node_of = SLI_TAKE(b, sl_int, n);
+  w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+  w->ordered = b->used;
   w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
   w->rows.to = SLI_TAKE(b, sl_int, nnz);
   w->rows.from = SLI_TAKE(b, sl_int, nnz);
   w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
   w->columns.to = SLI_TAKE(b, sl_int, nnz);
-  w->perm = SLI_TAKE(b, sl_int, n);
-  w->choice.other = SLI_TAKE(b, sl_int, n);
   w->old_of = SLI_TAKE(b, sl_int, n);
   w->new_of = SLI_TAKE(b, sl_int, n);
   w->parent = SLI_TAKE(b, sl_int, n);
   w->counts = SLI_TAKE(b, sl_int, n);
   w->super_of = SLI_TAKE(b, sl_int, n);
-  w->scratch = SLI_TAKE(b, sl_int, 5 * n);
   w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
@@ -12041,8 +12091,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->is_first = SLI_TAKE(b, unsigned char, n);
     w->earlier = SLI_TAKE(b, sl_int, n);
   }
-  w->septree.node_of = SLI_TAKE(b, sl_int, n);
-  w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+  (void)sli_take(b, (uint64_t)nnz + 256, 8);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
@@ -12254,7 +12303,7 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
 
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
                    sli_analysis *w, sli_team *team, const sl_allocator *a,
-                   sl_stats *stats) {
+                   const sl_allocator *for_order, sl_stats *stats) {
   double started;
   sl_symbolic draft;
   sli_block b = {NULL, 0, 0};
@@ -12264,7 +12313,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   sl_status status;
   started = sli_seconds();
   status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
-             &w->choice, team, a, stats);
+             &w->choice, team, for_order, stats);
   stats->symbolic.seconds_order = sli_seconds() - started;
   if (status != SL_OK) {
     return status;
@@ -12313,14 +12362,15 @@ typedef struct sli_symbolic_job {
   const sl_csc *A;
   const sl_options *opt;
   sli_analysis *w;
-  const sl_allocator *a;
+  const sl_allocator *a, *for_order;
   sl_stats *stats;
   sl_status status;
 } sli_symbolic_job;
 
 static void sli_symbolic_lead(sli_team *team, void *data) {
   sli_symbolic_job *j = (sli_symbolic_job *)data;
-  j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->stats);
+  j->status =
+    sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
 }
 
 static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
@@ -12339,6 +12389,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   const double started = sli_seconds();
   sli_analysis w;
   sli_block b = {NULL, 0, 0};
+  sli_lender lender;
+  sl_allocator lent;
   sl_stats found;
   sl_status status;
   int pass;
@@ -12364,11 +12416,13 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
   if (status == SL_OK) {
+    lent = sli_lender_start(&lender, &b, w.ordered, &a);
     found.symbolic.seconds_analyze = sli_seconds() - started;
-    sli_symbolic_job job = {out, A, opt, &w, &a, &found, SL_OK};
+    sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
     const sl_options none = sli_options_with(&a);
-    sli_team_run(opt != NULL ? &opt->threads : &none.threads, sli_order_workers(A, opt),
-           sli_symbolic_lead, &job);
+    const sl_int workers = sli_order_workers(A, opt);
+    job.for_order = workers > 1 ? &a : &lent;
+    sli_team_run(opt != NULL ? &opt->threads : &none.threads, workers, sli_symbolic_lead, &job);
     status = job.status;
     if (stats != NULL && status == SL_OK) {
       sli_symbolic_stats_copy(&found, stats);
@@ -16175,10 +16229,9 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
 
 /* src/impl/factor/leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
 
-static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_factor *F) {
-  p->local = SLI_TAKE(b, sl_int, F->S->n);
-  p->relative = SLI_TAKE(b, sl_int, F->S->tallest);
-  p->buffer = F->buffer;
+static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
+  p->local = SLI_TAKE(b, sl_int, S->n);
+  p->relative = SLI_TAKE(b, sl_int, S->tallest);
 }
 
 static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
@@ -16301,12 +16354,13 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     seeds = SLI_TAKE(&b, uint64_t, entries);
     scratch = SLI_TAKE(&b, uint64_t, entries);
-    sli_left_work_layout(&work, &b, F);
+    sli_left_work_layout(&work, &b, F->S);
     status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
   }
+  work.buffer = F->buffer;
   sli_factor_begin(F);
   for (k = 0; k < count; k++) {
     const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
@@ -23172,7 +23226,9 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
   const double started = sli_seconds(), one = 1.0;
   const double *const values = h->values;
   const sl_symbolic *S = F->S;
+  sli_left_work left = h->left;
   sli_source from;
+  left.buffer = G->buffer;
   from.A = NULL;
   from.values = &values;
   from.coefficients = &one;
@@ -23187,7 +23243,7 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
     memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
   }
   sli_factor_identify(G, &from);
-  return sli_left_refactor(G, &h->left, &from, h->seeds, h->n_seeds, started, NULL);
+  return sli_left_refactor(G, &left, &from, h->seeds, h->n_seeds, started, NULL);
 }
 
 static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {

@@ -26,24 +26,30 @@ typedef struct sli_analysis {
     unsigned char *is_first; /* n: the same, by column */
     sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
     sli_septree septree;     /* n each: by rows of A */
+    size_t ordered;          /* bytes of the block that hold what the ordering fills */
 } sli_analysis;
 
+/* What the ordering fills comes first. Then follows memory that the ordering may use until it is
+ * done: a graph and a quotient graph need some 64 n + 18 nnz bytes. */
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
     const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
     w->n = rows;
+    w->perm = SLI_TAKE(b, sl_int, n);
+    w->choice.other = SLI_TAKE(b, sl_int, n);
+    w->scratch = SLI_TAKE(b, sl_int, 5 * n);
+    w->septree.node_of = SLI_TAKE(b, sl_int, n);
+    w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+    w->ordered = b->used;
     w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
     w->rows.to = SLI_TAKE(b, sl_int, nnz);
     w->rows.from = SLI_TAKE(b, sl_int, nnz);
     w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
     w->columns.to = SLI_TAKE(b, sl_int, nnz);
-    w->perm = SLI_TAKE(b, sl_int, n);
-    w->choice.other = SLI_TAKE(b, sl_int, n);
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n);
     w->counts = SLI_TAKE(b, sl_int, n);
     w->super_of = SLI_TAKE(b, sl_int, n);
-    w->scratch = SLI_TAKE(b, sl_int, 5 * n);
     w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
@@ -56,8 +62,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
         w->is_first = SLI_TAKE(b, unsigned char, n);
         w->earlier = SLI_TAKE(b, sl_int, n);
     }
-    w->septree.node_of = SLI_TAKE(b, sl_int, n);
-    w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
+    (void)sli_take(b, (uint64_t)nnz + 256, 8);
 }
 
 /* All arrays. A saved analysis has them in this order (save/format.h). */
@@ -284,7 +289,7 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
 
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
                                    sli_analysis *w, sli_team *team, const sl_allocator *a,
-                                   sl_stats *stats) {
+                                   const sl_allocator *for_order, sl_stats *stats) {
     double started;
     sl_symbolic draft;
     sli_block b = {NULL, 0, 0};
@@ -294,7 +299,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     sl_status status;
     started = sli_seconds();
     status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
-                       &w->choice, team, a, stats);
+                       &w->choice, team, for_order, stats);
     stats->symbolic.seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;
@@ -344,14 +349,15 @@ typedef struct sli_symbolic_job {
     const sl_csc *A;
     const sl_options *opt;
     sli_analysis *w;
-    const sl_allocator *a;
+    const sl_allocator *a, *for_order;
     sl_stats *stats;
     sl_status status;
 } sli_symbolic_job;
 
 static void sli_symbolic_lead(sli_team *team, void *data) {
     sli_symbolic_job *j = (sli_symbolic_job *)data;
-    j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->stats);
+    j->status =
+        sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
 }
 
 /* Copies the symbolic group. */
@@ -374,6 +380,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     const double started = sli_seconds();
     sli_analysis w;
     sli_block b = {NULL, 0, 0};
+    sli_lender lender;
+    sl_allocator lent;
     sl_stats found;
     sl_status status;
     int pass;
@@ -399,11 +407,13 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
         status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     if (status == SL_OK) {
+        lent = sli_lender_start(&lender, &b, w.ordered, &a);
         found.symbolic.seconds_analyze = sli_seconds() - started;
-        sli_symbolic_job job = {out, A, opt, &w, &a, &found, SL_OK};
+        sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
         const sl_options none = sli_options_with(&a);
-        sli_team_run(opt != NULL ? &opt->threads : &none.threads, sli_order_workers(A, opt),
-                     sli_symbolic_lead, &job);
+        const sl_int workers = sli_order_workers(A, opt);
+        job.for_order = workers > 1 ? &a : &lent;
+        sli_team_run(opt != NULL ? &opt->threads : &none.threads, workers, sli_symbolic_lead, &job);
         status = job.status;
         if (stats != NULL && status == SL_OK) {
             sli_symbolic_stats_copy(&found, stats);

@@ -127,4 +127,54 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 /* The next array of count elements of a type. */
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 
+/* An allocator that lends out the end of a block that its owner does not use yet, and turns to
+ * another one when that is full. Memory that was just used costs no page faults. What is released
+ * in reverse order is lent again. For one thread. */
+typedef struct sli_lender {
+    sl_allocator more;
+    unsigned char *base;
+    size_t used, size;
+} sli_lender;
+
+static void *sli_lender_allocate(void *context, size_t bytes) {
+    sli_lender *l = (sli_lender *)context;
+    const size_t before = l->used;
+    unsigned char *block = l->base + before;
+    if (bytes > l->size || l->size - bytes < before + 2 * SLI_ALIGN) {
+        return l->more.allocate(l->more.context, bytes);
+    }
+    memcpy(block, &before, sizeof before);
+    l->used = before + SLI_ALIGN + (bytes + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
+    memcpy(block + sizeof before, &l->used, sizeof l->used);
+    return block + SLI_ALIGN;
+}
+
+static void sli_lender_release(void *context, void *block) {
+    sli_lender *l = (sli_lender *)context;
+    unsigned char *at = (unsigned char *)block;
+    size_t end;
+    if ((uintptr_t)at - (uintptr_t)l->base >= l->size) {
+        l->more.release(l->more.context, block);
+        return;
+    }
+    memcpy(&end, at - SLI_ALIGN + sizeof end, sizeof end);
+    if (end == l->used) { /* the last one */
+        memcpy(&l->used, at - SLI_ALIGN, sizeof l->used);
+    }
+}
+
+/* Lends out an allocated block from position `from` on. */
+SLI_INLINE sl_allocator sli_lender_start(sli_lender *l, const sli_block *b, size_t from,
+                                         const sl_allocator *more) {
+    sl_allocator a;
+    a.allocate = sli_lender_allocate;
+    a.release = sli_lender_release;
+    a.context = l;
+    l->more = *more;
+    l->base = b->base + from;
+    l->used = 0;
+    l->size = b->used - from;
+    return a;
+}
+
 #endif

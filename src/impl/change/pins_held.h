@@ -142,7 +142,9 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
     const double started = sli_seconds(), one = 1.0;
     const double *const values = h->values;
     const sl_symbolic *S = F->S;
+    sli_left_work left = h->left;
     sli_source from;
+    left.buffer = G->buffer;
     from.A = NULL;
     from.values = &values;
     from.coefficients = &one;
@@ -157,7 +159,7 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
         memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
     }
     sli_factor_identify(G, &from);
-    return sli_left_refactor(G, &h->left, &from, h->seeds, h->n_seeds, started, NULL);
+    return sli_left_refactor(G, &left, &from, h->seeds, h->n_seeds, started, NULL);
 }
 
 /* Takes the held rows into P: their columns and pins, the entries of A that couple them to others,

@@ -6,10 +6,10 @@
 #include "factor.h"
 #include "gather.h"
 
-static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_factor *F) {
-    p->local = SLI_TAKE(b, sl_int, F->S->n);
-    p->relative = SLI_TAKE(b, sl_int, F->S->tallest);
-    p->buffer = F->buffer;
+/* All but p->buffer, which is the buffer of the factor. */
+static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
+    p->local = SLI_TAKE(b, sl_int, S->n);
+    p->relative = SLI_TAKE(b, sl_int, S->tallest);
 }
 
 /* Recomputes supernode s from A and its descendants. Descendants are visited parents first, and
@@ -142,12 +142,13 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
-        sli_left_work_layout(&work, &b, F);
+        sli_left_work_layout(&work, &b, F->S);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
+    work.buffer = F->buffer;
     sli_factor_begin(F);
     for (k = 0; k < count; k++) {
         const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
