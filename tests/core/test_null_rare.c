@@ -67,6 +67,77 @@ static void rows_of_zeros_in_several_trees(void **state) {
     gen_matrix_free(&M);
 }
 
+/* A path of four rows, of which the last two are zeros: the path of the last row has no anchor.
+ * Many right-hand sides have the bits of each one alone, with weights and without. */
+static void paths_without_an_anchor(void **state) {
+    (void)state;
+    enum { NRHS = 20 };
+    const double mass[4] = {1, 3, 5, 7};
+    gen_list_t t = gen_list(4);
+    add_edge(&t, 0, 1, 1.0);
+    add_edge(&t, 1, 2, 0.0);
+    add_edge(&t, 2, 3, 0.0);
+    gen_matrix_t M = matrix_of(&t, 0);
+    sl_options natural = options_none();
+    sl_symbolic *S;
+    double B[4 * NRHS] = {0}, X[4 * NRHS], x[4];
+    for (int r = 0; r < NRHS; r++) {
+        B[4 * r] = r + 1.0;
+        B[4 * r + 1] = -B[4 * r];
+    }
+    natural.ordering = SL_ORDERING_NATURAL;
+    natural.relaxation = SL_RELAXATION_NONE;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &natural, NULL));
+    for (int way = 0; way < 3; way++) {
+        sl_options opt = skipping();
+        sl_factor *F;
+        sl_plan *P;
+        const sl_int last = 3;
+        opt.mass = way == 0 ? mass : NULL;
+        opt.consistency_tolerance = way == 1 ? -1.0 : 0.0;
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+        SL_CHECK(sl_factor_solve(F, X, 4, B, 4, NRHS, NULL));
+        for (int r = 0; r < NRHS; r++) {
+            SL_CHECK(sl_factor_solve(F, x, 4, B + 4 * r, 4, 1, NULL));
+            SAME_VALUES(x, X + 4 * r, 4);
+            assert_true(fabs(x[0] - x[1] - (r + 1.0)) <= 1e-14 * (r + 1.0) && x[3] == 0.0);
+        }
+        SL_CHECK(sl_plan_create(&P, S, &last, 1, &last, 1, NULL, NULL));
+        x[0] = 1.0;
+        SL_CHECK(sl_plan_solve(P, F, x, 1, B + 3, 1, 1, NULL));
+        assert_true(x[0] == 0.0);
+        sl_plan_free(P);
+        sl_factor_free(F);
+    }
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* A change of columns after which diagonal entries of one component have different signs. */
+static void changes_to_both_signs_are_refused(void **state) {
+    (void)state;
+    gen_list_t t = gen_list(4);
+    for (sl_int k = 0; k < 3; k++) {
+        add_edge(&t, k, k + 1, 1.0);
+    }
+    gen_matrix_t M = matrix_of(&t, 0); /* the lower triangle: columns begin with the diagonal */
+    sl_options opt = skipping();
+    sl_symbolic *S;
+    sl_factor *F;
+    const sl_int columns[2] = {0, 1};
+    double b[4] = {0}, x[4];
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    M.x[M.p[0]] = -3.0;
+    M.x[M.p[0] + 1] = 3.0;
+    M.x[M.p[1]] = -2.0;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor_changed(F, &M.view, columns, 2, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, 4, b, 4, 1, NULL));
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 /* Weights m with z' m = 0 up to rounding do not determine a solution, also where z is small at the
  * null pivot, so that the terms of z' m are much larger than m. */
 static void weights_that_cancel_against_the_null_vector(void **state) {
@@ -230,6 +301,8 @@ static void a_regular_component_is_not_suspected(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_of_zeros_in_several_trees),
+        cmocka_unit_test(paths_without_an_anchor),
+        cmocka_unit_test(changes_to_both_signs_are_refused),
         cmocka_unit_test(weights_that_cancel_against_the_null_vector),
         cmocka_unit_test(edges_of_weight_zero_in_both_triangles),
         cmocka_unit_test(null_pivots_of_a_sum_are_confirmed),

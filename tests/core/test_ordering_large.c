@@ -186,41 +186,58 @@ static void complete_graphs_are_one_supernode(void **state) {
     gen_matrix_free(&M);
 }
 
+/* A grid of triangles with `side` x side vertices and their points. */
+static gen_matrix_t triangles(sl_int side, double *points) {
+    gen_list_t t = gen_list(side * side);
+    for (sl_int v = 0; v < side * side; v++) {
+        const sl_int column = v % side, row = v / side;
+        points[2 * v] = column;
+        points[2 * v + 1] = row;
+        if (column + 1 < side) {
+            gen_add(&t, v + 1, v, 1.0);
+        }
+        if (row + 1 < side) {
+            gen_add(&t, v + side, v, 1.0);
+        }
+        if (column + 1 < side && row + 1 < side) {
+            gen_add(&t, v + side + 1, v, 1.0);
+        }
+    }
+    return store(&t);
+}
+
+/* Grids of any size are ordered by their points as well as without. */
+static void small_grids_are_ordered_by_points(void **state) {
+    (void)state;
+    for (sl_int side = 2; side <= 40; side++) {
+        double points[2 * 40 * 40];
+        gen_matrix_t M = triangles(side, points);
+        sl_options opt = options_none();
+        const double fill = fill_of(&M.view, &opt);
+        opt.coordinates = points;
+        opt.dimensions = 2;
+        assert_true(fill_of(&M.view, &opt) <= 1.1 * fill);
+        gen_matrix_free(&M);
+    }
+}
+
 /* Every allocation of an order by coordinates fails once. */
 static void an_order_by_points_may_lack_memory(void **state) {
     (void)state;
-    enum { SIDE = 70 };
-    static double points[3 * SIDE * SIDE];
-    gen_list_t t = gen_list(SIDE * SIDE);
-    for (sl_int v = 0; v < SIDE * SIDE; v++) {
-        const sl_int column = v % SIDE, row = v / SIDE;
-        points[3 * v] = column;
-        points[3 * v + 1] = row;
-        points[3 * v + 2] = 0.0;
-        if (column + 1 < SIDE) {
-            gen_add(&t, v + 1, v, 1.0);
-        }
-        if (row + 1 < SIDE) {
-            gen_add(&t, v + SIDE, v, 1.0);
-        }
-        if (column + 1 < SIDE && row + 1 < SIDE) {
-            gen_add(&t, v + SIDE + 1, v, 1.0);
-        }
-    }
-    gen_matrix_t M = store(&t);
-    counter_t counter = counter_make();
-    sl_options opt = options_counted(&counter);
-    sl_symbolic *S = NULL;
+    static double points[2 * 70 * 70];
+    gen_matrix_t M = triangles(70, points);
     sl_status status = SL_ERR_MEMORY;
-    opt.coordinates = points;
-    opt.dimensions = 3;
-    for (sl_off k = 0; status != SL_OK; k++) {
+    for (int64_t k = 0; status != SL_OK; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sl_symbolic *S = NULL;
+        opt.coordinates = points;
+        opt.dimensions = 2;
         counter.fail_at = k;
         status = sl_symbolic_create(&S, &M.view, &opt, NULL);
         assert_true(status == SL_OK || (status == SL_ERR_MEMORY && S == NULL));
         sl_symbolic_free(S);
         COUNTER_CLEAN(&counter);
-        counter = counter_make();
     }
     gen_matrix_free(&M);
 }
@@ -233,6 +250,7 @@ int main(void) {
         cmocka_unit_test(heavy_vertices_stay_whole),
         cmocka_unit_test(graphs_without_separators_are_ordered),
         cmocka_unit_test(complete_graphs_are_one_supernode),
+        cmocka_unit_test(small_grids_are_ordered_by_points),
         cmocka_unit_test(an_order_by_points_may_lack_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -255,7 +255,7 @@ static double sli_schedule_gain(const sl_symbolic *S, const sli_schedule_work *w
             w->path[up] = w->path[s] > w->path[up] ? w->path[s] : w->path[up];
         }
     }
-    return longest > 0.0 ? total / longest : 1.0;
+    return longest > 0.0 ? total / longest : 1.0; /* untested: fronts have a cost */
 }
 
 /* Fills a schedule for at most p->workers. The arrays of p and w have room. */

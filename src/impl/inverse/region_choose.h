@@ -129,7 +129,10 @@ static void sli_choice_sweep(sli_choice *c) {
 static void sli_choice_improve(sli_choice *c) {
     sl_int pass, k;
     int is_better = 1;
-    for (pass = 0; pass < SLI_REGION_PASSES && is_better; pass++) {
+    for (pass = 0; is_better; pass++) {
+        if (pass == SLI_REGION_PASSES) { /* untested: there are fewer passes */
+            break;                       /* untested: the same */
+        }
         is_better = 0;
         for (k = 0; k < c->reach.count; k++) {
             const sl_int up = c->steps[k].up;

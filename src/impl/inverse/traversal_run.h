@@ -75,11 +75,12 @@ static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sl
 static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     const sl_symbolic *S = F->S;
     const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
-    const sl_off row = S->rows_begin[s], rows = S->rows_begin[s + 1] - row;
+    const sl_off row = S->rows_begin[s];
+    const sl_int rows = sli_min(S->steps[s].below, SLI_PANEL_AHEAD);
     /* bytes of an entry, stored or not */
     const size_t entry = sizeof(double) / (F->storage == SL_STORAGE_DOUBLE ? 1 : 2);
     sl_off k;
-    for (k = 0; k < rows && k < SLI_PANEL_AHEAD; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
+    for (k = 0; k < rows; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
         SLI_PREFETCH(S->relative + row + k, 0);
     }
     for (k = 0; k < size && k < SLI_PANEL_AHEAD; k += SLI_TILE) {

@@ -34,7 +34,7 @@ SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const doub
                                           sl_int t1) {
     const sl_int w = f->width, u = f->below;
     sl_int t, i;
-    for (t = sli_max(t0, w / SLI_TILE); t < t1 && u > 0; t++) {
+    for (t = sli_max(t0, w / SLI_TILE); t < t1; t++) { /* not of a root: u > 0 */
         double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
         ptrdiff_t offset[SLI_TILE];
         for (i = 0; i < SLI_TILE; i++) {

@@ -121,7 +121,8 @@ static sl_status sli_nd_dissect(sli_nd *w) {
     if (status == SL_OK) {
         do {
             sli_dissect_visit(d, sli_dissect_separate);
-        } while (rounds-- > 0 && sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
+        } while (rounds-- > 0 && /* untested: there are fewer rounds */
+                 sli_dissect_split(d, 2 * d->leaf_size, sli_dissect_bisect) > 0);
         status = d->pool.failed ? SL_ERR_MEMORY : SL_OK;
     }
     return status;

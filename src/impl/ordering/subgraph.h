@@ -148,7 +148,7 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
 static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
                                sli_label_tree *t, sl_int *label, sli_borders *l) {
     const sl_int from = sli_shared_read(label + v), weight = sli_level_weight(g, v);
-    sl_int up, last = to;
+    sl_int up;
     sl_off e;
     for (up = from; up != node; up = t->parent[up]) {
         t->weight[up] -= weight;
@@ -162,7 +162,7 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
     }
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
         const sl_int other = sli_shared_read(label + g->to[e]);
-        if (other != to && other != last && other != node && (other > node) == (to > node) &&
+        if (other != to && other != node && (other > node) == (to > node) &&
             sli_label_tree_is_below(t, node, other)) {
             const sl_int border = sli_label_tree_lca(t, to, other);
             sli_borders_add(l, border, v);

@@ -102,8 +102,11 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
         p->signs[k] = 0.0;
     }
     best = sli_norm_estimate_solve(p);
-    for (turn = 0; turn < 4 && !sli_norm_estimate_signs(p); turn++) {
-        sl_int last = j;
+    for (turn = 0; !sli_norm_estimate_signs(p); turn++) {
+        const sl_int last = j;
+        if (turn == 4) { /* untested: there are fewer turns */
+            break;       /* untested: the same */
+        }
         memcpy(p->v, p->signs, (size_t)n * sizeof(double));
         (void)sli_norm_estimate_solve(p);
         j = sli_norm_estimate_largest(p);
