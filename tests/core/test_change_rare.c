@@ -1,20 +1,22 @@
 /* test_change_rare.c: changes by zeros, of zeros, to pivots of rounding, outside of L */
 #include "tests/lib/factored.h"
 
-/* A vector of zeros changes no bit. */
+/* A vector of zeros, or one whose square is 0, changes no bit. */
 static void zeros_change_nothing(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     const size_t size = (size_t)sl_symbolic_view(y.S).panel_begin[sl_symbolic_view(y.S).n_supers];
     const sl_int p[2] = {0, 1}, i[1] = {7};
-    const double x[1] = {0.0}, sigma[1] = {1.0};
-    const sl_csc V = {100, 1, p, i, x};
+    const double x[2] = {0.0, 1e-200}, sigma[1] = {1.0};
     double *L = test_reals(size), D[100];
     memcpy(L, sl_factor_view(y.F).L, size * sizeof *L);
     memcpy(D, sl_factor_view(y.F).D, sizeof D);
-    SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, NULL));
-    assert_memory_equal(L, sl_factor_view(y.F).L, size * sizeof *L);
-    assert_memory_equal(D, sl_factor_view(y.F).D, sizeof D);
+    for (int k = 0; k < 2; k++) {
+        const sl_csc V = {100, 1, p, i, x + k};
+        SL_CHECK(sl_factor_update(y.F, &V, sigma, NULL, NULL));
+        assert_memory_equal(L, sl_factor_view(y.F).L, size * sizeof *L);
+        assert_memory_equal(D, sl_factor_view(y.F).D, sizeof D);
+    }
     free(L);
     factored_free(&y);
 }
@@ -24,7 +26,7 @@ static void matrices_of_zeros_are_changed(void **state) {
     (void)state;
     const sl_int p[2] = {0, 1}, i[1] = {0};
     const double zero[1] = {0.0}, sigma[1] = {1.0}, b = 6.0;
-    double one[1] = {0.0}, x;
+    double one[1] = {1e-200}, x; /* its square is 0 */
     const sl_csc A = {1, 1, p, i, zero}, V = {1, 1, p, i, one};
     sl_options opt = options_none();
     sl_symbolic *S;
