@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1e75b93a3e6a5bd7
+ * FNV-1a of the lines after this comment, without the license: be542fd2fb5c7d90
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -66,26 +66,26 @@
  * (change: a factor that follows changes of its matrix)
  *  21563 update.h  21913 rank.h  22251 edges.h  22405 choose.h  22603 pins_types.h
  *  22681 pins_nulls.h  22859 pins_capacitance.h  23110 pins_held.h  23321 pins_choose.h
- *  23391 pins_rebuild.h  23611 pins_matrix.h  23757 pins.h  24044 pins_solve.h  24374 subset.h
- *  24481 restrict_analysis.h  24778 restrict_anew.h  24832 restrict_symbolic.h  25013 restrict.h
- *  25241 edit_match.h  25440 edit_place.h  25689 edit_separate.h  26002 edit_order.h
- *  26157 edit_graph.h  26252 edit_join.h  26528 edit.h  26691 edit_factor.h
+ *  23391 pins_rebuild.h  23606 pins_matrix.h  23752 pins.h  24012 pins_solve.h  24342 subset.h
+ *  24449 restrict_analysis.h  24746 restrict_anew.h  24800 restrict_symbolic.h  24981 restrict.h
+ *  25209 edit_match.h  25408 edit_place.h  25657 edit_separate.h  25970 edit_order.h
+ *  26125 edit_graph.h  26220 edit_join.h  26496 edit.h  26659 edit_factor.h
  * (save: factors in files)
- *  26949 format.h  27245 decode.h  27393 check.h  27723 write.h  28028 load.h  28296 load_inverse.h
- *  28625 load_calls.h
+ *  26917 format.h  27213 decode.h  27361 check.h  27691 write.h  27996 load.h  28264 load_inverse.h
+ *  28593 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28824 batch_solve.h  29033 batch_factor.h  29234 batch_diagonal.h
+ *  28792 batch_solve.h  29001 batch_factor.h  29202 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29374 hermitian.h  29536 complex_rows.h
+ *  29342 hermitian.h  29504 complex_rows.h
  * (last: undefine every internal macro)
- *  29704 undef.h
+ *  29672 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29956 front.inl.h  29958 product.inl.h  30453 words_undef.inl.h  30535 multi_rhs.inl.h
- *  30554 multi_rhs_small.inl.h  30722 multi_rhs_tiles.inl.h  31027 complex_groups.inl.h
- *  31259 sweeps.inl.h  31261 unit_triangle.inl.h  31298 two_rhs.inl.h  31469 small_supernode.inl.h
- *  31629 single_rhs.inl.h  31878 kernel_set.inl.h  31880 complex_small.inl.h
- *  32044 complex_rows.inl.h  32276 inverse_front.inl.h  32561 row.inl.h  32591 change.inl.h
- *  32655 interleave.inl.h
+ *  29924 front.inl.h  29926 product.inl.h  30421 words_undef.inl.h  30503 multi_rhs.inl.h
+ *  30522 multi_rhs_small.inl.h  30690 multi_rhs_tiles.inl.h  30995 complex_groups.inl.h
+ *  31227 sweeps.inl.h  31229 unit_triangle.inl.h  31266 two_rhs.inl.h  31437 small_supernode.inl.h
+ *  31597 single_rhs.inl.h  31846 kernel_set.inl.h  31848 complex_small.inl.h
+ *  32012 complex_rows.inl.h  32244 inverse_front.inl.h  32529 row.inl.h  32559 change.inl.h
+ *  32623 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2771,7 +2771,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
 
 /** Releases pin number `index`, 0-based. Those after it move down by one.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; of a pin that is eliminated as sl_pins_release_rows.
+ *  Returns  as sl_pins_release_rows.
  *  Cost     O(k^2); of a pin that is eliminated as sl_pins_release_rows.
  *  Threads  exclusive use of P.
  */
@@ -23184,7 +23184,7 @@ static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_in
   if (status != SL_OK) {
     return status;
   }
-  h->is_new = is_stale || P->G == NULL;
+  h->is_new = is_stale || P->n_held == 0;
   h->count = 0;
   for (k = 0; k < count; k++) {
     if (rows[k] != -1) {
@@ -23320,12 +23320,12 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
 
 /* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
 
-#define SLI_PINS_ENTRY 0.35e-9
-#define SLI_PINS_TERM 0.35e-9
-#define SLI_PINS_STEP 12e-9
-#define SLI_PINS_DENSE 0.35e-9
+#define SLI_PINS_ENTRY 0.15e-9
+#define SLI_PINS_TERM 0.5e-9
+#define SLI_PINS_STEP 15e-9
+#define SLI_PINS_DENSE 0.5e-9
 #define SLI_PINS_MAP 5e-9
-#define SLI_PINS_MEMORY 2.5e-9
+#define SLI_PINS_MEMORY 6e-9
 
 static double sli_pins_flop(sl_isa isa) {
   switch (isa) {
@@ -23369,9 +23369,10 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
   return seconds;
 }
 
-static double sli_pins_look_cost(const sl_pins *P) {
+static double sli_pins_least_cost(const sl_pins *P) {
   const sl_symbolic *S = P->F->S;
-  return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers];
+  return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers] +
+       (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
 }
 
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
@@ -23384,8 +23385,7 @@ static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
   sli_way_measure(&h->way, S, 1);
   part = h->way.changed + (flop - SLI_CHANGE_FRONT_FLOP) * h->way.flops_changed;
   h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
-  return (h->is_local ? part : whole) + sli_pins_look_cost(P) +
-       (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
+  return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }
 
 /* src/impl/change/pins_rebuild.h: sets of pins made anew: other numbers, or the other way */
@@ -23539,9 +23539,7 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
   D.count = D.room = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
   D.rows = D.uses = D.held = NULL;
   D.pins = NULL;
-  if (h == NULL) {
-    D.G = NULL;
-  } else if (P->G == NULL) {
+  if (h != NULL && P->G == NULL) {
     status = sli_held_factor(&D.G, P->F, &P->allocator);
   }
   status = status == SL_OK && h != NULL ? sli_held_numbers(D.G, P->F, h) : status;
@@ -23550,15 +23548,12 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
     sli_pins_release(&D);
     if (D.G != P->G) {
       sl_factor_free(D.G);
-    } else if (h != NULL && P->G != NULL && !is_stale) {
+    } else if (h != NULL && P->n_held > 0 && !is_stale) {
       sli_held_restore(P, h);
     }
     return status;
   }
   sli_pins_release(P);
-  if (D.G != P->G) {
-    sl_factor_free(P->G);
-  }
   *P = D;
   return SL_OK;
 }
@@ -23737,7 +23732,7 @@ SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats
     sli_free(&P->allocator, P->values);
     P->values = values;
     P->reason = SL_PINS_CHEAPEST;
-    P->threshold = sli_pins_look_cost(P);
+    P->threshold = sli_pins_least_cost(P);
   } else {
     status = status == SL_OK ? sli_pins_renew(P, values, stats) : status;
     if (status != SL_OK) {
@@ -23862,67 +23857,50 @@ static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_
   return status;
 }
 
-static sl_status sli_pins_adding_cost(const sl_pins *P, const sl_int *rows, sl_int count,
-                    double *seconds) {
-  const sl_symbolic *S = P->F->S;
-  sli_block b = {NULL, 0, 0};
-  uint64_t *list = NULL, one;
-  sl_int *uses = NULL, k;
-  sl_status status = SL_OK;
-  int pass;
-  if (count == 1) {
-    one = sli_keyed(S->iperm[rows[0]], 0);
-    *seconds = sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
-    return SL_OK;
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    list = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
-    uses = SLI_TAKE(&b, sl_int, S->n_supers);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
-  }
-  if (status == SL_OK) {
-    memset(uses, 0, (size_t)S->n_supers * sizeof *uses);
-    for (k = 0; k < count; k++) {
-      list[k] = sli_keyed(S->iperm[rows[k]], 0);
-    }
-    sli_sort(list, count, list + count);
-    *seconds = sli_pins_capacitance_cost(S, list, count, P->n_pins, uses);
-  }
-  sli_free(&P->allocator, b.base);
-  return status;
-}
-
 static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_int count,
-                       double seconds, int *is_done, sl_stats *stats) {
+                       double *seconds, int *is_done, sl_stats *stats) {
+  const sl_symbolic *S = P->F->S;
   sli_pins_target t;
   sli_holding h;
   sli_block b = {NULL, 0, 0};
-  sl_status status = sli_pins_target_make(&t, &b, P, count);
+  uint64_t one = sli_keyed(S->iperm[rows[0]], 0);
   double elimination = 0.0;
+  sl_status status;
+  sl_int k;
+  *seconds = count > 1 ? 0.0 : sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
+  if (count == 1 && P->spent + *seconds <= P->threshold) {
+    return SL_OK;
+  }
+  status = sli_pins_target_make(&t, &b, P, count);
+  if (status == SL_OK && count > 1) {
+    for (k = 0; k < count; k++) {
+      t.list[k] = sli_keyed(S->iperm[rows[k]], 0);
+    }
+    sli_sort(t.list, count, t.list + count);
+    *seconds = sli_pins_capacitance_cost(S, t.list, count, P->n_pins, t.uses);
+  }
   memset(&h, 0, sizeof h);
-  if (status == SL_OK) {
+  if (status == SL_OK && P->spent + *seconds > P->threshold) {
     sli_pins_target_add(&t, P, NULL);
     memcpy(t.rows + t.count, rows, (size_t)count * sizeof *rows);
     t.count += count;
     status = sli_holding_begin(&h, P, t.rows, t.count, 0, stats);
-  }
-  if (status == SL_OK) {
-    elimination = sli_pins_elimination_cost(P, &h);
-    P->capacitance = P->spent + seconds;
-    P->elimination = elimination;
-    *is_done = P->capacitance > elimination;
-    if (!*is_done) {
-      P->threshold = fmax(0.9 * elimination, 1.2 * P->capacitance);
+    if (status == SL_OK) {
+      P->capacitance = P->spent + *seconds;
+      P->elimination = elimination = sli_pins_elimination_cost(P, &h);
+      *is_done = P->capacitance > elimination;
+      P->threshold = *is_done ? P->threshold : fmax(0.9 * elimination, 1.2 * P->capacitance);
     }
   }
   if (*is_done) {
     status = sli_pins_rebuild(P, &t, &h, 0, stats);
     *is_done = status == SL_OK;
-    P->reason = sli_pins_is_numeric(status) ? SL_PINS_REFUSED : SL_PINS_CHEAPEST;
     if (*is_done) {
+      P->reason = SL_PINS_CHEAPEST;
       P->spent = 0.0;
-      P->threshold = sli_pins_look_cost(P);
+      P->threshold = sli_pins_least_cost(P);
     } else if (sli_pins_is_numeric(status)) {
+      P->reason = SL_PINS_REFUSED;
       P->threshold = (double)INFINITY;
       status = SL_OK;
     }
@@ -23954,10 +23932,7 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
     }
   }
   if (P->values != NULL && count > 0) {
-    status = sli_pins_adding_cost(P, rows, count, &seconds);
-    if (status == SL_OK && P->spent + seconds > P->threshold) {
-      status = sli_pins_add_by_elimination(P, rows, count, seconds, &is_done, stats);
-    }
+    status = sli_pins_add_by_elimination(P, rows, count, &seconds, &is_done, stats);
   }
   if (status == SL_OK && !is_done) {
     status = sli_pins_add_by_capacitance(P, rows, count, stats);
@@ -24027,13 +24002,6 @@ SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int 
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
-  if (P == NULL || index < 0 || index >= P->count) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (P->rows[index] == -1 || sli_held_find(P, P->F->S->iperm[P->rows[index]]) == -1) {
-    sli_pins_drop(P, index);
-    return SL_OK;
-  }
   return sl_pins_release_rows(P, &index, 1, NULL);
 }
 

@@ -72,7 +72,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
 
 /** Releases pin number `index`, 0-based. Those after it move down by one.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; of a pin that is eliminated as sl_pins_release_rows.
+ *  Returns  as sl_pins_release_rows.
  *  Cost     O(k^2); of a pin that is eliminated as sl_pins_release_rows.
  *  Threads  exclusive use of P.
  */

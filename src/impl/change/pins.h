@@ -112,70 +112,52 @@ static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_
     return status;
 }
 
-/* Seconds of new pins beside those that are there. */
-static sl_status sli_pins_adding_cost(const sl_pins *P, const sl_int *rows, sl_int count,
-                                      double *seconds) {
-    const sl_symbolic *S = P->F->S;
-    sli_block b = {NULL, 0, 0};
-    uint64_t *list = NULL, one;
-    sl_int *uses = NULL, k;
-    sl_status status = SL_OK;
-    int pass;
-    if (count == 1) {
-        one = sli_keyed(S->iperm[rows[0]], 0);
-        *seconds = sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
-        return SL_OK;
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        list = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
-        uses = SLI_TAKE(&b, sl_int, S->n_supers);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
-    }
-    if (status == SL_OK) {
-        memset(uses, 0, (size_t)S->n_supers * sizeof *uses);
-        for (k = 0; k < count; k++) {
-            list[k] = sli_keyed(S->iperm[rows[k]], 0);
-        }
-        sli_sort(list, count, list + count);
-        *seconds = sli_pins_capacitance_cost(S, list, count, P->n_pins, uses);
-    }
-    sli_free(&P->allocator, b.base);
-    return status;
-}
-
 /* Adds pins by elimination if that is cheaper than what capacitance has cost since the last choice
- * and would cost now. *is_done: they are added. */
+ * and would cost now, *seconds. *is_done: they are added. */
 static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_int count,
-                                             double seconds, int *is_done, sl_stats *stats) {
+                                             double *seconds, int *is_done, sl_stats *stats) {
+    const sl_symbolic *S = P->F->S;
     sli_pins_target t;
     sli_holding h;
     sli_block b = {NULL, 0, 0};
-    sl_status status = sli_pins_target_make(&t, &b, P, count);
+    uint64_t one = sli_keyed(S->iperm[rows[0]], 0);
     double elimination = 0.0;
+    sl_status status;
+    sl_int k;
+    *seconds = count > 1 ? 0.0 : sli_pins_capacitance_cost(S, &one, 1, P->n_pins, NULL);
+    if (count == 1 && P->spent + *seconds <= P->threshold) {
+        return SL_OK;
+    }
+    status = sli_pins_target_make(&t, &b, P, count);
+    if (status == SL_OK && count > 1) {
+        for (k = 0; k < count; k++) {
+            t.list[k] = sli_keyed(S->iperm[rows[k]], 0);
+        }
+        sli_sort(t.list, count, t.list + count);
+        *seconds = sli_pins_capacitance_cost(S, t.list, count, P->n_pins, t.uses);
+    }
     memset(&h, 0, sizeof h);
-    if (status == SL_OK) {
+    if (status == SL_OK && P->spent + *seconds > P->threshold) {
         sli_pins_target_add(&t, P, NULL);
         memcpy(t.rows + t.count, rows, (size_t)count * sizeof *rows);
         t.count += count;
         status = sli_holding_begin(&h, P, t.rows, t.count, 0, stats);
-    }
-    if (status == SL_OK) {
-        elimination = sli_pins_elimination_cost(P, &h);
-        P->capacitance = P->spent + seconds;
-        P->elimination = elimination;
-        *is_done = P->capacitance > elimination;
-        if (!*is_done) {
-            P->threshold = fmax(0.9 * elimination, 1.2 * P->capacitance);
+        if (status == SL_OK) {
+            P->capacitance = P->spent + *seconds;
+            P->elimination = elimination = sli_pins_elimination_cost(P, &h);
+            *is_done = P->capacitance > elimination;
+            P->threshold = *is_done ? P->threshold : fmax(0.9 * elimination, 1.2 * P->capacitance);
         }
     }
     if (*is_done) {
         status = sli_pins_rebuild(P, &t, &h, 0, stats);
         *is_done = status == SL_OK;
-        P->reason = sli_pins_is_numeric(status) ? SL_PINS_REFUSED : SL_PINS_CHEAPEST;
         if (*is_done) {
+            P->reason = SL_PINS_CHEAPEST;
             P->spent = 0.0;
-            P->threshold = sli_pins_look_cost(P);
+            P->threshold = sli_pins_least_cost(P);
         } else if (sli_pins_is_numeric(status)) {
+            P->reason = SL_PINS_REFUSED;
             P->threshold = (double)INFINITY;
             status = SL_OK;
         }
@@ -207,10 +189,7 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
         }
     }
     if (P->values != NULL && count > 0) {
-        status = sli_pins_adding_cost(P, rows, count, &seconds);
-        if (status == SL_OK && P->spent + seconds > P->threshold) {
-            status = sli_pins_add_by_elimination(P, rows, count, seconds, &is_done, stats);
-        }
+        status = sli_pins_add_by_elimination(P, rows, count, &seconds, &is_done, stats);
     }
     if (status == SL_OK && !is_done) {
         status = sli_pins_add_by_capacitance(P, rows, count, stats);
@@ -280,13 +259,6 @@ SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int 
 }
 
 SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
-    if (P == NULL || index < 0 || index >= P->count) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (P->rows[index] == -1 || sli_held_find(P, P->F->S->iperm[P->rows[index]]) == -1) {
-        sli_pins_drop(P, index);
-        return SL_OK;
-    }
     return sl_pins_release_rows(P, &index, 1, NULL);
 }
 

@@ -5,12 +5,12 @@
 #include "pins_held.h"
 
 /* Seconds of the parts of both ways, from their counts; measured on grids of 1e5 and 1e6 rows. */
-#define SLI_PINS_ENTRY 0.35e-9 /* an entry of L in a forward sweep */
-#define SLI_PINS_TERM 0.35e-9  /* a product of a sum over shared columns */
-#define SLI_PINS_STEP 12e-9    /* a supernode of the same */
-#define SLI_PINS_DENSE 0.35e-9 /* a product in the factor of K */
+#define SLI_PINS_ENTRY 0.15e-9 /* an entry of L in a forward sweep */
+#define SLI_PINS_TERM 0.5e-9   /* a product of a sum over shared columns */
+#define SLI_PINS_STEP 15e-9    /* a supernode of the same */
+#define SLI_PINS_DENSE 0.5e-9  /* a product in the factor of K */
 #define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
-#define SLI_PINS_MEMORY 2.5e-9 /* an entry of a new factor */
+#define SLI_PINS_MEMORY 6e-9   /* an entry of a new factor */
 
 /* Seconds of a flop in a front. */
 static double sli_pins_flop(sl_isa isa) {
@@ -58,10 +58,11 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
     return seconds;
 }
 
-/* Seconds to find out what elimination costs. */
-static double sli_pins_look_cost(const sl_pins *P) {
+/* Seconds that elimination takes at least. */
+static double sli_pins_least_cost(const sl_pins *P) {
     const sl_symbolic *S = P->F->S;
-    return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers];
+    return SLI_PINS_MAP * (double)S->scatter_begin[S->n_supers] +
+           (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
 }
 
 /* Seconds of elimination. Decides whether it is computed in the reach of the changes. */
@@ -75,8 +76,7 @@ static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
     sli_way_measure(&h->way, S, 1);
     part = h->way.changed + (flop - SLI_CHANGE_FRONT_FLOP) * h->way.flops_changed;
     h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
-    return (h->is_local ? part : whole) + sli_pins_look_cost(P) +
-           (P->G == NULL ? SLI_PINS_MEMORY * (double)S->panel_begin[S->n_supers] : 0.0);
+    return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }
 
 #endif

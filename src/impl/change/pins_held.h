@@ -88,7 +88,7 @@ static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    h->is_new = is_stale || P->G == NULL;
+    h->is_new = is_stale || P->n_held == 0;
     h->count = 0;
     for (k = 0; k < count; k++) {
         if (rows[k] != -1) {

@@ -164,9 +164,7 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
     D.count = D.room = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
     D.rows = D.uses = D.held = NULL;
     D.pins = NULL;
-    if (h == NULL) {
-        D.G = NULL;
-    } else if (P->G == NULL) {
+    if (h != NULL && P->G == NULL) {
         status = sli_held_factor(&D.G, P->F, &P->allocator);
     }
     status = status == SL_OK && h != NULL ? sli_held_numbers(D.G, P->F, h) : status;
@@ -175,16 +173,13 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
         sli_pins_release(&D);
         if (D.G != P->G) {
             sl_factor_free(D.G);
-        } else if (h != NULL && P->G != NULL && !is_stale) {
+        } else if (h != NULL && P->n_held > 0 && !is_stale) {
             sli_held_restore(P, h);
         }
         return status;
     }
     sli_pins_release(P);
-    if (D.G != P->G) {
-        sl_factor_free(P->G);
-    }
-    *P = D;
+    *P = D; /* G stays, for the next elimination: new memory costs more than numbers */
     return SL_OK;
 }
 

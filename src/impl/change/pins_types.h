@@ -59,7 +59,7 @@ struct sl_pins {
     /* by elimination (pins_held.h) */
     sl_pins_reason reason; /* of the present way */
     double *values;        /* of A, in the order of the scatter map; NULL: A is not known */
-    sl_factor *G;          /* of A with identity rows; NULL: none is held */
+    sl_factor *G;          /* of A with identity rows; NULL: not made yet */
     sl_int n_held, n_couplings;
     sl_int *held;     /* n_held: columns of L, ascending; the first array of its block */
     sl_int *held_pin; /* n_held */
