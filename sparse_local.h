@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: be542fd2fb5c7d90
+ * FNV-1a of the lines after this comment, without the license: b153476e9450323a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,65 +27,65 @@
  *   2705 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2848 complex.h    complex Hermitian systems, solved as real ones of twice the size
  *   2979 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3028 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   3030 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3119 base.h   3413 status.h   3474 options.h   3532 alloc.h   3688 hash.h   3818 file_map.h
- *   3915 sort.h   3979 parallel.h
+ *   3121 base.h   3415 status.h   3476 options.h   3534 alloc.h   3690 hash.h   3820 file_map.h
+ *   3917 sort.h   3981 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4172 panel.h   4198 step.h   4272 pivot_rule.h   4346 front.h   4406 pairs.h
- *   4613 inverse_front.h   4685 table.h   4713 simd.h   4808 simd_scalar_single.h
- *   4854 simd_scalar.h   4982 simd_avx2_single.h   5036 simd_avx2.h   5254 simd_avx512_single.h
- *   5309 simd_avx512.h   5468 simd_neon_single.h   5510 simd_neon.h   5724 dispatch.h
+ *   4174 panel.h   4200 step.h   4274 pivot_rule.h   4348 front.h   4408 pairs.h
+ *   4615 inverse_front.h   4687 table.h   4715 simd.h   4810 simd_scalar_single.h
+ *   4856 simd_scalar.h   4984 simd_avx2_single.h   5038 simd_avx2.h   5256 simd_avx512_single.h
+ *   5311 simd_avx512.h   5470 simd_neon_single.h   5512 simd_neon.h   5726 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5804 csc.h   5918 csc_build.h   6052 csc64.h   6123 csc_triangle.h   6189 csc_products.h
- *   6306 permute.h   6372 sum.h   6454 output_file.h   6663 matrix_market.h
+ *   5806 csc.h   5920 csc_build.h   6054 csc64.h   6125 csc_triangle.h   6191 csc_products.h
+ *   6308 permute.h   6374 sum.h   6456 output_file.h   6665 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7109 graph.h   7258 contract.h   7512 coarsen.h   7675 labels.h   7896 subgraph.h   8091 heap.h
- *   8151 bisect.h   8378 separator.h   8640 mindeg.h   8823 dissect.h   9147 tree_cost.h
- *   9199 levelset.h   9305 geometric.h   9480 cells.h   9660 septree.h   9736 metis.h
- *   9885 metis_refined.h   9999 nd.h  10199 compress.h  10320 peel.h  10498 quotient.h
- *  10911 order.h
+ *   7111 graph.h   7260 contract.h   7514 coarsen.h   7677 labels.h   7898 subgraph.h   8093 heap.h
+ *   8153 bisect.h   8380 separator.h   8642 mindeg.h   8825 dissect.h   9149 tree_cost.h
+ *   9201 levelset.h   9307 geometric.h   9482 cells.h   9662 septree.h   9738 metis.h
+ *   9887 metis_refined.h  10001 nd.h  10201 compress.h  10322 peel.h  10500 quotient.h
+ *  10913 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11255 symbolic_types.h  11292 etree.h  11365 counts.h  11422 supernodes.h  11644 structure.h
- *  11765 schedule.h  12045 symbolic.h  12483 reach.h
+ *  11257 symbolic_types.h  11294 etree.h  11367 counts.h  11424 supernodes.h  11646 structure.h
+ *  11767 schedule.h  12047 symbolic.h  12485 reach.h
  * (factor: the numbers of L and D)
- *  12754 factor_types.h  13165 storage.h  13305 pivot_search.h  13651 pivoted.h  13719 scatter.h
- *  13877 uplooking.h  13949 null_product.h  14153 null_dense.h  14230 null_basis.h
- *  14538 null_vectors.h  14680 multifrontal.h  14870 gather.h  14918 kept.h  15085 front_tasks.h
- *  15428 nullspace.h  15631 growth.h  15707 factor_setup.h  16021 factor.h  16231 leftlooking.h
- *  16377 factor_query.h  16512 combination.h
+ *  12756 factor_types.h  13167 storage.h  13307 pivot_search.h  13653 pivoted.h  13721 scatter.h
+ *  13879 uplooking.h  13951 null_product.h  14155 null_dense.h  14232 null_basis.h
+ *  14540 null_vectors.h  14682 multifrontal.h  14872 gather.h  14920 kept.h  15087 front_tasks.h
+ *  15430 nullspace.h  15633 growth.h  15709 factor_setup.h  16023 factor.h  16233 leftlooking.h
+ *  16379 factor_query.h  16514 combination.h
  * (solve: full and local solves)
- *  16573 region_types.h  16677 work.h  16777 query.h  16985 singular.h  17255 backward.h
- *  17285 sweep_tasks.h  17619 sweep.h  17830 compile.h  18023 plan.h  18130 local.h  18282 parts.h
- *  18571 refine.h  18750 refine_local.h  18966 rcond.h  19125 defects.h
+ *  16575 region_types.h  16679 work.h  16779 query.h  16987 singular.h  17257 backward.h
+ *  17287 sweep_tasks.h  17621 sweep.h  17832 compile.h  18025 plan.h  18132 local.h  18284 parts.h
+ *  18573 refine.h  18752 refine_local.h  18968 rcond.h  19127 defects.h
  * (inverse: entries of the inverse, regions)
- *  19203 traversal.h  19448 traversal_run.h  19632 row_sets.h  19659 unit_vectors.h
- *  19886 bilinear.h  20063 entries.h  20344 block.h  20584 reserve.h  20776 selected.h
- *  20986 selected_query.h  21088 region_choose.h  21315 region.h
+ *  19205 traversal.h  19450 traversal_run.h  19634 row_sets.h  19661 unit_vectors.h
+ *  19888 bilinear.h  20065 entries.h  20346 block.h  20586 reserve.h  20778 selected.h
+ *  20988 selected_query.h  21090 region_choose.h  21317 region.h
  * (change: a factor that follows changes of its matrix)
- *  21563 update.h  21913 rank.h  22251 edges.h  22405 choose.h  22603 pins_types.h
- *  22681 pins_nulls.h  22859 pins_capacitance.h  23110 pins_held.h  23321 pins_choose.h
- *  23391 pins_rebuild.h  23606 pins_matrix.h  23752 pins.h  24012 pins_solve.h  24342 subset.h
- *  24449 restrict_analysis.h  24746 restrict_anew.h  24800 restrict_symbolic.h  24981 restrict.h
- *  25209 edit_match.h  25408 edit_place.h  25657 edit_separate.h  25970 edit_order.h
- *  26125 edit_graph.h  26220 edit_join.h  26496 edit.h  26659 edit_factor.h
+ *  21565 update.h  21915 rank.h  22253 edges.h  22407 choose.h  22605 pins_types.h
+ *  22683 pins_nulls.h  22861 pins_capacitance.h  23112 pins_held.h  23323 pins_choose.h
+ *  23393 pins_rebuild.h  23608 pins_matrix.h  23754 pins.h  24014 pins_solve.h  24344 subset.h
+ *  24457 restrict_analysis.h  24786 restrict_symbolic.h  24967 restrict.h  25184 edit_match.h
+ *  25383 edit_place.h  25632 edit_separate.h  25945 edit_order.h  26100 edit_graph.h
+ *  26195 edit_join.h  26471 edit.h  26634 edit_factor.h
  * (save: factors in files)
- *  26917 format.h  27213 decode.h  27361 check.h  27691 write.h  27996 load.h  28264 load_inverse.h
- *  28593 load_calls.h
+ *  26892 format.h  27188 decode.h  27336 check.h  27666 write.h  27971 load.h  28239 load_inverse.h
+ *  28568 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28792 batch_solve.h  29001 batch_factor.h  29202 batch_diagonal.h
+ *  28767 batch_solve.h  28976 batch_factor.h  29177 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29342 hermitian.h  29504 complex_rows.h
+ *  29317 hermitian.h  29479 complex_rows.h
  * (last: undefine every internal macro)
- *  29672 undef.h
+ *  29647 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29924 front.inl.h  29926 product.inl.h  30421 words_undef.inl.h  30503 multi_rhs.inl.h
- *  30522 multi_rhs_small.inl.h  30690 multi_rhs_tiles.inl.h  30995 complex_groups.inl.h
- *  31227 sweeps.inl.h  31229 unit_triangle.inl.h  31266 two_rhs.inl.h  31437 small_supernode.inl.h
- *  31597 single_rhs.inl.h  31846 kernel_set.inl.h  31848 complex_small.inl.h
- *  32012 complex_rows.inl.h  32244 inverse_front.inl.h  32529 row.inl.h  32559 change.inl.h
- *  32623 interleave.inl.h
+ *  29901 front.inl.h  29903 product.inl.h  30398 words_undef.inl.h  30480 multi_rhs.inl.h
+ *  30499 multi_rhs_small.inl.h  30667 multi_rhs_tiles.inl.h  30972 complex_groups.inl.h
+ *  31204 sweeps.inl.h  31206 unit_triangle.inl.h  31243 two_rhs.inl.h  31414 small_supernode.inl.h
+ *  31574 single_rhs.inl.h  31823 kernel_set.inl.h  31825 complex_small.inl.h
+ *  31989 complex_rows.inl.h  32221 inverse_front.inl.h  32506 row.inl.h  32536 change.inl.h
+ *  32600 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -676,7 +676,7 @@ typedef struct sl_restrict_info {
     sl_int kept;     /* columns of L that were copied */
     sl_int computed; /* the others */
     sl_off entries;  /* doubles of L that were copied */
-    int is_anew;     /* 1: too few columns to copy: the submatrix was extracted and analyzed */
+    int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
     int padding;     /* not written */
     double seconds;  /* processor seconds, analysis included */
 } sl_restrict_info;
@@ -2983,7 +2983,7 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
  *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
- *  If only few columns can be kept, A[R, R] is extracted, analyzed and factored instead
+ *  If only few columns could be kept, none is, and all are analyzed and computed
  *  (stats.restriction.is_anew).
  *
  *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
@@ -3013,9 +3013,11 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *           pivots, several null vectors or L in float, or is a restriction itself;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A and the rows of supernodes in R, a copy of the kept entries
- *           of L, and the flops of the other columns. For a patch of a mesh a little more than half
- *           the time of analyzing and factoring A[R, R] in a given order. If nothing can be kept,
- *           the time of its extraction more than that.
+ *           of L, and the flops of the other columns. Of a patch of a mesh some 20 % of the columns
+ *           are computed, with half of the flops; Schur complements of the others cost another
+ *           fifth. So it takes somewhat more than half the time of analyzing and factoring A[R, R]
+ *           in a given order. Where nothing can be kept it takes the time of extracting A[R, R],
+ *           sorting it into that order, analyzing and factoring it.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c
@@ -24345,6 +24347,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
 #define SLI_PAGE_COLUMNS (1 << SLI_PAGE_BITS)
 #define SLI_PAGES_PER_COLUMN 8
 
+#define SLI_SUBSET_AHEAD 16
+
 typedef struct sli_subset {
   sl_int count;
   sl_int *columns;
@@ -24422,7 +24426,11 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
        (R->is_hashed ? (size_t)R->mask + 1 : (size_t)pages) * sizeof(sl_int));
   for (k = 0; k < R->count; k++) {
     const sl_int row = rows[k];
+    const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
     sl_int *place = row < 0 || row >= S->n ? NULL : sli_subset_place(R, S->iperm[row]);
+    if (ahead >= 0 && ahead < S->n) {
+      SLI_PREFETCH(S->iperm + ahead, 0);
+    }
     if (place == NULL || *place != -1) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
     }
@@ -24448,6 +24456,10 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
 
 /* src/impl/change/restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
 
+#define SLI_RESTRICT_KEPT 0.25
+
+#define SLI_RESTRICT_AHEAD 16
+
 typedef struct sli_restriction {
   const sl_symbolic *S;
   const sl_csc *A;
@@ -24460,10 +24472,13 @@ typedef struct sli_restriction {
   sl_int *first_rank;
   sl_int *kept_new;
   sl_int *next;
+  sl_int *limit;
   sl_int n_fresh;
   sl_int *fresh;
   sl_int *fresh_of;
   sl_int *number_of;
+  uint32_t *bits;
+  uint32_t bits_mask;
 
   sl_off *below_begin;
   sl_int *below;
@@ -24492,20 +24507,19 @@ SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
 }
 
 SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
-  const sl_int up = r->S->super_parent[r->kept[q]];
-  const sl_int rank = up == -1 ? -1 : sli_subset_find(&r->R, r->S->super_first[up]);
-  return rank == -1 || r->fresh_of[rank] != -1;
+  return r->limit[q] == r->S->super_first[r->kept[q] + 1];
 }
 
 static void sli_restriction_split(sli_restriction *r) {
   const sl_symbolic *S = r->S;
   const sl_int *columns = r->R.columns;
-  sl_int k = 0;
+  sl_int k = 0, q;
   while (k < r->R.count) {
     const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
     const sl_int low = S->super_first[S->first_descendant[s]];
     const sl_int last = sli_min(k + (end - S->super_first[s]), r->R.count) - 1;
     const sl_int first = last + 1 - (end - low);
+    SLI_PREFETCH(S->super_of + columns[sli_min(k + SLI_RESTRICT_AHEAD, r->R.count - 1)], 0);
     if (columns[last] == end - 1 && first >= 0 && columns[first] == low) {
       r->kept[r->n_kept] = s;
       r->first_rank[r->n_kept++] = k;
@@ -24519,6 +24533,18 @@ static void sli_restriction_split(sli_restriction *r) {
       }
     }
   }
+  if (r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
+    r->n_kept = 0;
+    r->n_fresh = r->R.count;
+    for (k = 0; k < r->R.count; k++) {
+      r->fresh[k] = r->fresh_of[k] = k;
+    }
+  }
+  for (q = r->n_kept - 1; q >= 0; q--) {
+    const sl_int s = r->kept[q], up = S->super_parent[s];
+    const sl_int at = up == -1 ? r->n_kept : q + up - s;
+    r->limit[q] = at < r->n_kept && r->kept[at] == up ? r->limit[at] : S->super_first[s + 1];
+  }
 }
 
 static void sli_restriction_filter(sli_restriction *r) {
@@ -24526,9 +24552,12 @@ static void sli_restriction_filter(sli_restriction *r) {
   sl_off at = 0, p;
   sl_int q;
   for (q = 0; q < r->n_kept; q++) {
+    const sl_int s = r->kept[q], limit = r->limit[q];
+    const sl_int shift = r->first_rank[q] - S->super_first[s];
     r->below_begin[q] = at;
-    for (p = S->rows_begin[r->kept[q]]; p < S->rows_begin[r->kept[q] + 1]; p++) {
-      const sl_int rank = sli_subset_find(&r->R, S->rows[p]);
+    for (p = S->rows_begin[s]; p < S->rows_begin[s + 1]; p++) {
+      const sl_int row = S->rows[p];
+      const sl_int rank = row < limit ? row + shift : sli_subset_find(&r->R, row);
       if (rank != -1) {
         r->below[at++] = rank;
       }
@@ -24543,7 +24572,11 @@ SLI_INLINE void sli_restriction_enter(sli_restriction *r, sl_int a, sl_int b, sl
   r->entry_from[r->n_entries++] = from;
 }
 
-static void sli_restriction_graph(sli_restriction *r) {
+SLI_INLINE uint32_t *sli_restriction_bits(const sli_restriction *r, sl_int row) {
+  return &r->bits[((uint32_t)row / 32) & r->bits_mask];
+}
+
+static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
   const sl_csc *A = r->A;
   const sl_triangle triangle = r->S->stats.symbolic.triangle;
   sl_int q, k, p;
@@ -24558,26 +24591,26 @@ static void sli_restriction_graph(sli_restriction *r) {
   }
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k], own = r->number_of[k];
-    for (p = own == -1 ? A->p[j + 1] : A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int i = A->i[p];
-      const sl_int rank =
-        sli_is_read(triangle, i, j) ? sli_subset_find(&r->R, r->S->iperm[i]) : -1;
-      if (rank != -1 && r->fresh_of[rank] != -1) {
-        sli_restriction_enter(r, r->fresh_of[rank], own, p);
-      }
+    const sl_int end = own == -1 ? A->p[j] : A->p[j + 1];
+    if (k + SLI_RESTRICT_AHEAD < r->R.count) {
+      SLI_PREFETCH(A->i + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
+      SLI_PREFETCH(A->x + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
     }
-  }
-}
-
-static sl_status sli_restriction_column(const sl_csc *A, sl_int j, sl_stats *stats) {
-  const sl_int end = A->p[j + 1];
-  sl_int p = A->p[j];
-  if (p < 0 || end < p || end > sli_nnz(A)) {
-    return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
-  }
-  for (; p < end; p++) {
-    if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+    for (p = A->p[j]; p < end; p++) {
+      const sl_int i = A->i[p];
+      sl_int rank;
+      if (i < 0 || i >= A->n_rows) {
+        return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
+      }
+      if (i == j) {
+        sli_restriction_enter(r, own, own, p);
+      } else if ((*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
+             sli_is_read(triangle, i, j)) {
+        rank = sli_subset_find(&r->R, r->S->iperm[i]);
+        if (rank != -1 && r->fresh_of[rank] != -1) {
+          sli_restriction_enter(r, r->fresh_of[rank], own, p);
+        }
+      }
     }
   }
   return SL_OK;
@@ -24585,6 +24618,7 @@ static sl_status sli_restriction_column(const sl_csc *A, sl_int j, sl_stats *sta
 
 static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
   const sl_symbolic *S = r->S;
+  const sl_int *p = r->A->p;
   uint64_t rows = 0, entries = 0;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -24595,18 +24629,20 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     rows += (uint64_t)here;
     entries += sli_restriction_is_root(r, q) ? (uint64_t)here : 0;
   }
+  memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
   for (k = 0; k < r->R.count; k++) {
     r->number_of[r->R.row_of[k]] = r->fresh_of[k];
   }
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k];
-    if (r->number_of[k] != -1) {
-      status = sli_restriction_column(r->A, j, stats);
-      if (status != SL_OK) {
-        return status;
-      }
-      entries += (uint64_t)(r->A->p[j + 1] - r->A->p[j]);
+    if (k + SLI_RESTRICT_AHEAD < r->R.count) {
+      SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
     }
+    if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
+      return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+    }
+    entries += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+    *sli_restriction_bits(r, j) |= (uint32_t)1 << (j % 32);
   }
   if (entries > INT32_MAX) {   /* untested: 2^31 entries */
     return SL_ERR_TOO_LARGE; /* untested: the same */
@@ -24709,6 +24745,9 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
+  while (r->bits_mask < count / 4) {
+    r->bits_mask = 2 * r->bits_mask + 1;
+  }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_subset_layout(&r->R, &b, r->S->n);
     r->list = SLI_TAKE(&b, uint64_t, count);
@@ -24717,9 +24756,11 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     r->first_rank = SLI_TAKE(&b, sl_int, count);
     r->kept_new = SLI_TAKE(&b, sl_int, count);
     r->next = SLI_TAKE(&b, sl_int, count);
+    r->limit = SLI_TAKE(&b, sl_int, count);
+    r->number_of = SLI_TAKE(&b, sl_int, count);
+    r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
     r->fresh = SLI_TAKE(&b, sl_int, count);
     r->fresh_of = SLI_TAKE(&b, sl_int, count);
-    r->number_of = SLI_TAKE(&b, sl_int, count);
     r->column_of = SLI_TAKE(&b, sl_int, count);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
@@ -24734,67 +24775,12 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
 
 static sl_status sli_restriction_run(sli_restriction *r, const sl_allocator *a, sl_stats *found,
                    sl_stats *stats) {
-  const sl_status status = sli_restriction_room(r, a, stats);
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_restriction_filter(r);
-  sli_restriction_graph(r);
-  return sli_restriction_analyze(r, a, found);
-}
-
-/* src/impl/change/restrict_anew.h: the factor of A[R, R] where too little of L can be kept: extracts it first */
-
-static sl_status sli_restrict_matrix(sl_matrix **M, sli_restriction *r, const sl_allocator *a,
-                   sl_stats *stats) {
-  sl_int k, e, *begin;
-  sl_status status;
-  r->n_kept = 0;
-  r->n_fresh = r->R.count;
-  for (k = 0; k < r->R.count; k++) {
-    r->fresh_of[k] = r->R.row_of[k];
-  }
-  status = sli_restriction_room(r, a, stats);
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_restriction_graph(r);
-  status = sli_matrix_new(M, r->R.count, r->R.count, r->n_entries, 1, a);
-  if (status != SL_OK) {
-    return status;
-  }
-  begin = (*M)->p;
-  memset(begin, 0, ((size_t)r->R.count + 1) * sizeof(sl_int));
-  for (e = 0; e < r->n_entries; e++) {
-    begin[r->entry_column[e] + 1]++;
-  }
-  for (k = 0; k < r->R.count; k++) {
-    begin[k + 1] += begin[k];
-    r->next[k] = begin[k];
-  }
-  for (e = 0; e < r->n_entries; e++) {
-    const sl_int at = r->next[r->entry_column[e]]++;
-    (*M)->i[at] = r->entry_row[e];
-    (*M)->x[at] = r->A->x[r->entry_from[e]];
-  }
-  return SL_OK;
-}
-
-static sl_status sli_restrict_anew(sl_symbolic **S, sl_factor **G, sli_restriction *r,
-                   const sl_options *rules, sl_stats *stats) {
-  sl_options given = sli_options_with(&rules->allocator);
-  sl_matrix *M = NULL;
-  sl_csc B;
-  sl_status status = sli_restrict_matrix(&M, r, &rules->allocator, stats);
+  sl_status status = sli_restriction_room(r, a, stats);
   if (status == SL_OK) {
-    B = sl_matrix_view(M);
-    given.ordering = SL_ORDERING_GIVEN;
-    given.perm = r->R.row_of;
-    status = sl_symbolic_create(S, &B, &given, NULL);
-    status = status == SL_OK ? sl_factor_create(G, *S, &B, rules, stats) : status;
-    sl_matrix_free(M);
+    sli_restriction_filter(r);
+    status = sli_restriction_graph(r, stats);
   }
-  return status;
+  return status == SL_OK ? sli_restriction_analyze(r, a, found) : status;
 }
 
 /* src/impl/change/restrict_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
@@ -25038,9 +25024,9 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     memset(&failure, 0, sizeof failure);
     sli_factor_begin(G);
     G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-    G->kept = &kept;
+    G->kept = r->n_kept > 0 ? &kept : NULL;
     if (sli_restrict_check(F, r, &failure) == SL_OK) {
-      (void)sli_multifrontal(G, &source, &failure);
+      (void)sli_factor_eliminate(G, &source, &failure);
     }
     G->kept = NULL;
     status = sli_factor_done(G, &source, &failure, started, stats);
@@ -25073,7 +25059,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   sl_options opt = *rules;
   sl_factor *G = NULL;
   sl_status status;
-  opt.method = SL_METHOD_SUPERNODAL;
+  opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
   status = sli_factor_new(&G, S, &opt, stats);
   status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
   if (status == SL_OK) {
@@ -25101,28 +25087,19 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
 }
 
-static void sli_restrict_report(const sli_restriction *r, sl_status status, int is_anew,
-                sl_stats *stats) {
-  const int is_entry = status == SL_ERR_NOT_FINITE && stats->error.column != -1;
+static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
   if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-    (status == SL_ERR_NOT_FINITE && (is_anew || !is_entry))) {
+    (status == SL_ERR_NOT_FINITE && stats->error.column == -1)) {
     stats->error.row = r->rows[stats->error.row];
-    stats->error.column = stats->error.column == -1 ? -1 : r->rows[stats->error.column];
   }
 }
 
-#define SLI_RESTRICT_KEPT 0.25
-
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                  sli_restriction *r, int is_anew, const sl_allocator *a,
-                  sl_stats *stats) {
+                  sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
   const double started = sli_seconds();
   const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
   sl_stats found;
   sl_status status;
-  if (is_anew) {
-    return sli_restrict_anew(S, G, r, &rules, stats);
-  }
   memset(&found, 0, sizeof found);
   found.symbolic.triangle = F->S->stats.symbolic.triangle;
   status = sli_restriction_run(r, a, &found, stats);
@@ -25163,7 +25140,6 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   const double started = sli_seconds();
   sli_restriction r;
   sl_status status;
-  int is_anew;
   sli_stats_clear_error(stats);
   if (S == NULL || G == NULL) {
     return SL_ERR_ARGUMENT;
@@ -25180,11 +25156,10 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   r.rows = rows;
   r.R.count = count;
   status = sli_restriction_begin(&r, &a, stats);
-  is_anew = count - r.n_fresh < SLI_RESTRICT_KEPT * count;
   if (status == SL_OK) {
-    status = sli_restrict_run(S, G, F, &r, is_anew, &a, stats);
+    status = sli_restrict_run(S, G, F, &r, &a, stats);
     if (stats != NULL) {
-      sli_restrict_report(&r, status, is_anew, stats);
+      sli_restrict_report(&r, status, stats);
     }
   }
   if (status == SL_OK) {
@@ -25196,7 +25171,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   if (status == SL_OK && stats != NULL) {
     sl_restrict_info *info = &stats->restriction;
     stats->factor.bytes = (*G)->stats.factor.bytes;
-    info->is_anew = is_anew;
+    info->is_anew = r.n_kept == 0 && count > 0;
     info->kept = count - r.n_fresh;
     info->computed = count - info->kept;
     info->entries = r.copied;
@@ -29908,7 +29883,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PAGE_COLUMNS
 #undef SLI_POINTS_FEW
 #undef SLI_READ_VERSION_DOUBLE
+#undef SLI_RESTRICT_AHEAD
 #undef SLI_RESTRICT_KEPT
+#undef SLI_SUBSET_AHEAD
 #undef SLI_WRITE_VERSION_PLAIN
 #endif
 

@@ -174,7 +174,6 @@ extern "C" {
 #include "impl/change/pins_solve.h"
 #include "impl/change/subset.h"
 #include "impl/change/restrict_analysis.h"
-#include "impl/change/restrict_anew.h"
 #include "impl/change/restrict_symbolic.h"
 #include "impl/change/restrict.h"
 #include "impl/change/edit_match.h"

@@ -129,7 +129,7 @@ typedef struct sl_restrict_info {
     sl_int kept;     /* columns of L that were copied */
     sl_int computed; /* the others */
     sl_off entries;  /* doubles of L that were copied */
-    int is_anew;     /* 1: too few columns to copy: the submatrix was extracted and analyzed */
+    int is_anew;     /* 1: too few columns to copy: all were analyzed and computed */
     int padding;     /* not written */
     double seconds;  /* processor seconds, analysis included */
 } sl_restrict_info;

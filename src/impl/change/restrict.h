@@ -4,7 +4,6 @@
 
 #include "../../public/restrict.h"
 #include "../factor/factor.h"
-#include "restrict_anew.h"
 #include "restrict_symbolic.h"
 
 /* Refuses a kept pivot that was skipped as null. */
@@ -67,9 +66,9 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         memset(&failure, 0, sizeof failure);
         sli_factor_begin(G);
         G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-        G->kept = &kept;
+        G->kept = r->n_kept > 0 ? &kept : NULL;
         if (sli_restrict_check(F, r, &failure) == SL_OK) {
-            (void)sli_multifrontal(G, &source, &failure);
+            (void)sli_factor_eliminate(G, &source, &failure);
         }
         G->kept = NULL;
         status = sli_factor_done(G, &source, &failure, started, stats);
@@ -98,13 +97,13 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
     return opt;
 }
 
-/* Creates the factor over an analysis that is joined already. */
+/* Creates the factor over its analysis. */
 static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
                                      sli_restriction *r, const sl_options *rules, sl_stats *stats) {
     sl_options opt = *rules;
     sl_factor *G = NULL;
     sl_status status;
-    opt.method = SL_METHOD_SUPERNODAL;
+    opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
     status = sli_factor_new(&G, S, &opt, stats);
     status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
     if (status == SL_OK) {
@@ -134,30 +133,20 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
 }
 
-/* Reports an error in rows of A. A position in A[R, R] came from its extraction. */
-static void sli_restrict_report(const sli_restriction *r, sl_status status, int is_anew,
-                                sl_stats *stats) {
-    const int is_entry = status == SL_ERR_NOT_FINITE && stats->error.column != -1;
+/* Reports an error in rows of A, unless it is an entry of A. */
+static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
     if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-        (status == SL_ERR_NOT_FINITE && (is_anew || !is_entry))) {
+        (status == SL_ERR_NOT_FINITE && stats->error.column == -1)) {
         stats->error.row = r->rows[stats->error.row];
-        stats->error.column = stats->error.column == -1 ? -1 : r->rows[stats->error.column];
     }
 }
 
-/* Below this share of kept columns it is faster to extract A[R, R] and to analyze it. */
-#define SLI_RESTRICT_KEPT 0.25
-
 static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_factor *F,
-                                  sli_restriction *r, int is_anew, const sl_allocator *a,
-                                  sl_stats *stats) {
+                                  sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
     const double started = sli_seconds();
     const sl_options rules = sli_restrict_options(F, r, a, (sl_int *)(void *)r->scratch);
     sl_stats found;
     sl_status status;
-    if (is_anew) {
-        return sli_restrict_anew(S, G, r, &rules, stats);
-    }
     memset(&found, 0, sizeof found);
     found.symbolic.triangle = F->S->stats.symbolic.triangle;
     status = sli_restriction_run(r, a, &found, stats);
@@ -199,7 +188,6 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     const double started = sli_seconds();
     sli_restriction r;
     sl_status status;
-    int is_anew;
     sli_stats_clear_error(stats);
     if (S == NULL || G == NULL) {
         return SL_ERR_ARGUMENT;
@@ -216,11 +204,10 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     r.rows = rows;
     r.R.count = count;
     status = sli_restriction_begin(&r, &a, stats);
-    is_anew = count - r.n_fresh < SLI_RESTRICT_KEPT * count;
     if (status == SL_OK) {
-        status = sli_restrict_run(S, G, F, &r, is_anew, &a, stats);
+        status = sli_restrict_run(S, G, F, &r, &a, stats);
         if (stats != NULL) {
-            sli_restrict_report(&r, status, is_anew, stats);
+            sli_restrict_report(&r, status, stats);
         }
     }
     if (status == SL_OK) {
@@ -232,7 +219,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     if (status == SL_OK && stats != NULL) {
         sl_restrict_info *info = &stats->restriction;
         stats->factor.bytes = (*G)->stats.factor.bytes;
-        info->is_anew = is_anew;
+        info->is_anew = r.n_kept == 0 && count > 0;
         info->kept = count - r.n_fresh;
         info->computed = count - info->kept;
         info->entries = r.copied;

@@ -6,6 +6,12 @@
 #include "../analysis/symbolic.h"
 #include "subset.h"
 
+/* Below this share of kept columns none is kept: fronts over merged supernodes are faster. */
+#define SLI_RESTRICT_KEPT 0.25
+
+/* Rows of R are scattered in memory: so many ahead they are fetched. */
+#define SLI_RESTRICT_AHEAD 16
+
 /* If a supernode of A and all its descendants are in R, L has the same numbers in A and in A[R, R],
  * without the rows that are not in R. These kept supernodes are whole subtrees. All other columns
  * of R are analyzed anew. Their graph has the entries of A between them and, for each subtree, a
@@ -26,10 +32,13 @@ typedef struct sli_restriction {
     sl_int *first_rank; /* n_kept: of the first column */
     sl_int *kept_new;   /* n_kept: the final number */
     sl_int *next;       /* n_kept: the next root in a list of subtrees */
+    sl_int *limit;      /* n_kept: where the columns of A of its subtree end */
     sl_int n_fresh;
     sl_int *fresh;     /* n_fresh: the ranks of the new columns */
     sl_int *fresh_of;  /* count: the number of the new column, or -1 */
     sl_int *number_of; /* count: the same, by the caller's order */
+    uint32_t *bits;    /* bits_mask + 1: a filter of R by rows of A */
+    uint32_t bits_mask;
 
     sl_off *below_begin; /* n_kept + 1 */
     sl_int *below;       /* below_begin[n_kept]: the rows of R below each supernode, as ranks */
@@ -60,9 +69,7 @@ SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
 
 /* Is this supernode the root of a subtree of kept ones? */
 SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
-    const sl_int up = r->S->super_parent[r->kept[q]];
-    const sl_int rank = up == -1 ? -1 : sli_subset_find(&r->R, r->S->super_first[up]);
-    return rank == -1 || r->fresh_of[rank] != -1;
+    return r->limit[q] == r->S->super_first[r->kept[q] + 1];
 }
 
 /* Separates kept supernodes from new columns. In a postorder the columns of a subtree are
@@ -70,12 +77,13 @@ SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
 static void sli_restriction_split(sli_restriction *r) {
     const sl_symbolic *S = r->S;
     const sl_int *columns = r->R.columns;
-    sl_int k = 0;
+    sl_int k = 0, q;
     while (k < r->R.count) {
         const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
         const sl_int low = S->super_first[S->first_descendant[s]];
         const sl_int last = sli_min(k + (end - S->super_first[s]), r->R.count) - 1;
         const sl_int first = last + 1 - (end - low); /* the rank of low, if all are in R */
+        SLI_PREFETCH(S->super_of + columns[sli_min(k + SLI_RESTRICT_AHEAD, r->R.count - 1)], 0);
         if (columns[last] == end - 1 && first >= 0 && columns[first] == low) {
             r->kept[r->n_kept] = s;
             r->first_rank[r->n_kept++] = k;
@@ -89,17 +97,33 @@ static void sli_restriction_split(sli_restriction *r) {
             }
         }
     }
+    if (r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
+        r->n_kept = 0;
+        r->n_fresh = r->R.count;
+        for (k = 0; k < r->R.count; k++) {
+            r->fresh[k] = r->fresh_of[k] = k;
+        }
+    }
+    for (q = r->n_kept - 1; q >= 0; q--) { /* a parent that is kept has the distance it has in A */
+        const sl_int s = r->kept[q], up = S->super_parent[s];
+        const sl_int at = up == -1 ? r->n_kept : q + up - s;
+        r->limit[q] = at < r->n_kept && r->kept[at] == up ? r->limit[at] : S->super_first[s + 1];
+    }
 }
 
-/* Lists the rows below the kept supernodes that are in R. */
+/* Lists the rows below the kept supernodes that are in R. The columns of a subtree have consecutive
+ * ranks. */
 static void sli_restriction_filter(sli_restriction *r) {
     const sl_symbolic *S = r->S;
     sl_off at = 0, p;
     sl_int q;
     for (q = 0; q < r->n_kept; q++) {
+        const sl_int s = r->kept[q], limit = r->limit[q];
+        const sl_int shift = r->first_rank[q] - S->super_first[s];
         r->below_begin[q] = at;
-        for (p = S->rows_begin[r->kept[q]]; p < S->rows_begin[r->kept[q] + 1]; p++) {
-            const sl_int rank = sli_subset_find(&r->R, S->rows[p]);
+        for (p = S->rows_begin[s]; p < S->rows_begin[s + 1]; p++) {
+            const sl_int row = S->rows[p];
+            const sl_int rank = row < limit ? row + shift : sli_subset_find(&r->R, row);
             if (rank != -1) {
                 r->below[at++] = rank;
             }
@@ -114,8 +138,14 @@ SLI_INLINE void sli_restriction_enter(sli_restriction *r, sl_int a, sl_int b, sl
     r->entry_from[r->n_entries++] = from;
 }
 
-/* Lists the graph of the new columns: the cliques, and the entries of A. */
-static void sli_restriction_graph(sli_restriction *r) {
+/* The bits of a row of A and its neighbors: 0 if it is not in R; 1 also for some that are not. */
+SLI_INLINE uint32_t *sli_restriction_bits(const sli_restriction *r, sl_int row) {
+    return &r->bits[((uint32_t)row / 32) & r->bits_mask];
+}
+
+/* Lists the graph of the new columns: the cliques, and the entries of A. Its pattern has not been
+ * compared with the analyzed one. */
+static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     const sl_csc *A = r->A;
     const sl_triangle triangle = r->S->stats.symbolic.triangle;
     sl_int q, k, p;
@@ -130,27 +160,26 @@ static void sli_restriction_graph(sli_restriction *r) {
     }
     for (k = 0; k < r->R.count; k++) { /* in the caller's order, in which A is read faster */
         const sl_int j = r->rows[k], own = r->number_of[k];
-        for (p = own == -1 ? A->p[j + 1] : A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int i = A->i[p];
-            const sl_int rank =
-                sli_is_read(triangle, i, j) ? sli_subset_find(&r->R, r->S->iperm[i]) : -1;
-            if (rank != -1 && r->fresh_of[rank] != -1) {
-                sli_restriction_enter(r, r->fresh_of[rank], own, p);
-            }
+        const sl_int end = own == -1 ? A->p[j] : A->p[j + 1];
+        if (k + SLI_RESTRICT_AHEAD < r->R.count) {
+            SLI_PREFETCH(A->i + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
+            SLI_PREFETCH(A->x + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0); /* read by fronts */
         }
-    }
-}
-
-/* Refuses column j of A if it is none: its pattern has not been compared with the analyzed one. */
-static sl_status sli_restriction_column(const sl_csc *A, sl_int j, sl_stats *stats) {
-    const sl_int end = A->p[j + 1];
-    sl_int p = A->p[j];
-    if (p < 0 || end < p || end > sli_nnz(A)) {
-        return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
-    }
-    for (; p < end; p++) {
-        if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
-            return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
+        for (p = A->p[j]; p < end; p++) {
+            const sl_int i = A->i[p];
+            sl_int rank;
+            if (i < 0 || i >= A->n_rows) {
+                return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
+            }
+            if (i == j) {
+                sli_restriction_enter(r, own, own, p);
+            } else if ((*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
+                       sli_is_read(triangle, i, j)) {
+                rank = sli_subset_find(&r->R, r->S->iperm[i]);
+                if (rank != -1 && r->fresh_of[rank] != -1) {
+                    sli_restriction_enter(r, r->fresh_of[rank], own, p);
+                }
+            }
         }
     }
     return SL_OK;
@@ -159,6 +188,7 @@ static sl_status sli_restriction_column(const sl_csc *A, sl_int j, sl_stats *sta
 /* Room for the rows below kept supernodes and for the graph. */
 static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
     const sl_symbolic *S = r->S;
+    const sl_int *p = r->A->p;
     uint64_t rows = 0, entries = 0;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -169,18 +199,20 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
         rows += (uint64_t)here;
         entries += sli_restriction_is_root(r, q) ? (uint64_t)here : 0;
     }
+    memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
     for (k = 0; k < r->R.count; k++) {
         r->number_of[r->R.row_of[k]] = r->fresh_of[k];
     }
     for (k = 0; k < r->R.count; k++) {
         const sl_int j = r->rows[k];
-        if (r->number_of[k] != -1) {
-            status = sli_restriction_column(r->A, j, stats);
-            if (status != SL_OK) {
-                return status;
-            }
-            entries += (uint64_t)(r->A->p[j + 1] - r->A->p[j]);
+        if (k + SLI_RESTRICT_AHEAD < r->R.count) {
+            SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
         }
+        if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
+        }
+        entries += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+        *sli_restriction_bits(r, j) |= (uint32_t)1 << (j % 32);
     }
     if (entries > INT32_MAX) {   /* untested: 2^31 entries */
         return SL_ERR_TOO_LARGE; /* untested: the same */
@@ -286,6 +318,9 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
+    while (r->bits_mask < count / 4) { /* from 8 bits a row on */
+        r->bits_mask = 2 * r->bits_mask + 1;
+    }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_subset_layout(&r->R, &b, r->S->n);
         r->list = SLI_TAKE(&b, uint64_t, count);
@@ -294,9 +329,11 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
         r->first_rank = SLI_TAKE(&b, sl_int, count);
         r->kept_new = SLI_TAKE(&b, sl_int, count);
         r->next = SLI_TAKE(&b, sl_int, count);
+        r->limit = SLI_TAKE(&b, sl_int, count);
+        r->number_of = SLI_TAKE(&b, sl_int, count);
+        r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
         r->fresh = SLI_TAKE(&b, sl_int, count);
         r->fresh_of = SLI_TAKE(&b, sl_int, count);
-        r->number_of = SLI_TAKE(&b, sl_int, count);
         r->column_of = SLI_TAKE(&b, sl_int, count);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
@@ -312,13 +349,12 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
 /* Analyzes the new columns; found: what that counts. */
 static sl_status sli_restriction_run(sli_restriction *r, const sl_allocator *a, sl_stats *found,
                                      sl_stats *stats) {
-    const sl_status status = sli_restriction_room(r, a, stats);
-    if (status != SL_OK) {
-        return status;
+    sl_status status = sli_restriction_room(r, a, stats);
+    if (status == SL_OK) {
+        sli_restriction_filter(r);
+        status = sli_restriction_graph(r, stats);
     }
-    sli_restriction_filter(r);
-    sli_restriction_graph(r);
-    return sli_restriction_analyze(r, a, found);
+    return status == SL_OK ? sli_restriction_analyze(r, a, found) : status;
 }
 
 #endif

@@ -12,6 +12,9 @@
 #define SLI_PAGE_COLUMNS (1 << SLI_PAGE_BITS)
 #define SLI_PAGES_PER_COLUMN 8 /* up to so many pages for each column of the set there is no hash */
 
+/* The permutation is read at random places: so many rows ahead they are fetched. */
+#define SLI_SUBSET_AHEAD 16
+
 typedef struct sli_subset {
     sl_int count;
     sl_int *columns; /* count: columns of L, ascending */
@@ -93,7 +96,11 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
            (R->is_hashed ? (size_t)R->mask + 1 : (size_t)pages) * sizeof(sl_int)); /* -1 */
     for (k = 0; k < R->count; k++) {
         const sl_int row = rows[k];
+        const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
         sl_int *place = row < 0 || row >= S->n ? NULL : sli_subset_place(R, S->iperm[row]);
+        if (ahead >= 0 && ahead < S->n) {
+            SLI_PREFETCH(S->iperm + ahead, 0);
+        }
         if (place == NULL || *place != -1) {
             return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
         }
