@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b153476e9450323a
+ * FNV-1a of the lines after this comment, without the license: 68bf79840543cc82
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -53,39 +53,39 @@
  *  12756 factor_types.h  13167 storage.h  13307 pivot_search.h  13653 pivoted.h  13721 scatter.h
  *  13879 uplooking.h  13951 null_product.h  14155 null_dense.h  14232 null_basis.h
  *  14540 null_vectors.h  14682 multifrontal.h  14872 gather.h  14920 kept.h  15087 front_tasks.h
- *  15430 nullspace.h  15633 growth.h  15709 factor_setup.h  16023 factor.h  16233 leftlooking.h
- *  16379 factor_query.h  16514 combination.h
+ *  15430 nullspace.h  15633 growth.h  15709 factor_setup.h  16031 factor.h  16241 leftlooking.h
+ *  16387 factor_query.h  16522 combination.h
  * (solve: full and local solves)
- *  16575 region_types.h  16679 work.h  16779 query.h  16987 singular.h  17257 backward.h
- *  17287 sweep_tasks.h  17621 sweep.h  17832 compile.h  18025 plan.h  18132 local.h  18284 parts.h
- *  18573 refine.h  18752 refine_local.h  18968 rcond.h  19127 defects.h
+ *  16583 region_types.h  16687 work.h  16787 query.h  16995 singular.h  17265 backward.h
+ *  17295 sweep_tasks.h  17629 sweep.h  17840 compile.h  18033 plan.h  18140 local.h  18292 parts.h
+ *  18581 refine.h  18760 refine_local.h  18976 rcond.h  19135 defects.h
  * (inverse: entries of the inverse, regions)
- *  19205 traversal.h  19450 traversal_run.h  19634 row_sets.h  19661 unit_vectors.h
- *  19888 bilinear.h  20065 entries.h  20346 block.h  20586 reserve.h  20778 selected.h
- *  20988 selected_query.h  21090 region_choose.h  21317 region.h
+ *  19213 traversal.h  19458 traversal_run.h  19642 row_sets.h  19669 unit_vectors.h
+ *  19896 bilinear.h  20073 entries.h  20354 block.h  20594 reserve.h  20786 selected.h
+ *  20996 selected_query.h  21098 region_choose.h  21325 region.h
  * (change: a factor that follows changes of its matrix)
- *  21565 update.h  21915 rank.h  22253 edges.h  22407 choose.h  22605 pins_types.h
- *  22683 pins_nulls.h  22861 pins_capacitance.h  23112 pins_held.h  23323 pins_choose.h
- *  23393 pins_rebuild.h  23608 pins_matrix.h  23754 pins.h  24014 pins_solve.h  24344 subset.h
- *  24457 restrict_analysis.h  24786 restrict_symbolic.h  24967 restrict.h  25184 edit_match.h
- *  25383 edit_place.h  25632 edit_separate.h  25945 edit_order.h  26100 edit_graph.h
- *  26195 edit_join.h  26471 edit.h  26634 edit_factor.h
+ *  21573 update.h  21923 rank.h  22261 edges.h  22415 choose.h  22613 pins_types.h
+ *  22691 pins_nulls.h  22869 pins_capacitance.h  23120 pins_held.h  23331 pins_choose.h
+ *  23401 pins_rebuild.h  23616 pins_matrix.h  23762 pins.h  24022 pins_solve.h  24352 subset.h
+ *  24465 restrict_analysis.h  24794 restrict_symbolic.h  24975 restrict.h  25191 edit_match.h
+ *  25390 edit_place.h  25639 edit_separate.h  25952 edit_order.h  26107 edit_graph.h
+ *  26202 edit_join.h  26478 edit.h  26641 edit_factor.h
  * (save: factors in files)
- *  26892 format.h  27188 decode.h  27336 check.h  27666 write.h  27971 load.h  28239 load_inverse.h
- *  28568 load_calls.h
+ *  26899 format.h  27195 decode.h  27343 check.h  27673 write.h  27978 load.h  28246 load_inverse.h
+ *  28575 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28767 batch_solve.h  28976 batch_factor.h  29177 batch_diagonal.h
+ *  28774 batch_solve.h  28983 batch_factor.h  29184 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29317 hermitian.h  29479 complex_rows.h
+ *  29324 hermitian.h  29486 complex_rows.h
  * (last: undefine every internal macro)
- *  29647 undef.h
+ *  29654 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29901 front.inl.h  29903 product.inl.h  30398 words_undef.inl.h  30480 multi_rhs.inl.h
- *  30499 multi_rhs_small.inl.h  30667 multi_rhs_tiles.inl.h  30972 complex_groups.inl.h
- *  31204 sweeps.inl.h  31206 unit_triangle.inl.h  31243 two_rhs.inl.h  31414 small_supernode.inl.h
- *  31574 single_rhs.inl.h  31823 kernel_set.inl.h  31825 complex_small.inl.h
- *  31989 complex_rows.inl.h  32221 inverse_front.inl.h  32506 row.inl.h  32536 change.inl.h
- *  32600 interleave.inl.h
+ *  29908 front.inl.h  29910 product.inl.h  30405 words_undef.inl.h  30487 multi_rhs.inl.h
+ *  30506 multi_rhs_small.inl.h  30674 multi_rhs_tiles.inl.h  30979 complex_groups.inl.h
+ *  31211 sweeps.inl.h  31213 unit_triangle.inl.h  31250 two_rhs.inl.h  31421 small_supernode.inl.h
+ *  31581 single_rhs.inl.h  31830 kernel_set.inl.h  31832 complex_small.inl.h
+ *  31996 complex_rows.inl.h  32228 inverse_front.inl.h  32513 row.inl.h  32543 change.inl.h
+ *  32607 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15961,7 +15961,9 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     F->schedule.workers = sli_min(
       sli_workers_for(&opt->threads, sli_schedule_flops(F->S)), sli_max(F->S->n_supers, 1));
   }
-  F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+  if (F->kernels == NULL) {
+    F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+  }
   if (F->kernels == NULL) {
     return SL_ERR_UNSUPPORTED;
   }
@@ -15975,8 +15977,8 @@ static int sli_complex_is_possible(const sl_factor *F) {
   return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
 }
 
-static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-                sl_stats *stats) {
+static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                   const sli_kernels *kernels, sl_stats *stats) {
   const double started = sli_seconds();
   const sl_allocator a = sli_allocator(opt);
   sl_factor draft;
@@ -15986,6 +15988,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   memset(&draft, 0, sizeof draft);
   draft.allocator = a;
   draft.S = S;
+  draft.kernels = kernels;
   draft.analysis = S->identity;
   draft.storage = opt == NULL ? SL_STORAGE_DOUBLE : opt->storage;
   sli_factor_rules(&draft, opt);
@@ -16018,6 +16021,11 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     }
   }
   return status;
+}
+
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                sl_stats *stats) {
+  return sli_factor_new_with(out, S, opt, NULL, stats);
 }
 
 /* src/impl/factor/factor.h: creates a factor, and refactors it with new values of the same pattern */
@@ -25040,7 +25048,6 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
                      const sl_allocator *a, sl_int *signs) {
   sl_options opt = sli_options_with(a);
   sl_int k;
-  opt.isa = F->kernels->isa;
   opt.null_tolerance = F->rule.null_tolerance;
   opt.regularization = F->rule.regularization;
   opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
@@ -25060,7 +25067,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   sl_factor *G = NULL;
   sl_status status;
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
-  status = sli_factor_new(&G, S, &opt, stats);
+  status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
   status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
   if (status == SL_OK) {
     *out = G;

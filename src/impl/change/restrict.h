@@ -83,7 +83,6 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
                                        const sl_allocator *a, sl_int *signs) {
     sl_options opt = sli_options_with(a);
     sl_int k;
-    opt.isa = F->kernels->isa;
     opt.null_tolerance = F->rule.null_tolerance;
     opt.regularization = F->rule.regularization;
     opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
@@ -104,7 +103,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     sl_factor *G = NULL;
     sl_status status;
     opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
-    status = sli_factor_new(&G, S, &opt, stats);
+    status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
     status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
     if (status == SL_OK) {
         *out = G;

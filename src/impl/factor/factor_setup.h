@@ -276,7 +276,8 @@ SL_API void sl_factor_free(sl_factor *F) {
     }
 }
 
-/* Sets the kernels and the threads of a factor that has its analysis and its method. */
+/* Sets the kernels, unless F has them, and the threads of a factor that has its analysis and its
+ * method. */
 static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     F->schedule.workers = 1;
     if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
@@ -284,7 +285,9 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
         F->schedule.workers = sli_min(
             sli_workers_for(&opt->threads, sli_schedule_flops(F->S)), sli_max(F->S->n_supers, 1));
     }
-    F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+    if (F->kernels == NULL) {
+        F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
+    }
     if (F->kernels == NULL) {
         return SL_ERR_UNSUPPORTED;
     }
@@ -299,9 +302,10 @@ static int sli_complex_is_possible(const sl_factor *F) {
     return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
 }
 
-/* Creates a factor with its memory and its schedule, but without numbers. */
-static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
-                                sl_stats *stats) {
+/* Creates a factor with its memory and its schedule, but without numbers. kernels: NULL: those of
+ * the options, which take as long to choose under a hypervisor as a factor of 100 rows. */
+static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                                     const sli_kernels *kernels, sl_stats *stats) {
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_factor draft;
@@ -311,6 +315,7 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
+    draft.kernels = kernels;
     draft.analysis = S->identity;
     draft.storage = opt == NULL ? SL_STORAGE_DOUBLE : opt->storage;
     sli_factor_rules(&draft, opt);
@@ -343,6 +348,11 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
         }
     }
     return status;
+}
+
+static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
+                                sl_stats *stats) {
+    return sli_factor_new_with(out, S, opt, NULL, stats);
 }
 
 #endif
