@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 68bf79840543cc82
+ * FNV-1a of the lines after this comment, without the license: 94e1c5e2f89778dd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -82,10 +82,10 @@
  * (templates: the header includes them from itself, once for each instruction set)
  *  29908 front.inl.h  29910 product.inl.h  30405 words_undef.inl.h  30487 multi_rhs.inl.h
  *  30506 multi_rhs_small.inl.h  30674 multi_rhs_tiles.inl.h  30979 complex_groups.inl.h
- *  31211 sweeps.inl.h  31213 unit_triangle.inl.h  31250 two_rhs.inl.h  31421 small_supernode.inl.h
- *  31581 single_rhs.inl.h  31830 kernel_set.inl.h  31832 complex_small.inl.h
- *  31996 complex_rows.inl.h  32228 inverse_front.inl.h  32513 row.inl.h  32543 change.inl.h
- *  32607 interleave.inl.h
+ *  31211 sweeps.inl.h  31213 unit_triangle.inl.h  31250 two_rhs.inl.h  31419 small_supernode.inl.h
+ *  31598 single_rhs.inl.h  31842 kernel_set.inl.h  31844 complex_small.inl.h
+ *  32008 complex_rows.inl.h  32240 inverse_front.inl.h  32525 row.inl.h  32555 change.inl.h
+ *  32619 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -31416,9 +31416,21 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end of two_rhs.inl.h */
 #endif
-#if defined(SLV_PAIR) || !SLV_SINGLE
-#define SLI_SMALL_SUPERNODES
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
+
+#if defined(SLV_PAIR)
+#define SLI_BY_WIDTH(call) SLI_CASES(call)
+#define SLI_CLEAR_ALL
+#else
+#define SLI_BY_WIDTH(call) call(w)
+#define SLI_CLEAR_ALL SLI_EACH8(SLI_CLEAR, y)
+#define SLI_CLEAR(k, y) SLV_ZERO(y##k)
+#endif
+#if !defined(SLV_PAIR) && SLV_SINGLE
+#define SLI_CLEAR_WIDE memset(t, 0, sizeof t);
+#else
+#define SLI_CLEAR_WIDE
+#endif
 
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
@@ -31447,6 +31459,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
   SLV_DECLARE(a)
   SLV_DECLARE(b)
   SLI_EACH8(SLI_DECLARE, y)
+  SLI_CLEAR_ALL
   SLV_LOAD_PART(a, xs, w, 0.0)
   SLI_EACH8(SLI_COLUMN, 0)
   SLV_STORE(buf, a)
@@ -31527,6 +31540,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLV_BELOW(v, w - 1)
     SLI_DOTS
   }
+  SLI_CLEAR_WIDE
   SLV_WIDEN(t, l, w, SLI_TILE)
   SLV_LOAD_PART(z, xs, w, 0.0)
   SLV_LOAD_PART(v, d, w, 1.0)
@@ -31551,13 +31565,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(forward_small)(sl_int w, sl_int below, const sl_int *rows,
                             const SLV_VALUE *l, double *xs, double *x,
                             double *buf) {
-  SLI_CASES(SLI_FORWARD);
+  SLI_BY_WIDTH(SLI_FORWARD);
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, const sl_int *rows,
                              const SLV_VALUE *l, const double *d,
                              double *xs, const double *x) {
-  SLI_CASES(SLI_BACKWARD);
+  SLI_BY_WIDTH(SLI_BACKWARD);
 }
 
 #undef SLI_DECLARE
@@ -31576,8 +31590,11 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, c
 #undef SLI_ROW
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
+#undef SLI_CLEAR_ALL
+#undef SLI_CLEAR_WIDE
+#undef SLI_CLEAR
 /* end of small_supernode.inl.h */
-#endif
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
@@ -31630,13 +31647,11 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, con
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + s->base;
     sl_int i;
-#if defined(SLI_SMALL_SUPERNODES)
     if (w <= SLI_TILE) {
       SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
       rows += s->below;
       continue;
     }
-#endif
     memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
     for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
       buf[i] = 0.0;
@@ -31744,12 +31759,10 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
     sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
-#if defined(SLI_SMALL_SUPERNODES)
     if (w <= SLI_TILE) {
       SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
       continue;
     }
-#endif
     SLV_SUM_ZERO(a)
     for (j = first; j < w; j++) {
       SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
@@ -31809,7 +31822,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
-#undef SLI_SMALL_SUPERNODES
 
 #if SLV_SINGLE
 #undef SLV_SINGLE

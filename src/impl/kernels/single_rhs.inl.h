@@ -54,13 +54,11 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, con
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
-#if defined(SLI_SMALL_SUPERNODES)
         if (w <= SLI_TILE) {
             SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
             rows += s->below;
             continue;
         }
-#endif
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
         for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
             buf[i] = 0.0;
@@ -178,12 +176,10 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
         sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
         SLV_DECLARE(v)
         SLV_SUM_DECLARE(a)
-#if defined(SLI_SMALL_SUPERNODES)
         if (w <= SLI_TILE) {
             SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
             continue;
         }
-#endif
         SLV_SUM_ZERO(a)
         for (j = first; j < w; j++) {
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)

@@ -4,6 +4,22 @@
  * of few iterations, on calls, and on vector loads of values that were just stored one by one. Here
  * the width is a constant in each of 8 copies: there are no loops over columns, y or the sums of
  * all columns stay in registers, and x is gathered directly into registers. */
+
+/* In plain C one function that takes the width as a variable is as fast as 8 copies. */
+#if defined(SLV_PAIR)
+#define SLI_BY_WIDTH(call) SLI_CASES(call)
+#define SLI_CLEAR_ALL
+#else
+#define SLI_BY_WIDTH(call) call(w)
+#define SLI_CLEAR_ALL SLI_EACH8(SLI_CLEAR, y) /* compilers do not see that no other is used */
+#define SLI_CLEAR(k, y) SLV_ZERO(y##k)
+#endif
+#if !defined(SLV_PAIR) && SLV_SINGLE
+#define SLI_CLEAR_WIDE memset(t, 0, sizeof t);
+#else
+#define SLI_CLEAR_WIDE
+#endif
+
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -33,6 +49,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
     SLV_DECLARE(a)
     SLV_DECLARE(b)
     SLI_EACH8(SLI_DECLARE, y)
+    SLI_CLEAR_ALL
     SLV_LOAD_PART(a, xs, w, 0.0)
     SLI_EACH8(SLI_COLUMN, 0)
     SLV_STORE(buf, a)
@@ -118,6 +135,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
         SLV_BELOW(v, w - 1)
         SLI_DOTS
     }
+    SLI_CLEAR_WIDE
     SLV_WIDEN(t, l, w, SLI_TILE)
     SLV_LOAD_PART(z, xs, w, 0.0)
     SLV_LOAD_PART(v, d, w, 1.0)
@@ -142,13 +160,13 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(forward_small)(sl_int w, sl_int below, const sl_int *rows,
                                                       const SLV_VALUE *l, double *xs, double *x,
                                                       double *buf) {
-    SLI_CASES(SLI_FORWARD);
+    SLI_BY_WIDTH(SLI_FORWARD);
 }
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, const sl_int *rows,
                                                        const SLV_VALUE *l, const double *d,
                                                        double *xs, const double *x) {
-    SLI_CASES(SLI_BACKWARD);
+    SLI_BY_WIDTH(SLI_BACKWARD);
 }
 
 #undef SLI_DECLARE
@@ -167,3 +185,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, c
 #undef SLI_ROW
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
+#undef SLI_CLEAR_ALL
+#undef SLI_CLEAR_WIDE
+#undef SLI_CLEAR

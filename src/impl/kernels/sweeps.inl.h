@@ -4,13 +4,8 @@
 #if defined(SLV_PAIR) /* else multi_rhs.inl.h has the kernels for two right-hand sides */
 #include "two_rhs.inl.h"
 #endif
-/* In plain C the copies for small supernodes are large. For L in float they gain 1 to 6 percent. */
-#if defined(SLV_PAIR) || !SLV_SINGLE
-#define SLI_SMALL_SUPERNODES
 #include "small_supernode.inl.h"
-#endif
 #include "single_rhs.inl.h"
-#undef SLI_SMALL_SUPERNODES
 
 #if SLV_SINGLE
 #undef SLV_SINGLE
