@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 94e1c5e2f89778dd
+ * FNV-1a of the lines after this comment, without the license: c8c201c2ae1f0335
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,56 +36,56 @@
  *   4174 panel.h   4200 step.h   4274 pivot_rule.h   4348 front.h   4408 pairs.h
  *   4615 inverse_front.h   4687 table.h   4715 simd.h   4810 simd_scalar_single.h
  *   4856 simd_scalar.h   4984 simd_avx2_single.h   5038 simd_avx2.h   5256 simd_avx512_single.h
- *   5311 simd_avx512.h   5470 simd_neon_single.h   5512 simd_neon.h   5726 dispatch.h
+ *   5311 simd_avx512.h   5476 simd_neon_single.h   5518 simd_neon.h   5732 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5806 csc.h   5920 csc_build.h   6054 csc64.h   6125 csc_triangle.h   6191 csc_products.h
- *   6308 permute.h   6374 sum.h   6456 output_file.h   6665 matrix_market.h
+ *   5812 csc.h   5926 csc_build.h   6060 csc64.h   6131 csc_triangle.h   6197 csc_products.h
+ *   6314 permute.h   6380 sum.h   6462 output_file.h   6671 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7111 graph.h   7260 contract.h   7514 coarsen.h   7677 labels.h   7898 subgraph.h   8093 heap.h
- *   8153 bisect.h   8380 separator.h   8642 mindeg.h   8825 dissect.h   9149 tree_cost.h
- *   9201 levelset.h   9307 geometric.h   9482 cells.h   9662 septree.h   9738 metis.h
- *   9887 metis_refined.h  10001 nd.h  10201 compress.h  10322 peel.h  10500 quotient.h
- *  10913 order.h
+ *   7117 graph.h   7266 contract.h   7520 coarsen.h   7683 labels.h   7904 subgraph.h   8099 heap.h
+ *   8159 bisect.h   8386 separator.h   8648 mindeg.h   8831 dissect.h   9155 tree_cost.h
+ *   9207 levelset.h   9313 geometric.h   9488 cells.h   9668 septree.h   9744 metis.h
+ *   9893 metis_refined.h  10007 nd.h  10207 compress.h  10328 peel.h  10506 quotient.h
+ *  10919 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11257 symbolic_types.h  11294 etree.h  11367 counts.h  11424 supernodes.h  11646 structure.h
- *  11767 schedule.h  12047 symbolic.h  12485 reach.h
+ *  11263 symbolic_types.h  11300 etree.h  11373 counts.h  11430 supernodes.h  11652 structure.h
+ *  11773 schedule.h  12053 symbolic.h  12491 reach.h
  * (factor: the numbers of L and D)
- *  12756 factor_types.h  13167 storage.h  13307 pivot_search.h  13653 pivoted.h  13721 scatter.h
- *  13879 uplooking.h  13951 null_product.h  14155 null_dense.h  14232 null_basis.h
- *  14540 null_vectors.h  14682 multifrontal.h  14872 gather.h  14920 kept.h  15087 front_tasks.h
- *  15430 nullspace.h  15633 growth.h  15709 factor_setup.h  16031 factor.h  16241 leftlooking.h
- *  16387 factor_query.h  16522 combination.h
+ *  12762 factor_types.h  13173 storage.h  13313 pivot_search.h  13659 pivoted.h  13727 scatter.h
+ *  13885 uplooking.h  13957 null_product.h  14161 null_dense.h  14238 null_basis.h
+ *  14546 null_vectors.h  14688 multifrontal.h  14878 gather.h  14926 kept.h  15093 front_tasks.h
+ *  15436 nullspace.h  15639 growth.h  15715 factor_setup.h  16037 factor.h  16247 leftlooking.h
+ *  16393 factor_query.h  16528 combination.h
  * (solve: full and local solves)
- *  16583 region_types.h  16687 work.h  16787 query.h  16995 singular.h  17265 backward.h
- *  17295 sweep_tasks.h  17629 sweep.h  17840 compile.h  18033 plan.h  18140 local.h  18292 parts.h
- *  18581 refine.h  18760 refine_local.h  18976 rcond.h  19135 defects.h
+ *  16589 region_types.h  16693 work.h  16793 query.h  17001 singular.h  17271 backward.h
+ *  17301 sweep_tasks.h  17635 sweep.h  17846 compile.h  18039 plan.h  18146 local.h  18298 parts.h
+ *  18587 refine.h  18766 refine_local.h  18982 rcond.h  19141 defects.h
  * (inverse: entries of the inverse, regions)
- *  19213 traversal.h  19458 traversal_run.h  19642 row_sets.h  19669 unit_vectors.h
- *  19896 bilinear.h  20073 entries.h  20354 block.h  20594 reserve.h  20786 selected.h
- *  20996 selected_query.h  21098 region_choose.h  21325 region.h
+ *  19219 traversal.h  19464 traversal_run.h  19648 row_sets.h  19675 unit_vectors.h
+ *  19902 bilinear.h  20079 entries.h  20360 block.h  20600 reserve.h  20792 selected.h
+ *  21002 selected_query.h  21104 region_choose.h  21331 region.h
  * (change: a factor that follows changes of its matrix)
- *  21573 update.h  21923 rank.h  22261 edges.h  22415 choose.h  22613 pins_types.h
- *  22691 pins_nulls.h  22869 pins_capacitance.h  23120 pins_held.h  23331 pins_choose.h
- *  23401 pins_rebuild.h  23616 pins_matrix.h  23762 pins.h  24022 pins_solve.h  24352 subset.h
- *  24465 restrict_analysis.h  24794 restrict_symbolic.h  24975 restrict.h  25191 edit_match.h
- *  25390 edit_place.h  25639 edit_separate.h  25952 edit_order.h  26107 edit_graph.h
- *  26202 edit_join.h  26478 edit.h  26641 edit_factor.h
+ *  21579 update.h  21929 rank.h  22267 edges.h  22421 choose.h  22619 pins_types.h
+ *  22697 pins_nulls.h  22875 pins_capacitance.h  23126 pins_held.h  23337 pins_choose.h
+ *  23407 pins_rebuild.h  23622 pins_matrix.h  23768 pins.h  24028 pins_solve.h  24358 subset.h
+ *  24471 restrict_analysis.h  24800 restrict_symbolic.h  24981 restrict.h  25197 edit_match.h
+ *  25396 edit_place.h  25645 edit_separate.h  25958 edit_order.h  26113 edit_graph.h
+ *  26208 edit_join.h  26484 edit.h  26647 edit_factor.h
  * (save: factors in files)
- *  26899 format.h  27195 decode.h  27343 check.h  27673 write.h  27978 load.h  28246 load_inverse.h
- *  28575 load_calls.h
+ *  26905 format.h  27201 decode.h  27349 check.h  27679 write.h  27984 load.h  28252 load_inverse.h
+ *  28581 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28774 batch_solve.h  28983 batch_factor.h  29184 batch_diagonal.h
+ *  28780 batch_solve.h  28989 batch_factor.h  29190 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29324 hermitian.h  29486 complex_rows.h
+ *  29330 hermitian.h  29492 complex_rows.h
  * (last: undefine every internal macro)
- *  29654 undef.h
+ *  29660 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29908 front.inl.h  29910 product.inl.h  30405 words_undef.inl.h  30487 multi_rhs.inl.h
- *  30506 multi_rhs_small.inl.h  30674 multi_rhs_tiles.inl.h  30979 complex_groups.inl.h
- *  31211 sweeps.inl.h  31213 unit_triangle.inl.h  31250 two_rhs.inl.h  31419 small_supernode.inl.h
- *  31598 single_rhs.inl.h  31842 kernel_set.inl.h  31844 complex_small.inl.h
- *  32008 complex_rows.inl.h  32240 inverse_front.inl.h  32525 row.inl.h  32555 change.inl.h
- *  32619 interleave.inl.h
+ *  29914 front.inl.h  29916 product.inl.h  30411 words_undef.inl.h  30493 multi_rhs.inl.h
+ *  30520 multi_rhs_small.inl.h  30688 multi_rhs_tiles.inl.h  30997 complex_groups.inl.h
+ *  31229 sweeps.inl.h  31231 unit_triangle.inl.h  31268 two_rhs.inl.h  31437 small_supernode.inl.h
+ *  31616 single_rhs.inl.h  31860 kernel_set.inl.h  31862 complex_small.inl.h
+ *  32026 complex_rows.inl.h  32258 inverse_front.inl.h  32543 row.inl.h  32573 change.inl.h
+ *  32637 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4961,7 +4961,7 @@ typedef struct sli_kernels {
 #include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_scalar
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_NRHS 8
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
@@ -5216,7 +5216,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_DIVIDE
 
 #define SLW_NAME(f) sli_##f##8_avx2
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_NRHS 8
 #define SLW_ROWS 4
@@ -5399,6 +5399,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_PAIR(b, p) \
   b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
 
+#define SLW_TAKES_FLOATS
+#define SLV_SPREAD_0(s) _mm512_set1_pd(s)
+#define SLV_SPREAD_1(s) _mm512_maskz_cvtps_pd(0xff, _mm256_set1_ps(s))
+#define SLV_SPREAD(s) SLI_BY_TYPE(SLV_SPREAD_, SLV_SINGLE)(s)
+
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
 #define SLW_ROWS 8
@@ -5406,12 +5411,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_ZERO(a) a = _mm512_setzero_pd();
 #define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
 #define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(_mm512_set1_pd(s), b, a);
+#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
-#define SLW_GROUPS
+#define SLW_GROUPS 8
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##8_avx512
@@ -5428,7 +5433,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_DIVIDE
 
 #define SLW_NAME(f) sli_##f##16_avx512
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_NRHS 16
 #define SLW_ROWS 8
 #define SLW_DECLARE(a) __m512d a##_0, a##_1;
@@ -5437,7 +5442,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
 #define SLW_FNMA(a, s, b) \
   { \
-    const __m512d s_ = _mm512_set1_pd(s); \
+    const __m512d s_ = SLV_SPREAD(s); \
     a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
     a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
   }
@@ -5447,11 +5452,12 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
-#undef SLV_SINGLE
-#define SLV_SINGLE 0
-#undef SLW_NAME
-#undef SLW_NRHS
-#undef SLW_GROUPS
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#undef SLW_TAKES_FLOATS
+#undef SLV_SPREAD_0
+#undef SLV_SPREAD_1
+#undef SLV_SPREAD
 #define SLI_SECTION_SWEEPS
 #include SL_HEADER
 #define SLI_SECTION_SWEEPS
@@ -5679,7 +5685,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLW_DIVIDE
 
 #define SLW_NAME(f) sli_##f##8_neon
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_HALF(f) sli_##f##4_neon
 #define SLW_NRHS 8
 #define SLW_ROWS 4
@@ -30498,6 +30504,14 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 #define SLW_LOW SLI_LOW4
 #endif
 
+#if defined(SLW_TAKES_FLOATS)
+#define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
+#define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
+#else
+#define SLW_ENTRIES(v, columns) SLV_WIDE(v, columns)
+#define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
 #define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
@@ -30529,7 +30543,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
   }
 
-#if defined(SLW_GROUPS) && SLV_SINGLE
+#if defined(SLW_GROUPS) && SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
 #define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
 #else
 #define SLI_CLEAR_WIDE
@@ -30542,9 +30556,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
   sl_int lane = w, i;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
-  SLV_WIDE(v, SLI_TILE)
+  SLW_ENTRIES(v, SLI_TILE)
   SLI_CLEAR_WIDE
-  SLV_WIDEN(v, l, w, SLI_TILE)
+  SLW_SET_ENTRIES(v, l, w, SLI_TILE)
   SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
 #if defined(SLW_GROUPS)
   SLW_EACH(SLI_ZERO_OWN, 0)
@@ -30557,7 +30571,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     if (lane == SLI_TILE) {
       lane = 0;
       l += SLI_TILE * w;
-      SLV_WIDEN(v, l, w, SLI_TILE)
+      SLW_SET_ENTRIES(v, l, w, SLI_TILE)
       SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
     }
     SLW_LOAD(b, to)
@@ -30589,9 +30603,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
   sl_int i = below - 1, lane = (w + i) % SLI_TILE;
   SLW_EACH(SLI_DECLARE, 0)
   SLW_DECLARE(b)
-  SLV_WIDE(v, SLI_TILE)
+  SLW_ENTRIES(v, SLI_TILE)
   SLI_CLEAR_WIDE
-  SLV_WIDEN(v, l, w, SLI_TILE)
+  SLW_SET_ENTRIES(v, l, w, SLI_TILE)
   SLW_EACH(SLI_ZERO_OWN, 0)
   SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
   SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
@@ -30599,7 +30613,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
     if (lane < 0) {
       lane = SLI_TILE - 1;
       l -= SLI_TILE * w;
-      SLV_WIDEN(v, l, w, SLI_TILE)
+      SLW_SET_ENTRIES(v, l, w, SLI_TILE)
       SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
       SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
     }
@@ -30609,7 +30623,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
   }
   if (w == SLI_TILE && below > 0) {
     l -= SLI_TILE * w;
-    SLV_WIDEN(v, l, w, SLI_TILE)
+    SLW_SET_ENTRIES(v, l, w, SLI_TILE)
   }
   SLW_EACH(SLI_DIVIDE_OWN, 0)
   SLW_HIGH(SLI_ROW_OWN, 0)
@@ -30741,7 +30755,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
   const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-  SLV_WIDE(v, SLI_TILE)
+  SLW_ENTRIES(v, SLI_TILE)
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -30782,12 +30796,12 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
         }
         for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
           SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-          SLV_WIDEN(v, l, 1, SLW_ROWS)
+          SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
           SLW_LOAD(b, xj)
           SLW_EACH(SLI_APPLY, v)
         }
         if (inner > 0) {
-          SLV_WIDEN(v, l, inner, SLW_ROWS)
+          SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
           SLW_EACH(SLI_COLUMN, 0)
         }
         if (is_below) {
@@ -30813,7 +30827,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
   const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-  SLV_WIDE(v, SLI_TILE)
+  SLW_ENTRIES(v, SLI_TILE)
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -30867,7 +30881,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
           SLW_EACH(SLI_LOAD, p)
         }
         if (inner > 0) {
-          SLV_WIDEN(v, l, inner, SLW_ROWS)
+          SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
           SLW_HIGH(SLI_ROW, 0)
           SLW_LOW(SLI_ROW, 0)
           SLW_EACH(SLI_STORE, p)
@@ -30880,7 +30894,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
           l -= SLI_TILE;
           xj -= stride;
           SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-          SLV_WIDEN(v, l, 1, SLW_ROWS)
+          SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
           SLW_LOAD(b, xj)
           SLW_ZERO(c)
           SLW_HIGH(SLI_GATHER, v)
@@ -30908,8 +30922,10 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #if SLW_NRHS == 8
 SLI_GROUPED_KERNELS(8)
 #endif
+#if SLW_GROUPS == 32
 SLI_GROUPED_KERNELS(16)
 SLI_GROUPED_KERNELS(32)
+#endif
 #undef SLI_GROUPED_KERNELS
 #endif
 
@@ -30947,6 +30963,8 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 }
 #endif
 
+#undef SLW_ENTRIES
+#undef SLW_SET_ENTRIES
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE

@@ -20,6 +20,15 @@
 #define SLW_LOW SLI_LOW4
 #endif
 
+/* v: columns 0 .. columns-1 from l on, [column][8]; a copy in double if SLW_FNMA takes no floats */
+#if defined(SLW_TAKES_FLOATS)
+#define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
+#define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
+#else
+#define SLW_ENTRIES(v, columns) SLV_WIDE(v, columns)
+#define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
+#endif
+
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
 #define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
@@ -49,6 +58,8 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 }
 #endif
 
+#undef SLW_ENTRIES
+#undef SLW_SET_ENTRIES
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE

@@ -29,7 +29,7 @@
     }
 
 /* Where the width is not a constant, compilers warn of columns that they think are used. */
-#if defined(SLW_GROUPS) && SLV_SINGLE
+#if defined(SLW_GROUPS) && SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
 #define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
 #else
 #define SLI_CLEAR_WIDE
@@ -42,9 +42,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     sl_int lane = w, i;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
-    SLV_WIDE(v, SLI_TILE)
+    SLW_ENTRIES(v, SLI_TILE)
     SLI_CLEAR_WIDE
-    SLV_WIDEN(v, l, w, SLI_TILE)
+    SLW_SET_ENTRIES(v, l, w, SLI_TILE)
     SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
 #if defined(SLW_GROUPS)
     SLW_EACH(SLI_ZERO_OWN, 0)
@@ -57,7 +57,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
         if (lane == SLI_TILE) {
             lane = 0;
             l += SLI_TILE * w;
-            SLV_WIDEN(v, l, w, SLI_TILE)
+            SLW_SET_ENTRIES(v, l, w, SLI_TILE)
             SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
         }
         SLW_LOAD(b, to)
@@ -90,9 +90,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
     sl_int i = below - 1, lane = (w + i) % SLI_TILE;
     SLW_EACH(SLI_DECLARE, 0)
     SLW_DECLARE(b)
-    SLV_WIDE(v, SLI_TILE)
+    SLW_ENTRIES(v, SLI_TILE)
     SLI_CLEAR_WIDE
-    SLV_WIDEN(v, l, w, SLI_TILE)
+    SLW_SET_ENTRIES(v, l, w, SLI_TILE)
     SLW_EACH(SLI_ZERO_OWN, 0)
     SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
     SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
@@ -100,7 +100,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
         if (lane < 0) {
             lane = SLI_TILE - 1;
             l -= SLI_TILE * w;
-            SLV_WIDEN(v, l, w, SLI_TILE)
+            SLW_SET_ENTRIES(v, l, w, SLI_TILE)
             SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
             SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
         }
@@ -110,7 +110,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl
     }
     if (w == SLI_TILE && below > 0) {
         l -= SLI_TILE * w;
-        SLV_WIDEN(v, l, w, SLI_TILE)
+        SLW_SET_ENTRIES(v, l, w, SLI_TILE)
     }
     SLW_EACH(SLI_DIVIDE_OWN, 0)
     SLW_HIGH(SLI_ROW_OWN, 0)

@@ -75,7 +75,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
     const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-    SLV_WIDE(v, SLI_TILE)
+    SLW_ENTRIES(v, SLI_TILE)
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
@@ -116,12 +116,12 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                 }
                 for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
                     SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-                    SLV_WIDEN(v, l, 1, SLW_ROWS)
+                    SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
                     SLW_LOAD(b, xj)
                     SLW_EACH(SLI_APPLY, v)
                 }
                 if (inner > 0) {
-                    SLV_WIDEN(v, l, inner, SLW_ROWS)
+                    SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
                     SLW_EACH(SLI_COLUMN, 0)
                 }
                 if (is_below) {
@@ -149,7 +149,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
     const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-    SLV_WIDE(v, SLI_TILE)
+    SLW_ENTRIES(v, SLI_TILE)
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const sl_int padded = SLI_TILE * sli_tiles(height);
@@ -203,7 +203,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                     SLW_EACH(SLI_LOAD, p)
                 }
                 if (inner > 0) {
-                    SLV_WIDEN(v, l, inner, SLW_ROWS)
+                    SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
                     SLW_HIGH(SLI_ROW, 0)
                     SLW_LOW(SLI_ROW, 0)
                     SLW_EACH(SLI_STORE, p)
@@ -216,7 +216,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                     l -= SLI_TILE;
                     xj -= stride;
                     SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-                    SLV_WIDEN(v, l, 1, SLW_ROWS)
+                    SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
                     SLW_LOAD(b, xj)
                     SLW_ZERO(c)
                     SLW_HIGH(SLI_GATHER, v)
@@ -245,8 +245,10 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #if SLW_NRHS == 8
 SLI_GROUPED_KERNELS(8)
 #endif
+#if SLW_GROUPS == 32
 SLI_GROUPED_KERNELS(16)
 SLI_GROUPED_KERNELS(32)
+#endif
 #undef SLI_GROUPED_KERNELS
 #endif
 

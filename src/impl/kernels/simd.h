@@ -71,14 +71,14 @@
  *
  * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.
  * The largest SLW_NRHS of an instruction set, 8 or 16, has SLW_GROUPS defined: its sweeps take
- * several groups of so many right-hand sides.
+ * several groups of so many right-hand sides, up to SLW_GROUPS of them.
  *
  *  SLW_NAME(f), SLW_NRHS  name of function f; the number of right-hand sides
  *  SLW_ROWS               rows that are kept in registers, 4 or 8
  *  SLW_HALF(f)            defined where 8 rows do not fit in the registers: name of f for half as
  *                         many right-hand sides
  *  SLW_DECLARE, SLW_ZERO, SLW_ADD     as above; SLW_LOAD and SLW_STORE need no alignment
- *  SLW_FNMA(a, s, b)      a -= s b
+ *  SLW_FNMA(a, s, b)      a -= s b; s is a double, with SLW_TAKES_FLOATS an SLV_VALUE
  *  SLW_DIVIDE(a, s)       a /= s
  */
 

@@ -193,7 +193,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 
 /* 8 right-hand sides: two registers */
 #define SLW_NAME(f) sli_##f##8_avx2
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_NRHS 8
 #define SLW_ROWS 4

@@ -174,7 +174,7 @@
 
 /* 8 right-hand sides: four registers */
 #define SLW_NAME(f) sli_##f##8_neon
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_HALF(f) sli_##f##4_neon
 #define SLW_NRHS 8
 #define SLW_ROWS 4

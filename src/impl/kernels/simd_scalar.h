@@ -108,7 +108,7 @@
 #include "complex_groups.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
-#define SLW_GROUPS
+#define SLW_GROUPS 32
 #define SLW_NRHS 8
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
