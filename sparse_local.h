@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c8c201c2ae1f0335
+ * FNV-1a of the lines after this comment, without the license: bc0acb2c3dff789f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,59 +33,59 @@
  *   3121 base.h   3415 status.h   3476 options.h   3534 alloc.h   3690 hash.h   3820 file_map.h
  *   3917 sort.h   3981 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4174 panel.h   4200 step.h   4274 pivot_rule.h   4348 front.h   4408 pairs.h
- *   4615 inverse_front.h   4687 table.h   4715 simd.h   4810 simd_scalar_single.h
- *   4856 simd_scalar.h   4984 simd_avx2_single.h   5038 simd_avx2.h   5256 simd_avx512_single.h
- *   5311 simd_avx512.h   5476 simd_neon_single.h   5518 simd_neon.h   5732 dispatch.h
+ *   4177 panel.h   4203 step.h   4277 pivot_rule.h   4351 front.h   4411 pairs.h
+ *   4618 inverse_front.h   4690 table.h   4718 simd.h   4813 simd_scalar_single.h
+ *   4859 simd_scalar.h   4987 simd_avx2_single.h   5041 simd_avx2.h   5259 simd_avx512_single.h
+ *   5314 simd_avx512.h   5479 simd_neon_single.h   5521 simd_neon.h   5735 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5812 csc.h   5926 csc_build.h   6060 csc64.h   6131 csc_triangle.h   6197 csc_products.h
- *   6314 permute.h   6380 sum.h   6462 output_file.h   6671 matrix_market.h
+ *   5815 csc.h   5929 csc_build.h   6063 csc64.h   6134 csc_triangle.h   6200 csc_products.h
+ *   6317 permute.h   6383 sum.h   6465 output_file.h   6674 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7117 graph.h   7266 contract.h   7520 coarsen.h   7683 labels.h   7904 subgraph.h   8099 heap.h
- *   8159 bisect.h   8386 separator.h   8648 mindeg.h   8831 dissect.h   9155 tree_cost.h
- *   9207 levelset.h   9313 geometric.h   9488 cells.h   9668 septree.h   9744 metis.h
- *   9893 metis_refined.h  10007 nd.h  10207 compress.h  10328 peel.h  10506 quotient.h
- *  10919 order.h
+ *   7120 graph.h   7269 contract.h   7523 coarsen.h   7686 labels.h   7907 subgraph.h   8102 heap.h
+ *   8162 bisect.h   8389 separator.h   8651 mindeg.h   8834 dissect.h   9158 tree_cost.h
+ *   9210 levelset.h   9316 geometric.h   9491 cells.h   9671 septree.h   9747 metis.h
+ *   9896 metis_refined.h  10010 nd.h  10210 compress.h  10331 peel.h  10509 quotient.h
+ *  10922 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11263 symbolic_types.h  11300 etree.h  11373 counts.h  11430 supernodes.h  11652 structure.h
- *  11773 schedule.h  12053 symbolic.h  12491 reach.h
+ *  11266 symbolic_types.h  11303 etree.h  11376 counts.h  11433 supernodes.h  11655 structure.h
+ *  11776 schedule.h  12056 symbolic.h  12494 reach.h
  * (factor: the numbers of L and D)
- *  12762 factor_types.h  13173 storage.h  13313 pivot_search.h  13659 pivoted.h  13727 scatter.h
- *  13885 uplooking.h  13957 null_product.h  14161 null_dense.h  14238 null_basis.h
- *  14546 null_vectors.h  14688 multifrontal.h  14878 gather.h  14926 kept.h  15093 front_tasks.h
- *  15436 nullspace.h  15639 growth.h  15715 factor_setup.h  16037 factor.h  16247 leftlooking.h
- *  16393 factor_query.h  16528 combination.h
+ *  12765 factor_types.h  13176 storage.h  13316 pivot_search.h  13662 pivoted.h  13730 scatter.h
+ *  13888 uplooking.h  13960 null_product.h  14164 null_dense.h  14241 null_basis.h
+ *  14549 null_vectors.h  14691 multifrontal.h  14881 gather.h  14929 kept.h  15096 front_tasks.h
+ *  15439 nullspace.h  15642 growth.h  15718 factor_setup.h  16040 factor.h  16250 leftlooking.h
+ *  16396 factor_query.h  16531 combination.h
  * (solve: full and local solves)
- *  16589 region_types.h  16693 work.h  16793 query.h  17001 singular.h  17271 backward.h
- *  17301 sweep_tasks.h  17635 sweep.h  17846 compile.h  18039 plan.h  18146 local.h  18298 parts.h
- *  18587 refine.h  18766 refine_local.h  18982 rcond.h  19141 defects.h
+ *  16592 region_types.h  16696 work.h  16796 query.h  17004 singular.h  17274 backward.h
+ *  17304 sweep_tasks.h  17634 sweep.h  17845 compile.h  18038 plan.h  18145 local.h  18297 parts.h
+ *  18586 refine.h  18765 refine_local.h  18981 rcond.h  19140 defects.h
  * (inverse: entries of the inverse, regions)
- *  19219 traversal.h  19464 traversal_run.h  19648 row_sets.h  19675 unit_vectors.h
- *  19902 bilinear.h  20079 entries.h  20360 block.h  20600 reserve.h  20792 selected.h
- *  21002 selected_query.h  21104 region_choose.h  21331 region.h
+ *  19218 traversal.h  19467 traversal_run.h  19660 row_sets.h  19687 unit_vectors.h
+ *  19914 bilinear.h  20091 entries.h  20373 block.h  20613 reserve.h  20805 selected.h
+ *  21015 selected_query.h  21117 region_choose.h  21344 region.h
  * (change: a factor that follows changes of its matrix)
- *  21579 update.h  21929 rank.h  22267 edges.h  22421 choose.h  22619 pins_types.h
- *  22697 pins_nulls.h  22875 pins_capacitance.h  23126 pins_held.h  23337 pins_choose.h
- *  23407 pins_rebuild.h  23622 pins_matrix.h  23768 pins.h  24028 pins_solve.h  24358 subset.h
- *  24471 restrict_analysis.h  24800 restrict_symbolic.h  24981 restrict.h  25197 edit_match.h
- *  25396 edit_place.h  25645 edit_separate.h  25958 edit_order.h  26113 edit_graph.h
- *  26208 edit_join.h  26484 edit.h  26647 edit_factor.h
+ *  21592 update.h  21942 rank.h  22280 edges.h  22434 choose.h  22632 pins_types.h
+ *  22710 pins_nulls.h  22888 pins_capacitance.h  23139 pins_held.h  23350 pins_choose.h
+ *  23420 pins_rebuild.h  23635 pins_matrix.h  23781 pins.h  24041 pins_solve.h  24371 subset.h
+ *  24484 restrict_analysis.h  24813 restrict_symbolic.h  24994 restrict.h  25210 edit_match.h
+ *  25409 edit_place.h  25658 edit_separate.h  25971 edit_order.h  26126 edit_graph.h
+ *  26221 edit_join.h  26497 edit.h  26660 edit_factor.h
  * (save: factors in files)
- *  26905 format.h  27201 decode.h  27349 check.h  27679 write.h  27984 load.h  28252 load_inverse.h
- *  28581 load_calls.h
+ *  26918 format.h  27214 decode.h  27362 check.h  27692 write.h  27997 load.h  28265 load_inverse.h
+ *  28595 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28780 batch_solve.h  28989 batch_factor.h  29190 batch_diagonal.h
+ *  28794 batch_solve.h  29003 batch_factor.h  29204 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29330 hermitian.h  29492 complex_rows.h
+ *  29344 hermitian.h  29506 complex_rows.h
  * (last: undefine every internal macro)
- *  29660 undef.h
+ *  29674 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29914 front.inl.h  29916 product.inl.h  30411 words_undef.inl.h  30493 multi_rhs.inl.h
- *  30520 multi_rhs_small.inl.h  30688 multi_rhs_tiles.inl.h  30997 complex_groups.inl.h
- *  31229 sweeps.inl.h  31231 unit_triangle.inl.h  31268 two_rhs.inl.h  31437 small_supernode.inl.h
- *  31616 single_rhs.inl.h  31860 kernel_set.inl.h  31862 complex_small.inl.h
- *  32026 complex_rows.inl.h  32258 inverse_front.inl.h  32543 row.inl.h  32573 change.inl.h
- *  32637 interleave.inl.h
+ *  29928 front.inl.h  29930 product.inl.h  30425 words_undef.inl.h  30507 multi_rhs.inl.h
+ *  30534 multi_rhs_small.inl.h  30702 multi_rhs_tiles.inl.h  31011 complex_groups.inl.h
+ *  31243 sweeps.inl.h  31245 unit_triangle.inl.h  31282 two_rhs.inl.h  31451 small_supernode.inl.h
+ *  31630 single_rhs.inl.h  31874 kernel_set.inl.h  31876 complex_small.inl.h
+ *  32040 complex_rows.inl.h  32272 inverse_front.inl.h  32557 row.inl.h  32587 change.inl.h
+ *  32651 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1802,7 +1802,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  * inversion from several hundred nearby vertices of a mesh, or several thousand distant ones;
  * always for the whole diagonal. stats.inverse.method names the choice. Selected inversion then
  * keeps only the active fronts, uses the threads that F was created with (one call of the caller's
- * pool per concurrent call) and gives the same bits for any number of threads. W grows to 8
+ * pool) and gives the same bits for any number of threads. W grows to 8
  * height^2 bytes per active front, where height counts the columns of a supernode and the rows
  * below them. Active are the fronts on the path from the current supernode to its root that have
  * unvisited children; with several threads, those of every thread and the roots of the subtrees
@@ -3999,15 +3999,18 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #define SLI_WORKER_FLOPS 1.5e7
 #endif
 
-static sl_int sli_workers_for(const sl_threads *t, double flops) {
+SLI_INLINE sl_int sli_team_workers(const sl_threads *t) {
 #if defined(SLI_ATOMIC)
-  const sl_int most = sli_workers(t);
-  return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
+  return sli_workers(t);
 #else
   (void)t;
-  (void)flops;
   return 1;
 #endif
+}
+
+static sl_int sli_workers_for(const sl_threads *t, double flops) {
+  const sl_int most = sli_team_workers(t);
+  return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
 }
 
 static void sli_pause(int turn) {
@@ -17468,11 +17471,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   sli_block b = {NULL, 0, 0};
   sl_int workers;
   t->workers = 1;
-#if defined(SLI_ATOMIC)
-  workers = sli_workers(threads);
-#else
-  workers = 1;
-#endif
+  workers = sli_team_workers(threads);
   if (nrhs > 8) {
     workers = sli_min(workers, sli_tiles(nrhs));
     entries *= 8;
@@ -19237,6 +19236,10 @@ SLI_INLINE sl_off sli_traversal_front_size(const sli_traversal *t, sl_int k) {
   return (sl_off)sli_square_offset(h, sli_tiles(h)) + SLI_TILE * SLI_TILE;
 }
 
+SLI_INLINE sl_int sli_traversal_workers(const sl_symbolic *S, const sl_threads *threads) {
+  return sli_workers_for(threads, 2.0 * sli_schedule_flops(S));
+}
+
 static sli_traversal sli_traversal_of(const sl_symbolic *S, sl_int count, sl_int workers) {
   sli_traversal t;
   memset(&t, 0, sizeof t);
@@ -19554,10 +19557,11 @@ static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_in
   run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
-static void sli_traverse_tasks(void *data, sl_int k) {
+static void sli_traverse_tasks(void *data, sl_int k, sl_int worker) {
   const sli_traversal_run *run = (const sli_traversal_run *)data;
   const sli_schedule *schedule = &run->traversal->schedule;
   sl_int m, s;
+  (void)worker;
   for (m = 0; m < schedule->n_tasks; m++) {
     for (s = schedule->last[m]; s >= schedule->first[m] && schedule->worker[m] == k; s--) {
       sli_inverse_front f = sli_traverse_front(run, s);
@@ -19582,59 +19586,63 @@ static void sli_traverse_gather_task_roots(const sli_traversal_run *run, sl_int 
   }
 }
 
-static void sli_traverse_gather_range(void *data, sl_int k) {
+static void sli_traverse_gather_range(void *data, sl_int k, sl_int worker) {
   const sli_traversal_run *run = (const sli_traversal_run *)data;
   const sl_int workers = run->traversal->schedule.workers, first = run->front.width / SLI_TILE;
   const sl_int tiles = sli_tiles(run->front.width + run->front.below);
+  (void)worker;
   sli_traverse_gather(run, run->at, &run->front,
             sli_tile_range_begin(first, tiles, k, workers, 0),
             sli_tile_range_begin(first, tiles, k + 1, workers, 0));
 }
 
-static void sli_traverse_phase_range(void *data, sl_int k) {
+static void sli_traverse_phase_range(void *data, sl_int k, sl_int worker) {
   const sli_traversal_run *run = (const sli_traversal_run *)data;
   const sl_int workers = run->traversal->schedule.workers,
          is_square = run->phase == SLI_INVERSE_SQUARE;
   const sli_tile_range all = sli_inverse_tiles(&run->front, run->group, run->phase);
+  (void)worker;
   run->F->kernels->inverse_phase(
     &run->front, run->group, run->phase,
     sli_tile_range_begin(all.first, all.last, k, workers, is_square),
     sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
-static void sli_traverse_visit_range(void *data, sl_int k) {
+static void sli_traverse_visit_range(void *data, sl_int k, sl_int worker) {
   const sli_traversal_run *run = (const sli_traversal_run *)data;
   const sl_int workers = run->traversal->schedule.workers;
   const sl_int tiles = sli_tiles(run->front.width + run->front.below);
+  (void)worker;
   run->visit(run->context, run->at, &run->front, sli_tile_range_begin(0, tiles, k, workers, 0),
          sli_tile_range_begin(0, tiles, k + 1, workers, 0));
   sli_traverse_gather_task_roots(run, k, workers);
 }
 
-static void sli_traverse_shared(sli_traversal_run *run) {
+static void sli_traverse_shared(sli_traversal_run *run, sli_team *team) {
   const sl_int workers = run->traversal->schedule.workers;
   sl_int phase;
   run->front = sli_traverse_front(run, run->at);
   (void)sli_traverse_begin(run, run->at, &run->front, 0);
-  sli_parallel(run->threads, workers, sli_traverse_gather_range, run);
+  sli_team_loop(team, workers, NULL, sli_traverse_gather_range, run);
   for (run->group = sli_inverse_last_group(&run->front);
      run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
     for (phase = 0; phase < SLI_INVERSE_PHASES; phase++) {
       run->phase = (sli_inverse_phase)phase;
-      sli_parallel(run->threads, workers, sli_traverse_phase_range, run);
+      sli_team_loop(team, workers, NULL, sli_traverse_phase_range, run);
     }
   }
-  sli_parallel(run->threads, workers, sli_traverse_visit_range, run);
+  sli_team_loop(team, workers, NULL, sli_traverse_visit_range, run);
 }
 
-static void sli_traverse(sli_traversal_run *run) {
+static void sli_traverse_lead(sli_team *team, void *data) {
+  sli_traversal_run *run = (sli_traversal_run *)data;
   const sli_schedule *schedule = &run->traversal->schedule;
   sl_int m;
   for (m = schedule->n_tops - 1; m >= 0; m--) {
     run->at = schedule->top[m];
     if (2.0 * sli_front_flops(&run->traversal->S->steps[run->traversal->supers[run->at]]) >=
       SLI_SHARED_FLOPS) {
-      sli_traverse_shared(run);
+      sli_traverse_shared(run, team);
     } else {
       sli_inverse_front f = sli_traverse_front(run, run->at);
       sli_traverse_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
@@ -19642,7 +19650,11 @@ static void sli_traverse(sli_traversal_run *run) {
       sli_traverse_gather_task_roots(run, 0, 1);
     }
   }
-  sli_parallel(run->threads, schedule->workers, sli_traverse_tasks, run);
+  sli_team_loop(team, schedule->workers, NULL, sli_traverse_tasks, run);
+}
+
+static void sli_traverse(sli_traversal_run *run) {
+  sli_team_run(run->threads, run->traversal->schedule.workers, sli_traverse_lead, run);
 }
 
 /* src/impl/inverse/row_sets.h: sets of rows of A: checks their range, sorts them by column of L */
@@ -20164,7 +20176,8 @@ static void sli_entries_choose(void *call) {
             : SL_INVERSE_SELECTED;
   }
   if (q->method == SL_INVERSE_SELECTED) {
-    q->traversal = sli_traversal_of(q->F->S, supers, sli_workers(q->threads));
+    q->traversal =
+      sli_traversal_of(q->F->S, supers, sli_traversal_workers(q->F->S, q->threads));
     q->traversal.is_partial = !sli_entries_is_all(q);
   }
 }
@@ -20666,7 +20679,7 @@ static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) 
   static const sli_stage stage = {sli_reserve_layout, sli_reserve_measure};
   memset(r, 0, sizeof *r);
   r->S = F->S;
-  r->workers = sli_workers(&F->threads);
+  r->workers = sli_traversal_workers(F->S, &F->threads);
   r->storage = F->storage;
   r->all = sli_traversal_of(F->S, F->S->n_supers, 1);
   return sli_work_stages(W, &stage, 1, r);
@@ -20872,7 +20885,7 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
       sli_reach_measure(S, seeds, count, &R);
       supers = R.count;
     }
-    draft.traversal = sli_traversal_of(S, supers, sli_workers(&draft.threads));
+    draft.traversal = sli_traversal_of(S, supers, sli_traversal_workers(S, &draft.threads));
     status = sli_selected_plan(out, &draft, seeds, count);
   }
   sli_free(&draft.allocator, b.base);
@@ -28380,7 +28393,8 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
     draft.numbers.identity.a = part.identity[0];
     draft.numbers.identity.b = part.identity[1];
   }
-  draft.traversal = sli_traversal_of(S, (sl_int)part.count, sli_workers(&draft.threads));
+  draft.traversal =
+    sli_traversal_of(S, (sl_int)part.count, sli_traversal_workers(S, &draft.threads));
   if (r->is_mapped) {
     return sli_read_selected_arrays(r, out, &draft, NULL);
   }

@@ -35,7 +35,7 @@
  * inversion from several hundred nearby vertices of a mesh, or several thousand distant ones;
  * always for the whole diagonal. stats.inverse.method names the choice. Selected inversion then
  * keeps only the active fronts, uses the threads that F was created with (one call of the caller's
- * pool per concurrent call) and gives the same bits for any number of threads. W grows to 8
+ * pool) and gives the same bits for any number of threads. W grows to 8
  * height^2 bytes per active front, where height counts the columns of a supernode and the rows
  * below them. Active are the fronts on the path from the current supernode to its root that have
  * unvisited children; with several threads, those of every thread and the roots of the subtrees

@@ -29,16 +29,20 @@ SLI_INLINE sl_int sli_workers(const sl_threads *t) {
 #define SLI_WORKER_FLOPS 1.5e7
 #endif
 
-/* The number of workers that share so many flops as tasks. */
-static sl_int sli_workers_for(const sl_threads *t, double flops) {
+/* The number of workers that may wait for each other. */
+SLI_INLINE sl_int sli_team_workers(const sl_threads *t) {
 #if defined(SLI_ATOMIC)
-    const sl_int most = sli_workers(t);
-    return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
+    return sli_workers(t);
 #else
     (void)t;
-    (void)flops;
     return 1;
 #endif
+}
+
+/* The number of workers that share so many flops as tasks. */
+static sl_int sli_workers_for(const sl_threads *t, double flops) {
+    const sl_int most = sli_team_workers(t);
+    return flops >= SLI_WORKER_FLOPS * most ? most : sli_max((sl_int)(flops / SLI_WORKER_FLOPS), 1);
 }
 
 /* Waits a moment, longer with each turn: most tasks take less than the 30 us of the first turns.

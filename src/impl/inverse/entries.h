@@ -107,7 +107,8 @@ static void sli_entries_choose(void *call) {
                         : SL_INVERSE_SELECTED;
     }
     if (q->method == SL_INVERSE_SELECTED) {
-        q->traversal = sli_traversal_of(q->F->S, supers, sli_workers(q->threads));
+        q->traversal =
+            sli_traversal_of(q->F->S, supers, sli_traversal_workers(q->F->S, q->threads));
         q->traversal.is_partial = !sli_entries_is_all(q);
     }
 }

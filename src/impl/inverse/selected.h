@@ -92,7 +92,7 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
             sli_reach_measure(S, seeds, count, &R);
             supers = R.count;
         }
-        draft.traversal = sli_traversal_of(S, supers, sli_workers(&draft.threads));
+        draft.traversal = sli_traversal_of(S, supers, sli_traversal_workers(S, &draft.threads));
         status = sli_selected_plan(out, &draft, seeds, count);
     }
     sli_free(&draft.allocator, b.base);

@@ -37,6 +37,11 @@ SLI_INLINE sl_off sli_traversal_front_size(const sli_traversal *t, sl_int k) {
     return (sl_off)sli_square_offset(h, sli_tiles(h)) + SLI_TILE * SLI_TILE;
 }
 
+/* The workers that share a traversal of supernodes of S, which may be all of them. */
+SLI_INLINE sl_int sli_traversal_workers(const sl_symbolic *S, const sl_threads *threads) {
+    return sli_workers_for(threads, 2.0 * sli_schedule_flops(S));
+}
+
 /* A traversal of count supernodes of S by at most the given number of workers. */
 static sli_traversal sli_traversal_of(const sl_symbolic *S, sl_int count, sl_int workers) {
     sli_traversal t;

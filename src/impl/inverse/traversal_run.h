@@ -111,11 +111,12 @@ static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_in
     run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
-/* Worker k's tasks. The rows below of their roots have been gathered before. */
-static void sli_traverse_tasks(void *data, sl_int k) {
+/* The k-th worker's tasks. The rows below of their roots have been gathered before. */
+static void sli_traverse_tasks(void *data, sl_int k, sl_int worker) {
     const sli_traversal_run *run = (const sli_traversal_run *)data;
     const sli_schedule *schedule = &run->traversal->schedule;
     sl_int m, s;
+    (void)worker;
     for (m = 0; m < schedule->n_tasks; m++) {
         for (s = schedule->last[m]; s >= schedule->first[m] && schedule->worker[m] == k; s--) {
             sli_inverse_front f = sli_traverse_front(run, s);
@@ -143,31 +144,34 @@ static void sli_traverse_gather_task_roots(const sli_traversal_run *run, sl_int 
     }
 }
 
-/* Worker k's range of row tiles of the shared front: gathers, computes a phase, visits. */
-static void sli_traverse_gather_range(void *data, sl_int k) {
+/* The k-th range of row tiles of the shared front: gathers, computes a phase, visits. */
+static void sli_traverse_gather_range(void *data, sl_int k, sl_int worker) {
     const sli_traversal_run *run = (const sli_traversal_run *)data;
     const sl_int workers = run->traversal->schedule.workers, first = run->front.width / SLI_TILE;
     const sl_int tiles = sli_tiles(run->front.width + run->front.below);
+    (void)worker;
     sli_traverse_gather(run, run->at, &run->front,
                         sli_tile_range_begin(first, tiles, k, workers, 0),
                         sli_tile_range_begin(first, tiles, k + 1, workers, 0));
 }
 
-static void sli_traverse_phase_range(void *data, sl_int k) {
+static void sli_traverse_phase_range(void *data, sl_int k, sl_int worker) {
     const sli_traversal_run *run = (const sli_traversal_run *)data;
     const sl_int workers = run->traversal->schedule.workers,
                  is_square = run->phase == SLI_INVERSE_SQUARE;
     const sli_tile_range all = sli_inverse_tiles(&run->front, run->group, run->phase);
+    (void)worker;
     run->F->kernels->inverse_phase(
         &run->front, run->group, run->phase,
         sli_tile_range_begin(all.first, all.last, k, workers, is_square),
         sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
-static void sli_traverse_visit_range(void *data, sl_int k) {
+static void sli_traverse_visit_range(void *data, sl_int k, sl_int worker) {
     const sli_traversal_run *run = (const sli_traversal_run *)data;
     const sl_int workers = run->traversal->schedule.workers;
     const sl_int tiles = sli_tiles(run->front.width + run->front.below);
+    (void)worker;
     run->visit(run->context, run->at, &run->front, sli_tile_range_begin(0, tiles, k, workers, 0),
                sli_tile_range_begin(0, tiles, k + 1, workers, 0));
     sli_traverse_gather_task_roots(run, k, workers);
@@ -175,31 +179,33 @@ static void sli_traverse_visit_range(void *data, sl_int k) {
 
 /* One front by all workers. Each row tile is computed by the same operations as with one worker, so
  * that the bits are the same. */
-static void sli_traverse_shared(sli_traversal_run *run) {
+static void sli_traverse_shared(sli_traversal_run *run, sli_team *team) {
     const sl_int workers = run->traversal->schedule.workers;
     sl_int phase;
     run->front = sli_traverse_front(run, run->at);
     (void)sli_traverse_begin(run, run->at, &run->front, 0);
-    sli_parallel(run->threads, workers, sli_traverse_gather_range, run);
+    sli_team_loop(team, workers, NULL, sli_traverse_gather_range, run);
     for (run->group = sli_inverse_last_group(&run->front);
          run->group + SLI_INVERSE_COLUMNS > run->front.first; run->group -= SLI_INVERSE_COLUMNS) {
         for (phase = 0; phase < SLI_INVERSE_PHASES; phase++) {
             run->phase = (sli_inverse_phase)phase;
-            sli_parallel(run->threads, workers, sli_traverse_phase_range, run);
+            sli_team_loop(team, workers, NULL, sli_traverse_phase_range, run);
         }
     }
-    sli_parallel(run->threads, workers, sli_traverse_visit_range, run);
+    sli_team_loop(team, workers, NULL, sli_traverse_visit_range, run);
 }
 
-/* Computes all fronts, parents before children. */
-static void sli_traverse(sli_traversal_run *run) {
+/* Computes all fronts, parents before children. One worker leads; the others help with large fronts
+ * and with tasks. */
+static void sli_traverse_lead(sli_team *team, void *data) {
+    sli_traversal_run *run = (sli_traversal_run *)data;
     const sli_schedule *schedule = &run->traversal->schedule;
     sl_int m;
     for (m = schedule->n_tops - 1; m >= 0; m--) {
         run->at = schedule->top[m];
         if (2.0 * sli_front_flops(&run->traversal->S->steps[run->traversal->supers[run->at]]) >=
             SLI_SHARED_FLOPS) {
-            sli_traverse_shared(run);
+            sli_traverse_shared(run, team);
         } else {
             sli_inverse_front f = sli_traverse_front(run, run->at);
             sli_traverse_gather(run, run->at, &f, 0, sli_tiles(f.width + f.below));
@@ -207,7 +213,11 @@ static void sli_traverse(sli_traversal_run *run) {
             sli_traverse_gather_task_roots(run, 0, 1);
         }
     }
-    sli_parallel(run->threads, schedule->workers, sli_traverse_tasks, run);
+    sli_team_loop(team, schedule->workers, NULL, sli_traverse_tasks, run);
+}
+
+static void sli_traverse(sli_traversal_run *run) {
+    sli_team_run(run->threads, run->traversal->schedule.workers, sli_traverse_lead, run);
 }
 
 #endif

@@ -146,7 +146,8 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
         draft.numbers.identity.a = part.identity[0];
         draft.numbers.identity.b = part.identity[1];
     }
-    draft.traversal = sli_traversal_of(S, (sl_int)part.count, sli_workers(&draft.threads));
+    draft.traversal =
+        sli_traversal_of(S, (sl_int)part.count, sli_traversal_workers(S, &draft.threads));
     if (r->is_mapped) {
         return sli_read_selected_arrays(r, out, &draft, NULL);
     }

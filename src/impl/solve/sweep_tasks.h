@@ -193,11 +193,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     sli_block b = {NULL, 0, 0};
     sl_int workers;
     t->workers = 1;
-#if defined(SLI_ATOMIC)
-    workers = sli_workers(threads);
-#else
-    workers = 1;
-#endif
+    workers = sli_team_workers(threads);
     if (nrhs > 8) {
         workers = sli_min(workers, sli_tiles(nrhs));
         entries *= 8;
