@@ -144,7 +144,7 @@ build/deps-png.ok: tools/build/deps.sh
 deps-cxx: ## g++
 	@tools/build/deps.sh $(CXX)=g++
 
-deps-peers: deps-cxx ## CHOLMOD with OpenBLAS, Eigen
+deps-peers: deps-cxx ## CHOLMOD with OpenBLAS, LDL, AMD, Eigen
 	@tools/build/deps.sh suitesparse/cholmod.h=libsuitesparse-dev /usr/include/eigen3/Eigen/Sparse=libeigen3-dev \
 	/usr/share/doc/libopenblas-dev=libopenblas-dev
 
@@ -466,10 +466,10 @@ bench: deps sparse_local.h ## times factorizations, full and local solves on thi
 # Peers in their best setting: OpenBLAS chooses its kernels itself, whatever core the environment names.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen chooses its vector instructions at compile time: its best setting is -march=native, for its own file only.
-bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic, peers_shifted and peers_complex: against CHOLMOD and Eigen
-	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted peers_complex" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic, peers_shifted, peers_complex and peers_kkt: against CHOLMOD, Eigen and LDL
+	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted peers_complex peers_kkt" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
-	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lopenblas' \
+	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lldl -lamd -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
 
 ARPACK_OBJECTS = $(patsubst %.c,build/arpack/obj/%.o,$(wildcard bench/eigen/*.c))

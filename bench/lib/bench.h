@@ -54,6 +54,7 @@ void bench_peers(bench_run *run);
 void bench_peers_harmonic(bench_run *run);
 void bench_peers_shifted(bench_run *run);
 void bench_peers_complex(bench_run *run);
+void bench_peers_kkt(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, pseudo-random numbers (harness.c) ---- */

@@ -78,6 +78,7 @@ static const question questions[] = {
     {"peers_shifted", "eight refactorizations of M + t L against CHOLMOD", bench_peers_shifted},
     {"peers_complex", "a connection Laplacian against CHOLMOD and Eigen, complex",
      bench_peers_complex},
+    {"peers_kkt", "KKT systems of quadratic programs against LDL with AMD", bench_peers_kkt},
 #endif
 };
 
