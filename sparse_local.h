@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bc0acb2c3dff789f
+ * FNV-1a of the lines after this comment, without the license: d7de09bde3d84797
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,54 +38,54 @@
  *   4859 simd_scalar.h   4987 simd_avx2_single.h   5041 simd_avx2.h   5259 simd_avx512_single.h
  *   5314 simd_avx512.h   5479 simd_neon_single.h   5521 simd_neon.h   5735 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5815 csc.h   5929 csc_build.h   6063 csc64.h   6134 csc_triangle.h   6200 csc_products.h
- *   6317 permute.h   6383 sum.h   6465 output_file.h   6674 matrix_market.h
+ *   5815 csc.h   5948 csc_build.h   6082 csc64.h   6153 csc_triangle.h   6219 csc_products.h
+ *   6336 permute.h   6402 sum.h   6484 output_file.h   6693 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7120 graph.h   7269 contract.h   7523 coarsen.h   7686 labels.h   7907 subgraph.h   8102 heap.h
- *   8162 bisect.h   8389 separator.h   8651 mindeg.h   8834 dissect.h   9158 tree_cost.h
- *   9210 levelset.h   9316 geometric.h   9491 cells.h   9671 septree.h   9747 metis.h
- *   9896 metis_refined.h  10010 nd.h  10210 compress.h  10331 peel.h  10509 quotient.h
- *  10922 order.h
+ *   7139 graph.h   7281 contract.h   7535 coarsen.h   7698 labels.h   7919 subgraph.h   8114 heap.h
+ *   8174 bisect.h   8401 separator.h   8663 mindeg.h   8846 dissect.h   9170 tree_cost.h
+ *   9222 levelset.h   9328 geometric.h   9503 cells.h   9683 septree.h   9759 metis.h
+ *   9908 metis_refined.h  10022 nd.h  10222 compress.h  10343 peel.h  10521 quotient.h
+ *  10934 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11266 symbolic_types.h  11303 etree.h  11376 counts.h  11433 supernodes.h  11655 structure.h
- *  11776 schedule.h  12056 symbolic.h  12494 reach.h
+ *  11285 symbolic_types.h  11322 etree.h  11395 counts.h  11452 supernodes.h  11674 structure.h
+ *  11795 schedule.h  12075 symbolic.h  12516 reach.h
  * (factor: the numbers of L and D)
- *  12765 factor_types.h  13176 storage.h  13316 pivot_search.h  13662 pivoted.h  13730 scatter.h
- *  13888 uplooking.h  13960 null_product.h  14164 null_dense.h  14241 null_basis.h
- *  14549 null_vectors.h  14691 multifrontal.h  14881 gather.h  14929 kept.h  15096 front_tasks.h
- *  15439 nullspace.h  15642 growth.h  15718 factor_setup.h  16040 factor.h  16250 leftlooking.h
- *  16396 factor_query.h  16531 combination.h
+ *  12787 factor_types.h  13198 storage.h  13338 pivot_search.h  13684 pivoted.h  13752 scatter.h
+ *  13910 uplooking.h  13982 null_product.h  14186 null_dense.h  14263 null_basis.h
+ *  14571 null_vectors.h  14713 multifrontal.h  14903 gather.h  14951 kept.h  15118 front_tasks.h
+ *  15461 nullspace.h  15664 growth.h  15740 factor_setup.h  16062 factor.h  16272 leftlooking.h
+ *  16418 factor_query.h  16553 combination.h
  * (solve: full and local solves)
- *  16592 region_types.h  16696 work.h  16796 query.h  17004 singular.h  17274 backward.h
- *  17304 sweep_tasks.h  17634 sweep.h  17845 compile.h  18038 plan.h  18145 local.h  18297 parts.h
- *  18586 refine.h  18765 refine_local.h  18981 rcond.h  19140 defects.h
+ *  16614 region_types.h  16718 work.h  16818 query.h  17026 singular.h  17296 backward.h
+ *  17326 sweep_tasks.h  17656 sweep.h  17867 compile.h  18060 plan.h  18167 local.h  18319 parts.h
+ *  18608 refine.h  18787 refine_local.h  19003 rcond.h  19162 defects.h
  * (inverse: entries of the inverse, regions)
- *  19218 traversal.h  19467 traversal_run.h  19660 row_sets.h  19687 unit_vectors.h
- *  19914 bilinear.h  20091 entries.h  20373 block.h  20613 reserve.h  20805 selected.h
- *  21015 selected_query.h  21117 region_choose.h  21344 region.h
+ *  19240 traversal.h  19489 traversal_run.h  19682 row_sets.h  19709 unit_vectors.h
+ *  19936 bilinear.h  20113 entries.h  20395 block.h  20635 reserve.h  20827 selected.h
+ *  21037 selected_query.h  21139 region_choose.h  21366 region.h
  * (change: a factor that follows changes of its matrix)
- *  21592 update.h  21942 rank.h  22280 edges.h  22434 choose.h  22632 pins_types.h
- *  22710 pins_nulls.h  22888 pins_capacitance.h  23139 pins_held.h  23350 pins_choose.h
- *  23420 pins_rebuild.h  23635 pins_matrix.h  23781 pins.h  24041 pins_solve.h  24371 subset.h
- *  24484 restrict_analysis.h  24813 restrict_symbolic.h  24994 restrict.h  25210 edit_match.h
- *  25409 edit_place.h  25658 edit_separate.h  25971 edit_order.h  26126 edit_graph.h
- *  26221 edit_join.h  26497 edit.h  26660 edit_factor.h
+ *  21614 update.h  21964 rank.h  22302 edges.h  22456 choose.h  22654 pins_types.h
+ *  22732 pins_nulls.h  22910 pins_capacitance.h  23161 pins_held.h  23372 pins_choose.h
+ *  23442 pins_rebuild.h  23657 pins_matrix.h  23803 pins.h  24063 pins_solve.h  24393 subset.h
+ *  24506 restrict_analysis.h  24835 restrict_symbolic.h  25016 restrict.h  25232 edit_match.h
+ *  25431 edit_place.h  25680 edit_separate.h  25993 edit_order.h  26148 edit_graph.h
+ *  26243 edit_join.h  26519 edit.h  26682 edit_factor.h
  * (save: factors in files)
- *  26918 format.h  27214 decode.h  27362 check.h  27692 write.h  27997 load.h  28265 load_inverse.h
- *  28595 load_calls.h
+ *  26940 format.h  27236 decode.h  27384 check.h  27714 write.h  28019 load.h  28287 load_inverse.h
+ *  28617 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28794 batch_solve.h  29003 batch_factor.h  29204 batch_diagonal.h
+ *  28816 batch_solve.h  29025 batch_factor.h  29226 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29344 hermitian.h  29506 complex_rows.h
+ *  29366 hermitian.h  29528 complex_rows.h
  * (last: undefine every internal macro)
- *  29674 undef.h
+ *  29696 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29928 front.inl.h  29930 product.inl.h  30425 words_undef.inl.h  30507 multi_rhs.inl.h
- *  30534 multi_rhs_small.inl.h  30702 multi_rhs_tiles.inl.h  31011 complex_groups.inl.h
- *  31243 sweeps.inl.h  31245 unit_triangle.inl.h  31282 two_rhs.inl.h  31451 small_supernode.inl.h
- *  31630 single_rhs.inl.h  31874 kernel_set.inl.h  31876 complex_small.inl.h
- *  32040 complex_rows.inl.h  32272 inverse_front.inl.h  32557 row.inl.h  32587 change.inl.h
- *  32651 interleave.inl.h
+ *  29950 front.inl.h  29952 product.inl.h  30447 words_undef.inl.h  30529 multi_rhs.inl.h
+ *  30556 multi_rhs_small.inl.h  30724 multi_rhs_tiles.inl.h  31033 complex_groups.inl.h
+ *  31265 sweeps.inl.h  31267 unit_triangle.inl.h  31304 two_rhs.inl.h  31473 small_supernode.inl.h
+ *  31652 single_rhs.inl.h  31896 kernel_set.inl.h  31898 complex_small.inl.h
+ *  32062 complex_rows.inl.h  32294 inverse_front.inl.h  32579 row.inl.h  32609 change.inl.h
+ *  32673 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5836,6 +5836,7 @@ static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void 
 SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   sl_status status;
   sl_int j, p;
+  uint32_t beyond = 0;
   sli_stats_clear_error(stats);
   status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
   if (status != SL_OK || A->n_cols == 0) {
@@ -5852,7 +5853,10 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   if (sli_nnz(A) > 0 && A->i == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  for (j = 0; j < A->n_cols; j++) {
+  for (p = 0; p < sli_nnz(A); p++) {
+    beyond |= (uint32_t)A->i[p] >= (uint32_t)A->n_rows;
+  }
+  for (j = 0; beyond && j < A->n_cols; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
         return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
@@ -5860,6 +5864,21 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     }
   }
   return SL_OK;
+}
+
+static void sli_csc_columns(const sl_csc *A, sl_int *column) {
+  const sl_int nnz = sli_nnz(A);
+  sl_int j, p, here = 0;
+  for (p = 0; p < nnz; p++) {
+    column[p] = 0;
+  }
+  for (j = 1; j < A->n_cols && A->p[j] < nnz; j++) {
+    column[A->p[j]]++;
+  }
+  for (p = 0; p < nnz; p++) {
+    here += column[p];
+    column[p] = here;
+  }
 }
 
 static sl_triangle sli_triangle_scan(const sl_csc *A) {
@@ -7131,33 +7150,30 @@ typedef struct sli_graph {
   sl_int *to;
 } sli_graph;
 
-SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle, sl_int block) {
-  const sl_int columns = A->n_cols;
-  sl_int j, p;
+SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *column,
+                 sl_triangle triangle, sl_int block) {
+  const sl_int nnz = sli_nnz(A);
+  sl_int v, p;
   sl_off total = 0;
   memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
-  for (j = 0; j < columns; j++) {
-    const sl_int v = block == 1 ? j : j / block;
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
-      const int is_edge = u != v && sli_is_read(triangle, A->i[p], j);
-      G->begin[u] += is_edge;
-      G->begin[v] += is_edge;
-    }
+  for (p = 0; p < nnz; p++) {
+    const sl_int j = column[p], at = block == 1 ? j : j / block;
+    const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+    const int is_edge = u != at && sli_is_read(triangle, A->i[p], j);
+    G->begin[u] += is_edge;
+    G->begin[at] += is_edge;
   }
-  for (j = 0; j <= G->n; j++) {
-    const sl_off here = G->begin[j];
-    G->begin[j] = total;
+  for (v = 0; v <= G->n; v++) {
+    const sl_off here = G->begin[v];
+    G->begin[v] = total;
     total += here;
   }
-  for (j = 0; j < columns; j++) {
-    const sl_int v = block == 1 ? j : j / block;
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
-      if (u != v && sli_is_read(triangle, A->i[p], j)) {
-        G->to[G->begin[v]++] = u;
-        G->to[G->begin[u]++] = v;
-      }
+  for (p = 0; p < nnz; p++) {
+    const sl_int j = column[p], at = block == 1 ? j : j / block;
+    const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+    if (u != at && sli_is_read(triangle, A->i[p], j)) {
+      G->to[G->begin[at]++] = u;
+      G->to[G->begin[u]++] = at;
     }
   }
   if (G->n > 0) {
@@ -7216,32 +7232,28 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n) {
   }
 }
 
-static void sli_pattern_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
-               sli_pattern *rows, sli_pattern *columns) {
-  const sl_int n = A->n_cols;
-  sl_int j, p;
+static void sli_pattern_fill(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+               const sl_int *iperm, sli_pattern *rows, sli_pattern *columns) {
+  const sl_int n = A->n_cols, nnz = sli_nnz(A);
+  sl_int p;
   memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
   memset(columns->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
-  for (j = 0; j < n; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      if (sli_is_read(triangle, A->i[p], j)) {
-        rows->begin[sli_max(iperm[A->i[p]], iperm[j])]++;
-        columns->begin[sli_min(iperm[A->i[p]], iperm[j])]++;
-      }
-    }
+  for (p = 0; p < nnz; p++) {
+    const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
+    const int is_read = sli_is_read(triangle, A->i[p], column[p]);
+    rows->begin[sli_max(a, b)] += is_read;
+    columns->begin[sli_min(a, b)] += is_read;
   }
   sli_pattern_starts(rows, n);
   sli_pattern_starts(columns, n);
-  for (j = 0; j < n; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      if (sli_is_read(triangle, A->i[p], j)) {
-        const sl_int k = sli_max(iperm[A->i[p]], iperm[j]),
-               i = sli_min(iperm[A->i[p]], iperm[j]);
-        const sl_int at = rows->begin[k]++;
-        rows->to[at] = i;
-        rows->from[at] = p;
-        columns->to[columns->begin[i]++] = k;
-      }
+  for (p = 0; p < nnz; p++) {
+    if (sli_is_read(triangle, A->i[p], column[p])) {
+      const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
+      const sl_int k = sli_max(a, b), i = sli_min(a, b);
+      const sl_int at = rows->begin[k]++;
+      rows->to[at] = i;
+      rows->from[at] = p;
+      columns->to[columns->begin[i]++] = k;
     }
   }
   memmove(rows->begin + 1, rows->begin, (size_t)n * sizeof(sl_int));
@@ -11072,7 +11084,14 @@ static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
 static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
                sli_septree *septree) {
   sl_int k, v, last;
-  sl_off e;
+  sl_off e, largest = 0;
+  for (v = 0; v < G->n; v++) {
+    const sl_off degree = G->begin[v + 1] - G->begin[v];
+    largest = degree > largest ? degree : largest;
+  }
+  if (largest < 8 || largest * largest < G->n) {
+    return;
+  }
   for (k = 0; k < G->n; k++) {
     position[perm[k]] = k;
   }
@@ -11151,10 +11170,10 @@ static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, cons
   return status;
 }
 
-static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
-                  const sl_options *opt, sl_int *perm, sl_int *scratch,
-                  sli_septree *septree, sli_order_choice *choice, sli_team *team,
-                  const sl_allocator *a) {
+static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+                  sl_ordering ordering, const sl_options *opt, sl_int *perm,
+                  sl_int *scratch, sli_septree *septree, sli_order_choice *choice,
+                  sli_team *team, const sl_allocator *a) {
   const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
   const int may_peel = ordering == SL_ORDERING_MINDEG ||
              (ordering == SL_ORDERING_ND && (opt == NULL || opt->coordinates == NULL));
@@ -11172,7 +11191,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
   if (status != SL_OK) {
     return status;
   }
-  sli_graph_fill(&G, A, triangle, block);
+  sli_graph_fill(&G, A, column, triangle, block);
   status = sli_order_canonical(&G, a);
   choice->is_wanted &= block == 1;
   if (status == SL_OK) {
@@ -11223,10 +11242,10 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
   return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
 }
 
-static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-               sl_int *perm, sl_int *scratch, sli_septree *septree,
-               sli_order_choice *choice, sli_team *team, const sl_allocator *a,
-               sl_stats *stats) {
+static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+               const sl_options *opt, sl_int *perm, sl_int *scratch,
+               sli_septree *septree, sli_order_choice *choice, sli_team *team,
+               const sl_allocator *a, sl_stats *stats) {
   const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
   sl_int bad;
   septree->count = 0;
@@ -11245,8 +11264,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
     return SL_OK;
   case SL_ORDERING_ND:
   case SL_ORDERING_MINDEG:
-    return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, team,
-                  a);
+    return sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
+                  choice, team, a);
   case SL_ORDERING_METIS:
   case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
@@ -11254,8 +11273,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
 #else
     return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
            ? SL_ERR_ARGUMENT
-           : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice,
-                    team, a);
+           : sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
+                    choice, team, a);
 #endif
   default:
     return SL_ERR_ARGUMENT;
@@ -12057,6 +12076,7 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 
 typedef struct sli_analysis {
   sl_int n;
+  sl_int *column;
   sli_pattern rows, columns;
   sli_amalgamation amalgamation;
   sl_int *perm;
@@ -12075,6 +12095,7 @@ typedef struct sli_analysis {
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
   w->n = rows;
+  w->column = SLI_TAKE(b, sl_int, nnz);
   w->perm = SLI_TAKE(b, sl_int, n);
   w->choice.other = SLI_TAKE(b, sl_int, n);
   w->scratch = SLI_TAKE(b, sl_int, 5 * n);
@@ -12201,7 +12222,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_csc *A, const sl_options
   for (k = 0; k < w->n; k++) {
     w->scratch[w->perm[k]] = k;
   }
-  sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+  sli_pattern_fill(A, w->column, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
   stats->symbolic.seconds_tree -= sli_seconds() - started;
   sli_analyze_tree(w, opt, stats);
   stats->symbolic.seconds_tree += sli_seconds() - started;
@@ -12324,8 +12345,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   int pass;
   sl_status status;
   started = sli_seconds();
-  status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
-             &w->choice, team, for_order, stats);
+  sli_csc_columns(A, w->column);
+  status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
+             &w->septree, &w->choice, team, for_order, stats);
   stats->symbolic.seconds_order = sli_seconds() - started;
   if (status != SL_OK) {
     return status;

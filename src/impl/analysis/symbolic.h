@@ -13,6 +13,7 @@
  * by rows, columns and perm; and the final postorder of supernodes, used by everything else. */
 typedef struct sli_analysis {
     sl_int n;
+    sl_int *column; /* nnz: of each entry of A */
     sli_pattern rows, columns;
     sli_amalgamation amalgamation;
     sl_int *perm;                       /* n: the order found or given */
@@ -34,6 +35,7 @@ typedef struct sli_analysis {
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
     const uint64_t n = (uint64_t)rows; /* 5 n may exceed 2^32 */
     w->n = rows;
+    w->column = SLI_TAKE(b, sl_int, nnz);
     w->perm = SLI_TAKE(b, sl_int, n);
     w->choice.other = SLI_TAKE(b, sl_int, n);
     w->scratch = SLI_TAKE(b, sl_int, 5 * n);
@@ -166,7 +168,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_csc *A, const sl_options
     for (k = 0; k < w->n; k++) {
         w->scratch[w->perm[k]] = k;
     }
-    sli_pattern_fill(A, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+    sli_pattern_fill(A, w->column, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
     stats->symbolic.seconds_tree -= sli_seconds() - started;
     sli_analyze_tree(w, opt, stats);
     stats->symbolic.seconds_tree += sli_seconds() - started;
@@ -298,8 +300,9 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     int pass;
     sl_status status;
     started = sli_seconds();
-    status = sli_order(A, stats->symbolic.triangle, opt, w->perm, w->scratch, &w->septree,
-                       &w->choice, team, for_order, stats);
+    sli_csc_columns(A, w->column);
+    status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
+                       &w->septree, &w->choice, team, for_order, stats);
     stats->symbolic.seconds_order = sli_seconds() - started;
     if (status != SL_OK) {
         return status;

@@ -22,34 +22,32 @@ typedef struct sli_graph {
 } sli_graph;
 
 /* Fills G from the entries of A that are read. Each vertex stands for `block` consecutive rows, so
- * that G->n is A->n_cols / block. G has room for G->n + 1 positions and 2 nnz(A) neighbors. */
-SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, sl_triangle triangle, sl_int block) {
-    const sl_int columns = A->n_cols;
-    sl_int j, p;
+ * that G->n is A->n_cols / block. G has room for G->n + 1 positions and 2 nnz(A) neighbors. column:
+ * of each entry. */
+SLI_INLINE void sli_graph_fill(sli_graph *G, const sl_csc *A, const sl_int *column,
+                               sl_triangle triangle, sl_int block) {
+    const sl_int nnz = sli_nnz(A);
+    sl_int v, p;
     sl_off total = 0;
     memset(G->begin, 0, ((size_t)G->n + 1) * sizeof(sl_off));
-    for (j = 0; j < columns; j++) {
-        const sl_int v = block == 1 ? j : j / block;
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
-            const int is_edge = u != v && sli_is_read(triangle, A->i[p], j);
-            G->begin[u] += is_edge;
-            G->begin[v] += is_edge;
-        }
+    for (p = 0; p < nnz; p++) {
+        const sl_int j = column[p], at = block == 1 ? j : j / block;
+        const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+        const int is_edge = u != at && sli_is_read(triangle, A->i[p], j);
+        G->begin[u] += is_edge;
+        G->begin[at] += is_edge;
     }
-    for (j = 0; j <= G->n; j++) {
-        const sl_off here = G->begin[j];
-        G->begin[j] = total;
+    for (v = 0; v <= G->n; v++) {
+        const sl_off here = G->begin[v];
+        G->begin[v] = total;
         total += here;
     }
-    for (j = 0; j < columns; j++) { /* each begin advances to its list's end; shifted back below */
-        const sl_int v = block == 1 ? j : j / block;
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
-            if (u != v && sli_is_read(triangle, A->i[p], j)) {
-                G->to[G->begin[v]++] = u;
-                G->to[G->begin[u]++] = v;
-            }
+    for (p = 0; p < nnz; p++) { /* each begin advances to its list's end; shifted back below */
+        const sl_int j = column[p], at = block == 1 ? j : j / block;
+        const sl_int u = block == 1 ? A->i[p] : A->i[p] / block;
+        if (u != at && sli_is_read(triangle, A->i[p], j)) {
+            G->to[G->begin[at]++] = u;
+            G->to[G->begin[u]++] = at;
         }
     }
     if (G->n > 0) {
@@ -117,32 +115,28 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n) {
 /* Fills both triangles of P A P': rows (row k holds the columns up to k and their positions in A)
  * and columns (column k holds the rows from k on). Later passes walk them in elimination order, and
  * each pass reads only the triangle that it needs. */
-static void sli_pattern_fill(const sl_csc *A, sl_triangle triangle, const sl_int *iperm,
-                             sli_pattern *rows, sli_pattern *columns) {
-    const sl_int n = A->n_cols;
-    sl_int j, p;
+static void sli_pattern_fill(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+                             const sl_int *iperm, sli_pattern *rows, sli_pattern *columns) {
+    const sl_int n = A->n_cols, nnz = sli_nnz(A);
+    sl_int p;
     memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
     memset(columns->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
-    for (j = 0; j < n; j++) {
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            if (sli_is_read(triangle, A->i[p], j)) {
-                rows->begin[sli_max(iperm[A->i[p]], iperm[j])]++;
-                columns->begin[sli_min(iperm[A->i[p]], iperm[j])]++;
-            }
-        }
+    for (p = 0; p < nnz; p++) {
+        const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
+        const int is_read = sli_is_read(triangle, A->i[p], column[p]);
+        rows->begin[sli_max(a, b)] += is_read;
+        columns->begin[sli_min(a, b)] += is_read;
     }
     sli_pattern_starts(rows, n);
     sli_pattern_starts(columns, n);
-    for (j = 0; j < n; j++) {
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            if (sli_is_read(triangle, A->i[p], j)) {
-                const sl_int k = sli_max(iperm[A->i[p]], iperm[j]),
-                             i = sli_min(iperm[A->i[p]], iperm[j]);
-                const sl_int at = rows->begin[k]++;
-                rows->to[at] = i;
-                rows->from[at] = p;
-                columns->to[columns->begin[i]++] = k;
-            }
+    for (p = 0; p < nnz; p++) {
+        if (sli_is_read(triangle, A->i[p], column[p])) {
+            const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
+            const sl_int k = sli_max(a, b), i = sli_min(a, b);
+            const sl_int at = rows->begin[k]++;
+            rows->to[at] = i;
+            rows->from[at] = p;
+            columns->to[columns->begin[i]++] = k;
         }
     }
     memmove(rows->begin + 1, rows->begin, (size_t)n * sizeof(sl_int));

@@ -180,7 +180,14 @@ static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
 static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
                              sli_septree *septree) {
     sl_int k, v, last;
-    sl_off e;
+    sl_off e, largest = 0;
+    for (v = 0; v < G->n; v++) {
+        const sl_off degree = G->begin[v + 1] - G->begin[v];
+        largest = degree > largest ? degree : largest;
+    }
+    if (largest < 8 || largest * largest < G->n) {
+        return; /* no row is a constraint: usual */
+    }
     for (k = 0; k < G->n; k++) {
         position[perm[k]] = k;
     }
@@ -265,10 +272,10 @@ static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, cons
 }
 
 /* Orders the rows by the graph of A, with blocks of rows as vertices. */
-static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_ordering ordering,
-                                    const sl_options *opt, sl_int *perm, sl_int *scratch,
-                                    sli_septree *septree, sli_order_choice *choice, sli_team *team,
-                                    const sl_allocator *a) {
+static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+                                    sl_ordering ordering, const sl_options *opt, sl_int *perm,
+                                    sl_int *scratch, sli_septree *septree, sli_order_choice *choice,
+                                    sli_team *team, const sl_allocator *a) {
     const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
     const int may_peel = ordering == SL_ORDERING_MINDEG ||
                          (ordering == SL_ORDERING_ND && (opt == NULL || opt->coordinates == NULL));
@@ -286,7 +293,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, sl_triangle triangle, sl_or
     if (status != SL_OK) {
         return status;
     }
-    sli_graph_fill(&G, A, triangle, block);
+    sli_graph_fill(&G, A, column, triangle, block);
     status = sli_order_canonical(&G, a);
     choice->is_wanted &= block == 1;
     if (status == SL_OK) {
@@ -342,11 +349,11 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
 
 /* Finds the elimination order of a checked symmetric pattern. perm := n rows; septree := the
  * separator tree if the ordering has one (n entries of each array); choice: another order where
- * dissection, for many solves, may not be the best; scratch: n. */
-static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_options *opt,
-                           sl_int *perm, sl_int *scratch, sli_septree *septree,
-                           sli_order_choice *choice, sli_team *team, const sl_allocator *a,
-                           sl_stats *stats) {
+ * dissection, for many solves, may not be the best; column: of each entry; scratch: n. */
+static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+                           const sl_options *opt, sl_int *perm, sl_int *scratch,
+                           sli_septree *septree, sli_order_choice *choice, sli_team *team,
+                           const sl_allocator *a, sl_stats *stats) {
     const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
     sl_int bad;
     septree->count = 0;
@@ -365,8 +372,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
         return SL_OK;
     case SL_ORDERING_ND:
     case SL_ORDERING_MINDEG:
-        return sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice, team,
-                                  a);
+        return sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
+                                  choice, team, a);
     case SL_ORDERING_METIS:
     case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
@@ -374,8 +381,8 @@ static sl_status sli_order(const sl_csc *A, sl_triangle triangle, const sl_optio
 #else
         return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
                    ? SL_ERR_ARGUMENT
-                   : sli_order_by_graph(A, triangle, ordering, opt, perm, scratch, septree, choice,
-                                        team, a);
+                   : sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
+                                        choice, team, a);
 #endif
     default:
         return SL_ERR_ARGUMENT;
