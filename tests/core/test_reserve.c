@@ -125,6 +125,26 @@ static void local_solves(void **state) {
     }
 }
 
+/* No rows at all need no bytes. */
+static void no_rows_need_no_workspace(void **state) {
+    (void)state;
+    const sl_int p[1] = {0};
+    const sl_csc A = {0, 0, p, NULL, NULL};
+    sl_symbolic *S;
+    sl_work *W;
+    double x = 7.0;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_work_create(&W, NULL));
+    SL_CHECK(sl_work_reserve_local(W, S, 0, 0, 0));
+    sl_factor *F;
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_local_solve(F, NULL, 0, NULL, 0, &x, 1, &x, 1, 0, W, NULL));
+    assert_true(x == 7.0);
+    sl_factor_free(F);
+    sl_work_free(W);
+    sl_symbolic_free(S);
+}
+
 /* Few rows of a large grid: far less than the whole. */
 static void the_bound_on_local_solves_is_local(void **state) {
     (void)state;
@@ -217,6 +237,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refine_rcond_defects),
         cmocka_unit_test(local_solves),
+        cmocka_unit_test(no_rows_need_no_workspace),
         cmocka_unit_test(the_bound_on_local_solves_is_local),
         cmocka_unit_test(refined_local_solves),
         cmocka_unit_test(wrong_arguments),

@@ -1,5 +1,6 @@
 /* test_small_fronts.c: supernodes of a few columns, in every instruction set and storage */
 #include "tests/lib/factored.h"
+#include "tests/lib/parallel_for.h"
 
 enum { WIDEST = 9, TALLEST = 19, MOST = WIDEST + TALLEST + 1 };
 
@@ -114,10 +115,43 @@ static void every_pivot_may_have_no_reciprocal(void **state) {
     }
 }
 
+/* Fronts that all wait for each other, and are small, are factored by one worker. */
+static void a_chain_of_fronts_has_one_worker(void **state) {
+    (void)state;
+    const sl_int n = 10000, band = 60;
+    gen_list_t t = gen_list(n);
+    for (sl_int j = 0; j < n; j++) {
+        gen_add(&t, j, j, 2.0 * band + 1.0);
+        for (sl_int i = j + 1; i < n && i <= j + band; i++) {
+            gen_add(&t, i, j, -1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    int calls = 0;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    opt = options_none();
+    opt.method = SL_METHOD_SUPERNODAL;
+    opt.threads.count = 2;
+    opt.threads.run = run_backwards;
+    opt.threads.context = &calls;
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
+    assert_int_equal(calls, 0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_small_front_solves),
         cmocka_unit_test(every_pivot_may_have_no_reciprocal),
+        cmocka_unit_test(a_chain_of_fronts_has_one_worker),
         cmocka_unit_test(tall_panels_are_changed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
