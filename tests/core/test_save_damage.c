@@ -135,7 +135,7 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
 /* Replaces every 64-bit word of the sections with numbers by reals that no object has. */
 static void every_replaced_real_is_noticed_or_harmless(void **state) {
     (void)state;
-    static const double values[] = {NAN, INFINITY, -INFINITY, -1.0, 0.5};
+    const double values[] = {NAN, INFINITY, -INFINITY, -1.0, 0.5};
     const size_t prefix = (size_t)saved_round(SAVED_HEADER + SAVED_KNOWN * SAVED_ENTRY);
     for (int way = 0; way < SAVED_WAYS; way++) {
         saved_case_t c = saved_case_make(way, GEN_GRID2, 16, 0, NULL);
