@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d7de09bde3d84797
+ * FNV-1a of the lines after this comment, without the license: a7d90fda0d46eaf9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -25,67 +25,67 @@
  *   2500 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2618 change.h     a factor that follows small changes of its matrix
  *   2705 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2848 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2979 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3030 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2852 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2983 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3034 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3121 base.h   3415 status.h   3476 options.h   3534 alloc.h   3690 hash.h   3820 file_map.h
- *   3917 sort.h   3981 parallel.h
+ *   3125 base.h   3419 status.h   3480 options.h   3538 alloc.h   3694 hash.h   3824 file_map.h
+ *   3921 sort.h   3985 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4177 panel.h   4203 step.h   4277 pivot_rule.h   4351 front.h   4411 pairs.h
- *   4618 inverse_front.h   4690 table.h   4718 simd.h   4813 simd_scalar_single.h
- *   4859 simd_scalar.h   4987 simd_avx2_single.h   5041 simd_avx2.h   5259 simd_avx512_single.h
- *   5314 simd_avx512.h   5479 simd_neon_single.h   5521 simd_neon.h   5735 dispatch.h
+ *   4181 panel.h   4207 step.h   4281 pivot_rule.h   4355 front.h   4415 pairs.h
+ *   4622 inverse_front.h   4694 table.h   4722 simd.h   4817 simd_scalar_single.h
+ *   4863 simd_scalar.h   4991 simd_avx2_single.h   5045 simd_avx2.h   5263 simd_avx512_single.h
+ *   5318 simd_avx512.h   5483 simd_neon_single.h   5525 simd_neon.h   5739 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5815 csc.h   5948 csc_build.h   6082 csc64.h   6153 csc_triangle.h   6219 csc_products.h
- *   6336 permute.h   6402 sum.h   6484 output_file.h   6693 matrix_market.h
+ *   5819 csc.h   5952 csc_build.h   6086 csc64.h   6157 csc_triangle.h   6223 csc_products.h
+ *   6340 permute.h   6406 sum.h   6488 output_file.h   6697 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7139 graph.h   7281 contract.h   7535 coarsen.h   7698 labels.h   7919 subgraph.h   8114 heap.h
- *   8174 bisect.h   8401 separator.h   8663 mindeg.h   8846 dissect.h   9170 tree_cost.h
- *   9222 levelset.h   9328 geometric.h   9503 cells.h   9683 septree.h   9759 metis.h
- *   9908 metis_refined.h  10022 nd.h  10222 compress.h  10343 peel.h  10521 quotient.h
- *  10934 order.h
+ *   7143 graph.h   7285 contract.h   7539 coarsen.h   7702 labels.h   7923 subgraph.h   8118 heap.h
+ *   8178 bisect.h   8405 separator.h   8667 mindeg.h   8850 dissect.h   9174 tree_cost.h
+ *   9226 levelset.h   9332 geometric.h   9507 cells.h   9687 septree.h   9763 metis.h
+ *   9912 metis_refined.h  10026 nd.h  10226 compress.h  10347 peel.h  10525 quotient.h
+ *  10938 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11285 symbolic_types.h  11322 etree.h  11395 counts.h  11452 supernodes.h  11674 structure.h
- *  11795 schedule.h  12075 symbolic.h  12516 reach.h
+ *  11289 symbolic_types.h  11326 etree.h  11399 counts.h  11456 supernodes.h  11678 structure.h
+ *  11799 schedule.h  12079 symbolic.h  12520 reach.h
  * (factor: the numbers of L and D)
- *  12787 factor_types.h  13198 storage.h  13338 pivot_search.h  13684 pivoted.h  13752 scatter.h
- *  13910 uplooking.h  13982 null_product.h  14186 null_dense.h  14263 null_basis.h
- *  14571 null_vectors.h  14713 multifrontal.h  14903 gather.h  14951 kept.h  15118 front_tasks.h
- *  15461 nullspace.h  15664 growth.h  15740 factor_setup.h  16062 factor.h  16272 leftlooking.h
- *  16418 factor_query.h  16553 combination.h
+ *  12791 factor_types.h  13202 storage.h  13342 pivot_search.h  13688 pivoted.h  13756 scatter.h
+ *  13914 uplooking.h  13986 null_product.h  14190 null_dense.h  14267 null_basis.h
+ *  14575 null_vectors.h  14717 multifrontal.h  14907 gather.h  14955 kept.h  15122 front_tasks.h
+ *  15465 nullspace.h  15668 growth.h  15744 factor_setup.h  16066 factor.h  16276 leftlooking.h
+ *  16422 factor_query.h  16557 combination.h
  * (solve: full and local solves)
- *  16614 region_types.h  16718 work.h  16818 query.h  17026 singular.h  17296 backward.h
- *  17326 sweep_tasks.h  17656 sweep.h  17867 compile.h  18060 plan.h  18167 local.h  18319 parts.h
- *  18608 refine.h  18787 refine_local.h  19003 rcond.h  19162 defects.h
+ *  16618 region_types.h  16722 work.h  16822 query.h  17030 singular.h  17300 backward.h
+ *  17330 sweep_tasks.h  17660 sweep.h  17871 compile.h  18064 plan.h  18171 local.h  18323 parts.h
+ *  18612 refine.h  18791 refine_local.h  19007 rcond.h  19166 defects.h
  * (inverse: entries of the inverse, regions)
- *  19240 traversal.h  19489 traversal_run.h  19682 row_sets.h  19709 unit_vectors.h
- *  19936 bilinear.h  20113 entries.h  20395 block.h  20635 reserve.h  20827 selected.h
- *  21037 selected_query.h  21139 region_choose.h  21366 region.h
+ *  19244 traversal.h  19493 traversal_run.h  19686 row_sets.h  19713 unit_vectors.h
+ *  19940 bilinear.h  20117 entries.h  20399 block.h  20639 reserve.h  20831 selected.h
+ *  21041 selected_query.h  21143 region_choose.h  21370 region.h
  * (change: a factor that follows changes of its matrix)
- *  21614 update.h  21964 rank.h  22302 edges.h  22456 choose.h  22654 pins_types.h
- *  22732 pins_nulls.h  22910 pins_capacitance.h  23161 pins_held.h  23372 pins_choose.h
- *  23442 pins_rebuild.h  23657 pins_matrix.h  23803 pins.h  24063 pins_solve.h  24393 subset.h
- *  24506 restrict_analysis.h  24835 restrict_symbolic.h  25016 restrict.h  25232 edit_match.h
- *  25431 edit_place.h  25680 edit_separate.h  25993 edit_order.h  26148 edit_graph.h
- *  26243 edit_join.h  26519 edit.h  26682 edit_factor.h
+ *  21618 update.h  21968 rank.h  22306 edges.h  22460 choose.h  22658 pins_types.h
+ *  22736 pins_nulls.h  22914 pins_capacitance.h  23165 pins_held.h  23376 pins_choose.h
+ *  23446 pins_rebuild.h  23661 pins_matrix.h  23812 pins.h  24072 pins_solve.h  24402 subset.h
+ *  24515 restrict_analysis.h  24844 restrict_symbolic.h  25025 restrict.h  25241 edit_match.h
+ *  25440 edit_place.h  25689 edit_separate.h  26002 edit_order.h  26157 edit_graph.h
+ *  26252 edit_join.h  26528 edit.h  26691 edit_factor.h
  * (save: factors in files)
- *  26940 format.h  27236 decode.h  27384 check.h  27714 write.h  28019 load.h  28287 load_inverse.h
- *  28617 load_calls.h
+ *  26949 format.h  27245 decode.h  27393 check.h  27723 write.h  28028 load.h  28296 load_inverse.h
+ *  28626 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28816 batch_solve.h  29025 batch_factor.h  29226 batch_diagonal.h
+ *  28825 batch_solve.h  29034 batch_factor.h  29235 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29366 hermitian.h  29528 complex_rows.h
+ *  29375 hermitian.h  29537 complex_rows.h
  * (last: undefine every internal macro)
- *  29696 undef.h
+ *  29705 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29950 front.inl.h  29952 product.inl.h  30447 words_undef.inl.h  30529 multi_rhs.inl.h
- *  30556 multi_rhs_small.inl.h  30724 multi_rhs_tiles.inl.h  31033 complex_groups.inl.h
- *  31265 sweeps.inl.h  31267 unit_triangle.inl.h  31304 two_rhs.inl.h  31473 small_supernode.inl.h
- *  31652 single_rhs.inl.h  31896 kernel_set.inl.h  31898 complex_small.inl.h
- *  32062 complex_rows.inl.h  32294 inverse_front.inl.h  32579 row.inl.h  32609 change.inl.h
- *  32673 interleave.inl.h
+ *  29959 front.inl.h  29961 product.inl.h  30456 words_undef.inl.h  30538 multi_rhs.inl.h
+ *  30565 multi_rhs_small.inl.h  30733 multi_rhs_tiles.inl.h  31042 complex_groups.inl.h
+ *  31274 sweeps.inl.h  31276 unit_triangle.inl.h  31313 two_rhs.inl.h  31482 small_supernode.inl.h
+ *  31661 single_rhs.inl.h  31905 kernel_set.inl.h  31907 complex_small.inl.h
+ *  32071 complex_rows.inl.h  32303 inverse_front.inl.h  32588 row.inl.h  32618 change.inl.h
+ *  32682 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2715,6 +2715,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  pins that leave none of its 6 motions. Motions that pins leave are fixed by x = 0 in null rows,
  *  as they are in components without pins; b has to be in balance with them, which is not checked.
  *  Weights (options.mass) are not used.
+ *
+ *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
+ *  the one with pins, as with a weak mass term, as many digits are lost, and no status says so:
+ *  hold one row of each component by the matrix itself, or check C' x = g.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -23667,13 +23671,14 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sli_null_row *rows = NULL;
-  double *x = NULL, *y = NULL, *scratch = NULL;
+  double *x = NULL, *y = NULL, *diagonal = NULL, *scratch = NULL, most = 0.0;
   sl_int k;
   int pass;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     rows = SLI_TAKE(&b, sli_null_row, S->n);
     x = SLI_TAKE(&b, double, S->n);
     y = SLI_TAKE(&b, double, S->n);
+    diagonal = SLI_TAKE(&b, double, S->n);
     scratch = SLI_TAKE(&b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
@@ -23694,10 +23699,14 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
     }
     sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, x,
                scratch);
-    (void)sli_null_product(S, from, 0, rows, x, NULL);
+    (void)sli_null_product(S, from, 0, rows, x, diagonal);
+    for (k = 0; k < S->n; k++) {
+      most = fmax(most, sqrt(fabs(diagonal[k])) * fabs(x[k]));
+    }
   }
   for (k = 0; k < S->n && status == SL_OK; k++) {
-    const double size = rows[k].size + fabs(y[k]), r = fabs(rows[k].product - y[k]);
+    const double size = rows[k].size + fabs(y[k]) + sqrt(fabs(diagonal[k])) * most;
+    const double r = fabs(rows[k].product - y[k]);
     if (size != 0.0 && !(r <= *error * size)) {
       *error = r / size;
       *row = S->perm[k];

@@ -17,6 +17,10 @@
  *  as they are in components without pins; b has to be in balance with them, which is not checked.
  *  Weights (options.mass) are not used.
  *
+ *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
+ *  the one with pins, as with a weak mass term, as many digits are lost, and no status says so:
+ *  hold one row of each component by the matrix itself, or check C' x = g.
+ *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
  *              changes, solves are refused until sl_pins_refactor.
