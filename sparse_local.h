@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a7d90fda0d46eaf9
+ * FNV-1a of the lines after this comment, without the license: cf53d000da65c856
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -30,62 +30,62 @@
  *   3034 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3125 base.h   3419 status.h   3480 options.h   3538 alloc.h   3694 hash.h   3824 file_map.h
- *   3921 sort.h   3985 parallel.h
+ *   3126 base.h   3420 status.h   3481 options.h   3539 alloc.h   3695 hash.h   3825 file_map.h
+ *   3922 sort.h   3986 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4181 panel.h   4207 step.h   4281 pivot_rule.h   4355 front.h   4415 pairs.h
- *   4622 inverse_front.h   4694 table.h   4722 simd.h   4817 simd_scalar_single.h
- *   4863 simd_scalar.h   4991 simd_avx2_single.h   5045 simd_avx2.h   5263 simd_avx512_single.h
- *   5318 simd_avx512.h   5483 simd_neon_single.h   5525 simd_neon.h   5739 dispatch.h
+ *   4182 panel.h   4208 step.h   4282 pivot_rule.h   4356 front.h   4416 pairs.h
+ *   4623 inverse_front.h   4695 table.h   4723 simd.h   4818 simd_scalar_single.h
+ *   4864 simd_scalar.h   4992 simd_avx2_single.h   5046 simd_avx2.h   5264 simd_avx512_single.h
+ *   5319 simd_avx512.h   5484 simd_neon_single.h   5526 simd_neon.h   5740 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5819 csc.h   5952 csc_build.h   6086 csc64.h   6157 csc_triangle.h   6223 csc_products.h
- *   6340 permute.h   6406 sum.h   6488 output_file.h   6697 matrix_market.h
+ *   5820 csc.h   5953 csc_build.h   6087 csc64.h   6158 csc_triangle.h   6224 csc_products.h
+ *   6341 permute.h   6407 sum.h   6489 output_file.h   6698 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7143 graph.h   7285 contract.h   7539 coarsen.h   7702 labels.h   7923 subgraph.h   8118 heap.h
- *   8178 bisect.h   8405 separator.h   8667 mindeg.h   8850 dissect.h   9174 tree_cost.h
- *   9226 levelset.h   9332 geometric.h   9507 cells.h   9687 septree.h   9763 metis.h
- *   9912 metis_refined.h  10026 nd.h  10226 compress.h  10347 peel.h  10525 quotient.h
- *  10938 order.h
+ *   7144 graph.h   7286 contract.h   7540 coarsen.h   7703 labels.h   7924 subgraph.h   8119 heap.h
+ *   8179 bisect.h   8406 separator.h   8668 mindeg.h   8851 dissect.h   9175 tree_cost.h
+ *   9227 levelset.h   9333 geometric.h   9508 cells.h   9688 septree.h   9764 metis.h
+ *   9913 metis_refined.h  10027 nd.h  10227 compress.h  10348 peel.h  10526 quotient.h
+ *  10939 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11289 symbolic_types.h  11326 etree.h  11399 counts.h  11456 supernodes.h  11678 structure.h
- *  11799 schedule.h  12079 symbolic.h  12520 reach.h
+ *  11290 symbolic_types.h  11327 etree.h  11400 counts.h  11457 supernodes.h  11679 structure.h
+ *  11800 schedule.h  12080 symbolic.h  12521 reach.h
  * (factor: the numbers of L and D)
- *  12791 factor_types.h  13202 storage.h  13342 pivot_search.h  13688 pivoted.h  13756 scatter.h
- *  13914 uplooking.h  13986 null_product.h  14190 null_dense.h  14267 null_basis.h
- *  14575 null_vectors.h  14717 multifrontal.h  14907 gather.h  14955 kept.h  15122 front_tasks.h
- *  15465 nullspace.h  15668 growth.h  15744 factor_setup.h  16066 factor.h  16276 leftlooking.h
- *  16422 factor_query.h  16557 combination.h
+ *  12792 factor_types.h  13203 storage.h  13343 pivot_search.h  13689 pivoted.h  13757 scatter.h
+ *  13915 uplooking.h  13987 null_product.h  14191 null_dense.h  14268 null_basis.h
+ *  14576 null_vectors.h  14718 multifrontal.h  14908 gather.h  14956 kept.h  15123 front_tasks.h
+ *  15466 nullspace.h  15669 growth.h  15745 factor_setup.h  16067 factor.h  16277 leftlooking.h
+ *  16423 factor_query.h  16558 combination.h
  * (solve: full and local solves)
- *  16618 region_types.h  16722 work.h  16822 query.h  17030 singular.h  17300 backward.h
- *  17330 sweep_tasks.h  17660 sweep.h  17871 compile.h  18064 plan.h  18171 local.h  18323 parts.h
- *  18612 refine.h  18791 refine_local.h  19007 rcond.h  19166 defects.h
+ *  16619 region_types.h  16723 work.h  16823 query.h  17031 singular.h  17301 backward.h
+ *  17331 sweep_tasks.h  17661 sweep.h  17872 compile.h  18065 plan.h  18172 local.h  18324 parts.h
+ *  18613 refine.h  18792 refine_local.h  19008 rcond.h  19167 defects.h
  * (inverse: entries of the inverse, regions)
- *  19244 traversal.h  19493 traversal_run.h  19686 row_sets.h  19713 unit_vectors.h
- *  19940 bilinear.h  20117 entries.h  20399 block.h  20639 reserve.h  20831 selected.h
- *  21041 selected_query.h  21143 region_choose.h  21370 region.h
+ *  19245 traversal.h  19494 traversal_run.h  19687 row_sets.h  19714 unit_vectors.h
+ *  19941 bilinear.h  20118 entries.h  20400 block.h  20640 reserve.h  20832 selected.h
+ *  21042 selected_query.h  21144 region_choose.h  21371 region.h
  * (change: a factor that follows changes of its matrix)
- *  21618 update.h  21968 rank.h  22306 edges.h  22460 choose.h  22658 pins_types.h
- *  22736 pins_nulls.h  22914 pins_capacitance.h  23165 pins_held.h  23376 pins_choose.h
- *  23446 pins_rebuild.h  23661 pins_matrix.h  23812 pins.h  24072 pins_solve.h  24402 subset.h
- *  24515 restrict_analysis.h  24844 restrict_symbolic.h  25025 restrict.h  25241 edit_match.h
- *  25440 edit_place.h  25689 edit_separate.h  26002 edit_order.h  26157 edit_graph.h
- *  26252 edit_join.h  26528 edit.h  26691 edit_factor.h
+ *  21619 update.h  21969 rank.h  22307 edges.h  22461 choose.h  22659 pins_types.h
+ *  22737 pins_nulls.h  22915 pins_capacitance.h  23166 pins_held.h  23377 pins_choose.h
+ *  23447 pins_rebuild.h  23662 pins_matrix.h  23813 pins.h  24073 pins_solve.h  24403 subset.h
+ *  24516 restrict_analysis.h  24845 restrict_symbolic.h  25026 restrict.h  25242 edit_match.h
+ *  25441 edit_place.h  25690 edit_separate.h  26003 edit_order.h  26158 edit_graph.h
+ *  26253 edit_join.h  26529 edit.h  26692 edit_factor.h
  * (save: factors in files)
- *  26949 format.h  27245 decode.h  27393 check.h  27723 write.h  28028 load.h  28296 load_inverse.h
- *  28626 load_calls.h
+ *  26991 format.h  27287 decode.h  27435 check.h  27765 write.h  28070 load.h  28338 load_inverse.h
+ *  28668 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28825 batch_solve.h  29034 batch_factor.h  29235 batch_diagonal.h
+ *  28867 batch_solve.h  29076 batch_factor.h  29277 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29375 hermitian.h  29537 complex_rows.h
+ *  29417 hermitian.h  29579 complex_rows.h
  * (last: undefine every internal macro)
- *  29705 undef.h
+ *  29747 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  29959 front.inl.h  29961 product.inl.h  30456 words_undef.inl.h  30538 multi_rhs.inl.h
- *  30565 multi_rhs_small.inl.h  30733 multi_rhs_tiles.inl.h  31042 complex_groups.inl.h
- *  31274 sweeps.inl.h  31276 unit_triangle.inl.h  31313 two_rhs.inl.h  31482 small_supernode.inl.h
- *  31661 single_rhs.inl.h  31905 kernel_set.inl.h  31907 complex_small.inl.h
- *  32071 complex_rows.inl.h  32303 inverse_front.inl.h  32588 row.inl.h  32618 change.inl.h
- *  32682 interleave.inl.h
+ *  30007 front.inl.h  30009 product.inl.h  30504 words_undef.inl.h  30586 multi_rhs.inl.h
+ *  30613 multi_rhs_small.inl.h  30781 multi_rhs_tiles.inl.h  31090 complex_groups.inl.h
+ *  31322 sweeps.inl.h  31324 unit_triangle.inl.h  31361 two_rhs.inl.h  31530 small_supernode.inl.h
+ *  31709 single_rhs.inl.h  31953 kernel_set.inl.h  31955 complex_small.inl.h
+ *  32119 complex_rows.inl.h  32351 inverse_front.inl.h  32636 row.inl.h  32666 change.inl.h
+ *  32730 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3102,7 +3102,8 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
  *           mesh of 1e6 vertices is remeshed in one place, about a third of the flops and of the
- *           time of a new factorization.
+ *           time of a new factorization. Where little is worth keeping, a few percent of that, and
+ *           at most about a tenth, are spent on the comparison.
  *  Threads  reads F; otherwise as sl_factor_create.
  *  Source   [HA18]
  *  Example  tests/core/test_factor_edit.c
@@ -14982,8 +14983,8 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
     p->update_room = p->from[s] != -1 && size > p->update_room ? size : p->update_room;
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    p->local = SLI_TAKE(b, sl_int, workers *(uint64_t)S->n);
-    p->relative = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+    p->local = SLI_TAKE(b, sl_int, workers * (uint64_t)S->n);
+    p->relative = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
     p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
     status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
   }
@@ -26690,8 +26691,14 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
 
 /* src/impl/change/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
 
+#define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
-#define SLI_REUSE_SHARE 0.95
+#define SLI_REUSE_SHARE 0.97
+#define SLI_REUSE_SAMPLE 8
+#define SLI_REUSE_SAMPLED 128
+#define SLI_REUSE_MOST_OF_SAMPLE 0.7
+#define SLI_REUSE_MOST 0.9
+#define SLI_REUSE_UNKNOWN (-2)
 
 typedef struct sli_reuse {
   const sl_factor *F;
@@ -26701,6 +26708,7 @@ typedef struct sli_reuse {
   sl_int *from;
   sl_int *columns;
   sl_int *row_columns;
+  double flops, flops_anew;
   sl_reuse_info info;
   void *blocks[2];
 } sli_reuse;
@@ -26747,21 +26755,16 @@ static int sli_reuse_is_alike(const sli_reuse *r, sl_int k, sl_int j) {
        (f->kinds == NULL || f->kinds[j] == g->kinds[k]);
 }
 
-static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s) {
+static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s, int *is_moved) {
   const sl_symbolic *S = r->F->S, *T = r->G->S;
   const sli_step *own = &T->steps[s];
   const sl_int first = r->columns[own->column], there = first == -1 ? -1 : S->super_of[first];
   const sl_int *rows = T->rows + T->rows_begin[s], *of;
-  sl_int c, k;
+  sl_int k;
   if (there == -1 || S->super_first[there] != first || S->steps[there].width != own->width ||
     S->steps[there].below != own->below ||
     there - S->first_descendant[there] != s - T->first_descendant[s]) {
     return -1;
-  }
-  for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
-    if (r->from[c] == -1 || S->super_parent[r->from[c]] != there) {
-      return -1;
-    }
   }
   for (k = 0; k < own->width; k++) {
     if (r->columns[own->column + k] != first + k ||
@@ -26770,30 +26773,34 @@ static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s) {
     }
   }
   of = S->rows + S->rows_begin[there];
+  *is_moved = 0;
   for (k = 0; k < own->below; k++) {
     const sl_int row = r->columns[rows[k]];
-    const sl_int at = row == of[k] ? k : sli_lower_bound(of, own->below, row);
-    if (at == own->below || of[at] != row) {
-      return -1;
+    if (row != of[k]) {
+      const sl_int at = sli_lower_bound(of, own->below, row);
+      *is_moved = 1;
+      if (at == own->below || of[at] != row) {
+        return -1;
+      }
     }
   }
   return there;
 }
 
-static int sli_reuse_is_same(const sli_reuse *r, sl_int s) {
+static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_moved) {
   const sl_symbolic *S = r->F->S, *T = r->G->S;
-  const sl_int there = r->from[s], w = T->steps[s].width, below = T->steps[s].below;
-  const sl_int *rows = T->rows + T->rows_begin[s], *of = S->rows + S->rows_begin[there];
+  const sl_int w = T->steps[s].width, below = T->steps[s].below, *of = S->rows;
+  const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
   uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
-  sl_int tile = sli_last_tile(T, s), k, j, is_moved = 0;
+  sl_int tile = sli_last_tile(T, s), k, j;
   sl_off m;
-  for (k = 0; k < below; k++) {
-    is_moved |= r->columns[rows[k]] != of[k];
-  }
+  of += S->rows_begin[there];
   for (m = T->scatter_begin[s + 1] - 1; m >= T->scatter_begin[s]; m--) {
     const double a = r->B->x[T->scatter_from[m]];
-    const sl_off place = T->scatter_to[m] - T->panel_begin[s];
-    mark += sli_mark_entry(a, place);
+    if (m >= least) {
+      SLI_PREFETCH(r->B->x + T->scatter_from[m - SLI_ENTRIES_AHEAD], 0);
+    }
+    mark += sli_mark_entry(a, T->scatter_to[m] - begin);
     if (is_moved) {
       sli_scatter_map_pivots(T, s, m, &tile, &k, &j);
       j -= T->super_first[s];
@@ -26806,54 +26813,88 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s) {
   return r->F->marks[there] == (is_moved ? before : mark);
 }
 
-static int sli_reuse_choose(sli_reuse *r, int gathers) {
+static int sli_reuse_choose(sli_reuse *r) {
   const sl_symbolic *T = r->G->S;
   sl_reuse_info *info = &r->info;
-  sl_int s, visits = 0;
+  sl_int s, supers = 0, visits = 0;
   double seconds;
-  memset(info, 0, sizeof *info);
+  info->flops = r->flops;
   for (s = 0; s < T->n_supers; s++) {
     const sl_int up = T->super_parent[s], below = T->steps[s].below;
-    const double flops = sli_way_front(T, s);
-    info->flops_anew += flops;
     if (r->from[s] == -1) {
-      info->flops += flops;
       visits++;
       continue;
     }
+    supers++;
     info->kept += T->steps[s].width;
     info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
-    if (gathers && up != -1 && r->from[up] == -1) {
+    if (up != -1 && r->from[up] == -1) {
       info->flops += (double)T->steps[s].width * below * below +
                sli_way_gather(T, s, T->super_first[s + 1], T->n, &visits);
     }
   }
   info->computed = T->n - info->kept;
   seconds = SLI_CHANGE_FRONT_FLOP * info->flops + SLI_CHANGE_FRONT * visits +
-        SLI_REUSE_ENTRY * (double)info->entries;
-  return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * info->flops_anew +
+        SLI_REUSE_SUPER * supers + SLI_REUSE_ENTRY * (double)info->entries;
+  return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * r->flops_anew +
                     SLI_CHANGE_FRONT * (double)T->n_supers);
+}
+
+static void sli_reuse_drop(sli_reuse *r, sl_int s) {
+  for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
+    r->from[s] = -1;
+    r->flops += sli_way_front(r->G->S, s);
+  }
+}
+
+static void sli_reuse_compare(sli_reuse *r, sl_int s) {
+  int is_moved;
+  const sl_int there = sli_reuse_candidate(r, s, &is_moved);
+  if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {
+    r->from[s] = there;
+  } else {
+    sli_reuse_drop(r, s);
+  }
+}
+
+static int sli_reuse_has_children(const sli_reuse *r, sl_int s) {
+  const sl_symbolic *T = r->G->S;
+  sl_int c;
+  for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
+    if (r->from[c] == -1 || r->F->S->super_parent[r->from[c]] != r->from[s]) {
+      return 0;
+    }
+  }
+  return 1;
 }
 
 static int sli_reuse_find(sli_reuse *r) {
   const sl_symbolic *T = r->G->S;
   sl_int s;
+  int is_sample;
   for (s = 0; s < T->n_supers; s++) {
-    r->from[s] = sli_reuse_candidate(r, s);
+    r->from[s] = SLI_REUSE_UNKNOWN;
+    r->flops_anew += sli_way_front(T, s);
   }
-  if (!sli_reuse_choose(r, 0)) {
-    return 0;
+  r->info.flops_anew = r->flops_anew;
+  for (is_sample = 1; is_sample >= 0; is_sample--) {
+    for (s = 0; s < T->n_supers; s++) {
+      if (r->from[s] == SLI_REUSE_UNKNOWN &&
+        is_sample == (s % SLI_REUSE_SAMPLED < SLI_REUSE_SAMPLE)) {
+        sli_reuse_compare(r, s);
+      }
+      if (r->flops >
+        (is_sample ? SLI_REUSE_MOST_OF_SAMPLE : SLI_REUSE_MOST) * r->flops_anew) {
+        return 0;
+      }
+    }
   }
   for (s = 0; s < T->n_supers; s++) {
-    const sl_int up = T->super_parent[s];
-    if (r->from[s] != -1 && !sli_reuse_is_same(r, s)) {
-      r->from[s] = -1;
-    }
-    if (r->from[s] == -1 && up != -1) {
-      r->from[up] = -1;
+    if (r->from[s] != -1 && !sli_reuse_has_children(r, s)) {
+      sli_reuse_drop(r, s);
     }
   }
-  return sli_reuse_choose(r, 1);
+  return sli_reuse_choose(r);
 }
 
 static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure *failure) {
@@ -26897,6 +26938,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
     r->info.kept = 0;
     r->info.entries = 0;
     r->info.computed = r->G->S->n;
+    r->info.flops = r->info.flops_anew;
   }
   return keeps ? sli_factor_done(r->G, &from, &failure, started, stats)
          : sli_factor_numbers(r->G, &from, started, stats);
@@ -29850,6 +29892,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_EDIT_LEAST
 #undef SLI_EDIT_SHARE
 #undef SLI_EDIT_DUE
+#undef SLI_REUSE_SUPER
+#undef SLI_REUSE_SAMPLE
+#undef SLI_REUSE_SAMPLED
+#undef SLI_REUSE_MOST
+#undef SLI_REUSE_MOST_OF_SAMPLE
+#undef SLI_REUSE_UNKNOWN
 #undef SLI_REUSE_ENTRY
 #undef SLI_REUSE_SHARE
 #undef SLI_MARK_BEGIN

@@ -74,7 +74,8 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
  *           mesh of 1e6 vertices is remeshed in one place, about a third of the flops and of the
- *           time of a new factorization.
+ *           time of a new factorization. Where little is worth keeping, a few percent of that, and
+ *           at most about a tenth, are spent on the comparison.
  *  Threads  reads F; otherwise as sl_factor_create.
  *  Source   [HA18]
  *  Example  tests/core/test_factor_edit.c

@@ -37,7 +37,7 @@ static sl_int *identity(sl_int n) {
 /* F is a factor of A: entry by entry, or by a solution where that takes long. */
 static void check_right(const sl_factor *F, const sl_csc *A) {
     const size_t n = (size_t)A->n_cols;
-    if (n <= 200) {
+    if (n <= 400) {
         NOTHING_WRONG(check_factor(F, A));
         return;
     }
@@ -188,7 +188,7 @@ static void many_flips_follow_each_other(void **state) {
 static void every_changed_value_is_noticed(void **state) {
     (void)state;
     for (int style = 0; style < 4; style++) {
-        followed_t y = followed_make(gen_make(GEN_GRID2, 196, 1, 42), style, NULL);
+        followed_t y = followed_make(gen_make(GEN_GRID2, 400, 1, 42), style, NULL);
         const sl_int n = y.t.n, nnz = y.A.view.p[n];
         sl_int *map = identity(n);
         sl_stats stats;
@@ -198,7 +198,7 @@ static void every_changed_value_is_noticed(void **state) {
         assert_int_equal(stats.reuse.kept, n);
         assert_same_bits(y.F, G);
         sl_factor_free(G);
-        for (sl_int p = 3; p + 1 < nnz; p += 11) {
+        for (sl_int p = 3; p + 1 < nnz; p += 37) {
             const double a = y.A.view.x[p], b = y.A.view.x[p + 1];
             double *x = y.A.x;
             x[p] = p % 2 ? b : a * (1 + 1e-9);
@@ -225,7 +225,7 @@ static void every_changed_value_is_noticed(void **state) {
 /* What rank-one changes and refactorizations have changed is not copied. */
 static void changed_factors_follow(void **state) {
     (void)state;
-    followed_t y = followed_make(gen_make(GEN_GRID2, 196, 1, 42), 0, NULL);
+    followed_t y = followed_make(gen_make(GEN_GRID2, 400, 1, 42), 0, NULL);
     const sl_int row = y.A.view.i[1], column = 0;
     const double delta = 0.25;
     sl_int *map = identity(y.t.n);

@@ -6,22 +6,34 @@
 #include "choose.h"
 #include "edit_match.h"
 
-/* Seconds to copy an entry of L. */
+/* Seconds to copy a supernode and each entry of it. */
+#define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
 /* A whole factorization is taken if the estimates differ by less. */
-#define SLI_REUSE_SHARE 0.95
+#define SLI_REUSE_SHARE 0.97
+/* Where much has changed, few comparisons show that nothing is worth keeping: at first, so many
+ * supernodes of each such number of them are compared. A comparison of all takes up to a tenth of
+ * the time of a factorization, so it ends where so large a share of the flops is not saved: of those
+ * that the sample shows, and of those that all comparisons show. */
+#define SLI_REUSE_SAMPLE 8
+#define SLI_REUSE_SAMPLED 128
+#define SLI_REUSE_MOST_OF_SAMPLE 0.7
+#define SLI_REUSE_MOST 0.9
+/* In sli_reuse.from: not compared yet. */
+#define SLI_REUSE_UNKNOWN (-2)
 
-/* What is kept of F. Subtrees are compared from the leaves up: a supernode of G is kept if its
- * children are, and are all children of one supernode of F with the same columns, rows and entries.
- * The rows may be in another order, as ancestors may be. */
+/* What is kept of F. A supernode of G is kept if a supernode of F has the same columns, rows and
+ * entries, and if its children are kept and are all children of that one. The rows may be in
+ * another order, as ancestors may be. */
 typedef struct sli_reuse {
     const sl_factor *F;
     sl_factor *G;
     const sl_csc *B;
     sli_kept kept;
-    sl_int *from;    /* supernodes of G: that of F, or -1 */
-    sl_int *columns; /* columns of G: that of F, or -1 */
-    sl_int *row_columns; /* the same by rows of B */
+    sl_int *from;             /* supernodes of G: that of F, or -1 */
+    sl_int *columns;          /* columns of G: that of F, or -1 */
+    sl_int *row_columns;      /* the same by rows of B */
+    double flops, flops_anew; /* of the supernodes that are known to be computed; of all */
     sl_reuse_info info;
     void *blocks[2];
 } sli_reuse;
@@ -72,22 +84,18 @@ static int sli_reuse_is_alike(const sli_reuse *r, sl_int k, sl_int j) {
            (f->kinds == NULL || f->kinds[j] == g->kinds[k]);
 }
 
-/* The supernode of F that s may be the same as, or -1. */
-static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s) {
+/* The supernode of F with the columns and rows of s, or -1. *is_moved := whether the rows are in
+ * another order. */
+static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s, int *is_moved) {
     const sl_symbolic *S = r->F->S, *T = r->G->S;
     const sli_step *own = &T->steps[s];
     const sl_int first = r->columns[own->column], there = first == -1 ? -1 : S->super_of[first];
     const sl_int *rows = T->rows + T->rows_begin[s], *of;
-    sl_int c, k;
+    sl_int k;
     if (there == -1 || S->super_first[there] != first || S->steps[there].width != own->width ||
         S->steps[there].below != own->below ||
         there - S->first_descendant[there] != s - T->first_descendant[s]) {
         return -1;
-    }
-    for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
-        if (r->from[c] == -1 || S->super_parent[r->from[c]] != there) {
-            return -1;
-        }
     }
     for (k = 0; k < own->width; k++) {
         if (r->columns[own->column + k] != first + k ||
@@ -96,31 +104,35 @@ static sl_int sli_reuse_candidate(const sli_reuse *r, sl_int s) {
         }
     }
     of = S->rows + S->rows_begin[there];
+    *is_moved = 0;
     for (k = 0; k < own->below; k++) {
         const sl_int row = r->columns[rows[k]];
-        const sl_int at = row == of[k] ? k : sli_lower_bound(of, own->below, row);
-        if (at == own->below || of[at] != row) {
-            return -1;
+        if (row != of[k]) {
+            const sl_int at = sli_lower_bound(of, own->below, row);
+            *is_moved = 1;
+            if (at == own->below || of[at] != row) {
+                return -1;
+            }
         }
     }
     return there;
 }
 
 /* Has supernode s the entries that the one of F was computed from? Marks it in G. */
-static int sli_reuse_is_same(const sli_reuse *r, sl_int s) {
+static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_moved) {
     const sl_symbolic *S = r->F->S, *T = r->G->S;
-    const sl_int there = r->from[s], w = T->steps[s].width, below = T->steps[s].below;
-    const sl_int *rows = T->rows + T->rows_begin[s], *of = S->rows + S->rows_begin[there];
+    const sl_int w = T->steps[s].width, below = T->steps[s].below, *of = S->rows;
+    const sl_off begin = T->steps[s].panel, least = T->scatter_begin[0] + SLI_ENTRIES_AHEAD;
     uint64_t mark = SLI_MARK_BEGIN, before = SLI_MARK_BEGIN;
-    sl_int tile = sli_last_tile(T, s), k, j, is_moved = 0;
+    sl_int tile = sli_last_tile(T, s), k, j;
     sl_off m;
-    for (k = 0; k < below; k++) {
-        is_moved |= r->columns[rows[k]] != of[k];
-    }
+    of += S->rows_begin[there];
     for (m = T->scatter_begin[s + 1] - 1; m >= T->scatter_begin[s]; m--) {
         const double a = r->B->x[T->scatter_from[m]];
-        const sl_off place = T->scatter_to[m] - T->panel_begin[s];
-        mark += sli_mark_entry(a, place);
+        if (m >= least) {
+            SLI_PREFETCH(r->B->x + T->scatter_from[m - SLI_ENTRIES_AHEAD], 0);
+        }
+        mark += sli_mark_entry(a, T->scatter_to[m] - begin);
         if (is_moved) {
             sli_scatter_map_pivots(T, s, m, &tile, &k, &j);
             j -= T->super_first[s];
@@ -133,57 +145,93 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s) {
     return r->F->marks[there] == (is_moved ? before : mark);
 }
 
-/* Counts the flops of both ways; with `gathers` also those of the updates of kept subtrees. Returns
- * whether to keep is faster. */
-static int sli_reuse_choose(sli_reuse *r, int gathers) {
+/* Counts the flops of what is kept and of what is not. Returns whether to keep is faster. */
+static int sli_reuse_choose(sli_reuse *r) {
     const sl_symbolic *T = r->G->S;
     sl_reuse_info *info = &r->info;
-    sl_int s, visits = 0;
+    sl_int s, supers = 0, visits = 0;
     double seconds;
-    memset(info, 0, sizeof *info);
+    info->flops = r->flops;
     for (s = 0; s < T->n_supers; s++) {
         const sl_int up = T->super_parent[s], below = T->steps[s].below;
-        const double flops = sli_way_front(T, s);
-        info->flops_anew += flops;
         if (r->from[s] == -1) {
-            info->flops += flops;
             visits++;
             continue;
         }
+        supers++;
         info->kept += T->steps[s].width;
         info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
-        if (gathers && up != -1 && r->from[up] == -1) {
+        if (up != -1 && r->from[up] == -1) {
             info->flops += (double)T->steps[s].width * below * below +
                            sli_way_gather(T, s, T->super_first[s + 1], T->n, &visits);
         }
     }
     info->computed = T->n - info->kept;
     seconds = SLI_CHANGE_FRONT_FLOP * info->flops + SLI_CHANGE_FRONT * visits +
-              SLI_REUSE_ENTRY * (double)info->entries;
-    return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * info->flops_anew +
+              SLI_REUSE_SUPER * supers + SLI_REUSE_ENTRY * (double)info->entries;
+    return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * r->flops_anew +
                                         SLI_CHANGE_FRONT * (double)T->n_supers);
+}
+
+/* Supernode s is not kept, nor are its ancestors. */
+static void sli_reuse_drop(sli_reuse *r, sl_int s) {
+    for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
+        r->from[s] = -1;
+        r->flops += sli_way_front(r->G->S, s);
+    }
+}
+
+/* Compares supernode s with that of F, but not its children. */
+static void sli_reuse_compare(sli_reuse *r, sl_int s) {
+    int is_moved;
+    const sl_int there = sli_reuse_candidate(r, s, &is_moved);
+    if (there != -1 && sli_reuse_is_same(r, s, there, is_moved)) {
+        r->from[s] = there;
+    } else {
+        sli_reuse_drop(r, s);
+    }
+}
+
+/* Are the children of kept supernode s all those of the one of F? Their subtrees are as large. */
+static int sli_reuse_has_children(const sli_reuse *r, sl_int s) {
+    const sl_symbolic *T = r->G->S;
+    sl_int c;
+    for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
+        if (r->from[c] == -1 || r->F->S->super_parent[r->from[c]] != r->from[s]) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Finds the subtrees to keep. Returns whether that is faster than to compute them. */
 static int sli_reuse_find(sli_reuse *r) {
     const sl_symbolic *T = r->G->S;
     sl_int s;
+    int is_sample;
     for (s = 0; s < T->n_supers; s++) {
-        r->from[s] = sli_reuse_candidate(r, s);
+        r->from[s] = SLI_REUSE_UNKNOWN;
+        r->flops_anew += sli_way_front(T, s);
     }
-    if (!sli_reuse_choose(r, 0)) { /* a bound: the entries are not compared yet */
-        return 0;
+    r->info.flops_anew = r->flops_anew;
+    for (is_sample = 1; is_sample >= 0; is_sample--) {
+        for (s = 0; s < T->n_supers; s++) {
+            if (r->from[s] == SLI_REUSE_UNKNOWN &&
+                is_sample == (s % SLI_REUSE_SAMPLED < SLI_REUSE_SAMPLE)) {
+                sli_reuse_compare(r, s);
+            }
+            if (r->flops >
+                (is_sample ? SLI_REUSE_MOST_OF_SAMPLE : SLI_REUSE_MOST) * r->flops_anew) {
+                return 0;
+            }
+        }
     }
     for (s = 0; s < T->n_supers; s++) {
-        const sl_int up = T->super_parent[s];
-        if (r->from[s] != -1 && !sli_reuse_is_same(r, s)) {
-            r->from[s] = -1;
-        }
-        if (r->from[s] == -1 && up != -1) {
-            r->from[up] = -1;
+        if (r->from[s] != -1 && !sli_reuse_has_children(r, s)) {
+            sli_reuse_drop(r, s);
         }
     }
-    return sli_reuse_choose(r, 1);
+    return sli_reuse_choose(r);
 }
 
 /* Computes the columns that are not kept. */
@@ -229,6 +277,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
         r->info.kept = 0;
         r->info.entries = 0;
         r->info.computed = r->G->S->n;
+        r->info.flops = r->info.flops_anew;
     }
     return keeps ? sli_factor_done(r->G, &from, &failure, started, stats)
                  : sli_factor_numbers(r->G, &from, started, stats);

@@ -39,8 +39,8 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
         p->update_room = p->from[s] != -1 && size > p->update_room ? size : p->update_room;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        p->local = SLI_TAKE(b, sl_int, workers *(uint64_t)S->n);
-        p->relative = SLI_TAKE(b, sl_int, workers *(uint64_t)S->tallest);
+        p->local = SLI_TAKE(b, sl_int, workers * (uint64_t)S->n);
+        p->relative = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
         p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
         status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
     }
