@@ -13,8 +13,8 @@
 #define SLI_REUSE_SHARE 0.97
 /* Where much has changed, few comparisons show that nothing is worth keeping: at first, so many
  * supernodes of each such number of them are compared. A comparison of all takes up to a tenth of
- * the time of a factorization, so it ends where so large a share of the flops is not saved: of those
- * that the sample shows, and of those that all comparisons show. */
+ * the time of a factorization, so it ends where so large a share of the flops is not saved: of
+ * those that the sample shows, and of those that all comparisons show. */
 #define SLI_REUSE_SAMPLE 8
 #define SLI_REUSE_SAMPLED 128
 #define SLI_REUSE_MOST_OF_SAMPLE 0.7
