@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cf53d000da65c856
+ * FNV-1a of the lines after this comment, without the license: dd7ac47595c9a5ea
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -52,40 +52,40 @@
  * (factor: the numbers of L and D)
  *  12792 factor_types.h  13203 storage.h  13343 pivot_search.h  13689 pivoted.h  13757 scatter.h
  *  13915 uplooking.h  13987 null_product.h  14191 null_dense.h  14268 null_basis.h
- *  14576 null_vectors.h  14718 multifrontal.h  14908 gather.h  14956 kept.h  15123 front_tasks.h
- *  15466 nullspace.h  15669 growth.h  15745 factor_setup.h  16067 factor.h  16277 leftlooking.h
- *  16423 factor_query.h  16558 combination.h
+ *  14576 null_vectors.h  14718 multifrontal.h  14908 gather.h  14956 kept.h  15125 front_tasks.h
+ *  15468 nullspace.h  15671 growth.h  15747 factor_setup.h  16069 factor.h  16279 leftlooking.h
+ *  16425 factor_query.h  16560 combination.h
  * (solve: full and local solves)
- *  16619 region_types.h  16723 work.h  16823 query.h  17031 singular.h  17301 backward.h
- *  17331 sweep_tasks.h  17661 sweep.h  17872 compile.h  18065 plan.h  18172 local.h  18324 parts.h
- *  18613 refine.h  18792 refine_local.h  19008 rcond.h  19167 defects.h
+ *  16621 region_types.h  16725 work.h  16825 query.h  17033 singular.h  17303 backward.h
+ *  17333 sweep_tasks.h  17663 sweep.h  17874 compile.h  18067 plan.h  18174 local.h  18326 parts.h
+ *  18615 refine.h  18794 refine_local.h  19010 rcond.h  19169 defects.h
  * (inverse: entries of the inverse, regions)
- *  19245 traversal.h  19494 traversal_run.h  19687 row_sets.h  19714 unit_vectors.h
- *  19941 bilinear.h  20118 entries.h  20400 block.h  20640 reserve.h  20832 selected.h
- *  21042 selected_query.h  21144 region_choose.h  21371 region.h
+ *  19247 traversal.h  19496 traversal_run.h  19689 row_sets.h  19716 unit_vectors.h
+ *  19943 bilinear.h  20120 entries.h  20402 block.h  20642 reserve.h  20834 selected.h
+ *  21044 selected_query.h  21146 region_choose.h  21373 region.h
  * (change: a factor that follows changes of its matrix)
- *  21619 update.h  21969 rank.h  22307 edges.h  22461 choose.h  22659 pins_types.h
- *  22737 pins_nulls.h  22915 pins_capacitance.h  23166 pins_held.h  23377 pins_choose.h
- *  23447 pins_rebuild.h  23662 pins_matrix.h  23813 pins.h  24073 pins_solve.h  24403 subset.h
- *  24516 restrict_analysis.h  24845 restrict_symbolic.h  25026 restrict.h  25242 edit_match.h
- *  25441 edit_place.h  25690 edit_separate.h  26003 edit_order.h  26158 edit_graph.h
- *  26253 edit_join.h  26529 edit.h  26692 edit_factor.h
+ *  21621 update.h  21971 rank.h  22309 edges.h  22463 choose.h  22661 pins_types.h
+ *  22739 pins_nulls.h  22917 pins_capacitance.h  23168 pins_held.h  23379 pins_choose.h
+ *  23449 pins_rebuild.h  23664 pins_matrix.h  23815 pins.h  24075 pins_solve.h  24405 subset.h
+ *  24518 restrict_analysis.h  24847 restrict_symbolic.h  25028 restrict.h  25245 edit_match.h
+ *  25444 edit_place.h  25693 edit_separate.h  26006 edit_order.h  26161 edit_graph.h
+ *  26256 edit_join.h  26532 edit.h  26695 edit_factor.h
  * (save: factors in files)
- *  26991 format.h  27287 decode.h  27435 check.h  27765 write.h  28070 load.h  28338 load_inverse.h
- *  28668 load_calls.h
+ *  26994 format.h  27290 decode.h  27438 check.h  27768 write.h  28073 load.h  28341 load_inverse.h
+ *  28671 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28867 batch_solve.h  29076 batch_factor.h  29277 batch_diagonal.h
+ *  28870 batch_solve.h  29079 batch_factor.h  29280 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29417 hermitian.h  29579 complex_rows.h
+ *  29420 hermitian.h  29582 complex_rows.h
  * (last: undefine every internal macro)
- *  29747 undef.h
+ *  29750 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30007 front.inl.h  30009 product.inl.h  30504 words_undef.inl.h  30586 multi_rhs.inl.h
- *  30613 multi_rhs_small.inl.h  30781 multi_rhs_tiles.inl.h  31090 complex_groups.inl.h
- *  31322 sweeps.inl.h  31324 unit_triangle.inl.h  31361 two_rhs.inl.h  31530 small_supernode.inl.h
- *  31709 single_rhs.inl.h  31953 kernel_set.inl.h  31955 complex_small.inl.h
- *  32119 complex_rows.inl.h  32351 inverse_front.inl.h  32636 row.inl.h  32666 change.inl.h
- *  32730 interleave.inl.h
+ *  30010 front.inl.h  30012 product.inl.h  30507 words_undef.inl.h  30589 multi_rhs.inl.h
+ *  30616 multi_rhs_small.inl.h  30784 multi_rhs_tiles.inl.h  31093 complex_groups.inl.h
+ *  31325 sweeps.inl.h  31327 unit_triangle.inl.h  31364 two_rhs.inl.h  31533 small_supernode.inl.h
+ *  31712 single_rhs.inl.h  31956 kernel_set.inl.h  31958 complex_small.inl.h
+ *  32122 complex_rows.inl.h  32354 inverse_front.inl.h  32639 row.inl.h  32669 change.inl.h
+ *  32733 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14959,6 +14959,7 @@ typedef struct sli_kept {
   const sl_factor *F;
   const sl_int *from;
   const sl_int *columns;
+  int is_subset;
   int has_one_sign;
   sl_int *local;
   sl_int *relative;
@@ -15021,8 +15022,9 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
   const double *from = (const double *)F->values + step->panel;
   double *panel = (double *)G->values + own->panel;
   int is_whole = own->below == step->below;
+  const sl_int searched = is_whole && p->is_subset ? 0 : own->below;
   sl_int k, m;
-  for (k = 0, m = 0; k < own->below; k++, m++) {
+  for (k = 0, m = 0; k < searched; k++, m++) {
     const sl_int row = p->columns[G->S->rows[G->S->rows_begin[s] + k]];
     if (m >= step->below || rows[m] != row) {
       m = sli_lower_bound(rows, step->below, row);
@@ -25077,6 +25079,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     kept.F = F;
     kept.from = from;
     kept.columns = columns;
+    kept.is_subset = 1;
     status = sli_kept_room(&kept, G, &room);
   }
   if (status == SL_OK) {

@@ -60,6 +60,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         kept.F = F;
         kept.from = from;
         kept.columns = columns;
+        kept.is_subset = 1;
         status = sli_kept_room(&kept, G, &room);
     }
     if (status == SL_OK) {

@@ -11,6 +11,7 @@ typedef struct sli_kept {
     const sl_factor *F;    /* the factor that has the numbers */
     const sl_int *from;    /* n_supers: its supernode, or -1 */
     const sl_int *columns; /* n: its column of L, or -1 */
+    int is_subset;         /* the columns ascend: as many rows below as in F are the same ones */
     /* all its pivots have one sign, so that magnitudes are on the diagonals of update matrices */
     int has_one_sign;
     /* a piece a worker */
@@ -80,8 +81,9 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
     const double *from = (const double *)F->values + step->panel;
     double *panel = (double *)G->values + own->panel;
     int is_whole = own->below == step->below;
+    const sl_int searched = is_whole && p->is_subset ? 0 : own->below;
     sl_int k, m;
-    for (k = 0, m = 0; k < own->below; k++, m++) {
+    for (k = 0, m = 0; k < searched; k++, m++) {
         const sl_int row = p->columns[G->S->rows[G->S->rows_begin[s] + k]];
         if (m >= step->below || rows[m] != row) {
             m = sli_lower_bound(rows, step->below, row);
