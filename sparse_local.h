@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: dd7ac47595c9a5ea
+ * FNV-1a of the lines after this comment, without the license: eee93e87141bbf89
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -80,12 +80,12 @@
  * (last: undefine every internal macro)
  *  29750 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30010 front.inl.h  30012 product.inl.h  30507 words_undef.inl.h  30589 multi_rhs.inl.h
- *  30616 multi_rhs_small.inl.h  30784 multi_rhs_tiles.inl.h  31093 complex_groups.inl.h
- *  31325 sweeps.inl.h  31327 unit_triangle.inl.h  31364 two_rhs.inl.h  31533 small_supernode.inl.h
- *  31712 single_rhs.inl.h  31956 kernel_set.inl.h  31958 complex_small.inl.h
- *  32122 complex_rows.inl.h  32354 inverse_front.inl.h  32639 row.inl.h  32669 change.inl.h
- *  32733 interleave.inl.h
+ *  30010 front.inl.h  30012 product.inl.h  30511 words_undef.inl.h  30593 multi_rhs.inl.h
+ *  30620 multi_rhs_small.inl.h  30788 multi_rhs_tiles.inl.h  31097 complex_groups.inl.h
+ *  31329 sweeps.inl.h  31331 unit_triangle.inl.h  31368 two_rhs.inl.h  31537 small_supernode.inl.h
+ *  31716 single_rhs.inl.h  31960 kernel_set.inl.h  31962 complex_small.inl.h
+ *  32126 complex_rows.inl.h  32358 inverse_front.inl.h  32643 row.inl.h  32673 change.inl.h
+ *  32737 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -30233,8 +30233,10 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #if SLV_COMPLEX
 #define SLI_DECLARE_TURNED(k, unused) SLV_DECLARE(e##k)
+#define SLI_CLEAR_TURNED(k, unused) SLV_ZERO(e##k)
 #else
 #define SLI_DECLARE_TURNED(k, unused)
+#define SLI_CLEAR_TURNED(k, unused)
 #endif
 #define SLI_LOAD(k, p) \
   if (SLI_IS_IN(k, columns)) { \
@@ -30367,6 +30369,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
     SLV_DECLARE(m)
     SLI_EACH(SLI_DECLARE, 0)
     SLI_EACH(SLI_DECLARE_TURNED, 0)
+    SLI_EACH(SLI_CLEAR_TURNED, 0)
     SLV_LOAD_TILES(m, sums, second_sums)
     SLI_EACH(SLI_LOAD, p)
     SLI_EACH(SLI_SOLVE, 0)
@@ -30390,6 +30393,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_TURN
 #undef SLI_TAKE_PIVOT
 #undef SLI_DECLARE_TURNED
+#undef SLI_CLEAR_TURNED
 #undef SLI_EACH
 #undef SLI_EACH_AGAIN
 

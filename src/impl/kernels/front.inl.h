@@ -32,8 +32,10 @@
 #define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
 #if SLV_COMPLEX
 #define SLI_DECLARE_TURNED(k, unused) SLV_DECLARE(e##k)
+#define SLI_CLEAR_TURNED(k, unused) SLV_ZERO(e##k) /* gcc does not see that it is set */
 #else
 #define SLI_DECLARE_TURNED(k, unused)
+#define SLI_CLEAR_TURNED(k, unused)
 #endif
 #define SLI_LOAD(k, p) \
     if (SLI_IS_IN(k, columns)) { \
@@ -174,6 +176,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
         SLV_DECLARE(m)
         SLI_EACH(SLI_DECLARE, 0)
         SLI_EACH(SLI_DECLARE_TURNED, 0)
+        SLI_EACH(SLI_CLEAR_TURNED, 0)
         SLV_LOAD_TILES(m, sums, second_sums)
         SLI_EACH(SLI_LOAD, p)
         SLI_EACH(SLI_SOLVE, 0)
@@ -197,6 +200,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_TURN
 #undef SLI_TAKE_PIVOT
 #undef SLI_DECLARE_TURNED
+#undef SLI_CLEAR_TURNED
 #undef SLI_EACH
 #undef SLI_EACH_AGAIN
 
