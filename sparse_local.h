@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: eee93e87141bbf89
+ * FNV-1a of the lines after this comment, without the license: 7d239d467129b701
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,57 +35,57 @@
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4182 panel.h   4208 step.h   4282 pivot_rule.h   4356 front.h   4416 pairs.h
  *   4623 inverse_front.h   4695 table.h   4723 simd.h   4818 simd_scalar_single.h
- *   4864 simd_scalar.h   4992 simd_avx2_single.h   5046 simd_avx2.h   5264 simd_avx512_single.h
- *   5319 simd_avx512.h   5484 simd_neon_single.h   5526 simd_neon.h   5740 dispatch.h
+ *   4864 simd_scalar.h   4995 simd_avx2_single.h   5049 simd_avx2.h   5293 simd_avx512_single.h
+ *   5348 simd_avx512.h   5520 simd_neon_single.h   5562 simd_neon.h   5802 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5820 csc.h   5953 csc_build.h   6087 csc64.h   6158 csc_triangle.h   6224 csc_products.h
- *   6341 permute.h   6407 sum.h   6489 output_file.h   6698 matrix_market.h
+ *   5882 csc.h   6015 csc_build.h   6149 csc64.h   6220 csc_triangle.h   6286 csc_products.h
+ *   6403 permute.h   6469 sum.h   6551 output_file.h   6760 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7144 graph.h   7286 contract.h   7540 coarsen.h   7703 labels.h   7924 subgraph.h   8119 heap.h
- *   8179 bisect.h   8406 separator.h   8668 mindeg.h   8851 dissect.h   9175 tree_cost.h
- *   9227 levelset.h   9333 geometric.h   9508 cells.h   9688 septree.h   9764 metis.h
- *   9913 metis_refined.h  10027 nd.h  10227 compress.h  10348 peel.h  10526 quotient.h
- *  10939 order.h
+ *   7206 graph.h   7348 contract.h   7602 coarsen.h   7765 labels.h   7986 subgraph.h   8181 heap.h
+ *   8241 bisect.h   8468 separator.h   8730 mindeg.h   8913 dissect.h   9237 tree_cost.h
+ *   9289 levelset.h   9395 geometric.h   9570 cells.h   9750 septree.h   9826 metis.h
+ *   9975 metis_refined.h  10089 nd.h  10289 compress.h  10410 peel.h  10588 quotient.h
+ *  11001 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11290 symbolic_types.h  11327 etree.h  11400 counts.h  11457 supernodes.h  11679 structure.h
- *  11800 schedule.h  12080 symbolic.h  12521 reach.h
+ *  11352 symbolic_types.h  11389 etree.h  11462 counts.h  11519 supernodes.h  11741 structure.h
+ *  11862 schedule.h  12142 symbolic.h  12583 reach.h
  * (factor: the numbers of L and D)
- *  12792 factor_types.h  13203 storage.h  13343 pivot_search.h  13689 pivoted.h  13757 scatter.h
- *  13915 uplooking.h  13987 null_product.h  14191 null_dense.h  14268 null_basis.h
- *  14576 null_vectors.h  14718 multifrontal.h  14908 gather.h  14956 kept.h  15125 front_tasks.h
- *  15468 nullspace.h  15671 growth.h  15747 factor_setup.h  16069 factor.h  16279 leftlooking.h
- *  16425 factor_query.h  16560 combination.h
+ *  12854 factor_types.h  13265 storage.h  13405 pivot_search.h  13751 pivoted.h  13819 scatter.h
+ *  13977 uplooking.h  14049 null_product.h  14253 null_dense.h  14330 null_basis.h
+ *  14638 null_vectors.h  14780 multifrontal.h  14970 gather.h  15018 kept.h  15187 front_tasks.h
+ *  15530 nullspace.h  15733 growth.h  15809 factor_setup.h  16131 factor.h  16341 leftlooking.h
+ *  16487 factor_query.h  16622 combination.h
  * (solve: full and local solves)
- *  16621 region_types.h  16725 work.h  16825 query.h  17033 singular.h  17303 backward.h
- *  17333 sweep_tasks.h  17663 sweep.h  17874 compile.h  18067 plan.h  18174 local.h  18326 parts.h
- *  18615 refine.h  18794 refine_local.h  19010 rcond.h  19169 defects.h
+ *  16683 region_types.h  16787 work.h  16887 query.h  17095 singular.h  17365 backward.h
+ *  17395 sweep_tasks.h  17725 sweep.h  17936 compile.h  18129 plan.h  18236 local.h  18388 parts.h
+ *  18677 refine.h  18856 refine_local.h  19072 rcond.h  19231 defects.h
  * (inverse: entries of the inverse, regions)
- *  19247 traversal.h  19496 traversal_run.h  19689 row_sets.h  19716 unit_vectors.h
- *  19943 bilinear.h  20120 entries.h  20402 block.h  20642 reserve.h  20834 selected.h
- *  21044 selected_query.h  21146 region_choose.h  21373 region.h
+ *  19309 traversal.h  19558 traversal_run.h  19751 row_sets.h  19778 unit_vectors.h
+ *  20005 bilinear.h  20182 entries.h  20464 block.h  20704 reserve.h  20896 selected.h
+ *  21106 selected_query.h  21208 region_choose.h  21435 region.h
  * (change: a factor that follows changes of its matrix)
- *  21621 update.h  21971 rank.h  22309 edges.h  22463 choose.h  22661 pins_types.h
- *  22739 pins_nulls.h  22917 pins_capacitance.h  23168 pins_held.h  23379 pins_choose.h
- *  23449 pins_rebuild.h  23664 pins_matrix.h  23815 pins.h  24075 pins_solve.h  24405 subset.h
- *  24518 restrict_analysis.h  24847 restrict_symbolic.h  25028 restrict.h  25245 edit_match.h
- *  25444 edit_place.h  25693 edit_separate.h  26006 edit_order.h  26161 edit_graph.h
- *  26256 edit_join.h  26532 edit.h  26695 edit_factor.h
+ *  21683 update.h  22033 rank.h  22371 edges.h  22525 choose.h  22723 pins_types.h
+ *  22801 pins_nulls.h  22979 pins_capacitance.h  23230 pins_held.h  23441 pins_choose.h
+ *  23511 pins_rebuild.h  23726 pins_matrix.h  23877 pins.h  24137 pins_solve.h  24467 subset.h
+ *  24580 restrict_analysis.h  24909 restrict_symbolic.h  25090 restrict.h  25307 edit_match.h
+ *  25506 edit_place.h  25755 edit_separate.h  26068 edit_order.h  26223 edit_graph.h
+ *  26318 edit_join.h  26594 edit.h  26757 edit_factor.h
  * (save: factors in files)
- *  26994 format.h  27290 decode.h  27438 check.h  27768 write.h  28073 load.h  28341 load_inverse.h
- *  28671 load_calls.h
+ *  27056 format.h  27352 decode.h  27500 check.h  27830 write.h  28135 load.h  28403 load_inverse.h
+ *  28733 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28870 batch_solve.h  29079 batch_factor.h  29280 batch_diagonal.h
+ *  28932 batch_solve.h  29141 batch_factor.h  29342 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29420 hermitian.h  29582 complex_rows.h
+ *  29482 hermitian.h  29644 complex_rows.h
  * (last: undefine every internal macro)
- *  29750 undef.h
+ *  29812 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30010 front.inl.h  30012 product.inl.h  30511 words_undef.inl.h  30593 multi_rhs.inl.h
- *  30620 multi_rhs_small.inl.h  30788 multi_rhs_tiles.inl.h  31097 complex_groups.inl.h
- *  31329 sweeps.inl.h  31331 unit_triangle.inl.h  31368 two_rhs.inl.h  31537 small_supernode.inl.h
- *  31716 single_rhs.inl.h  31960 kernel_set.inl.h  31962 complex_small.inl.h
- *  32126 complex_rows.inl.h  32358 inverse_front.inl.h  32643 row.inl.h  32673 change.inl.h
- *  32737 interleave.inl.h
+ *  30072 front.inl.h  30074 product.inl.h  30573 words_undef.inl.h  30656 multi_rhs.inl.h
+ *  30683 multi_rhs_small.inl.h  30851 multi_rhs_tiles.inl.h  30884 copy_rows.inl.h
+ *  31161 complex_groups.inl.h  31411 sweeps.inl.h  31413 unit_triangle.inl.h  31450 two_rhs.inl.h
+ *  31619 small_supernode.inl.h  31798 single_rhs.inl.h  32042 kernel_set.inl.h
+ *  32044 complex_small.inl.h  32208 complex_rows.inl.h  32421 inverse_front.inl.h  32706 row.inl.h
+ *  32736 change.inl.h  32800 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4956,16 +4956,19 @@ typedef struct sli_kernels {
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLW_NAME(f) sli_##f##2_scalar
+#define SLW_NRHS 2
+#define SLW_LANES_4
+#define SLW_LANES_8
+#define SLW_LANES_16
+#define SLI_SECTION_COMPLEX_GROUPS
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_NRHS 4
-#define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_scalar
@@ -5212,6 +5215,32 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
+#define SLW_LANES_4
+#define SLW_LANES_8
+#define SLW_LANES_16
+#define SLI_SECTION_COMPLEX_GROUPS
+#include SL_HEADER
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+#define SLW_NAME(f) sli_##f##2_avx2
+#define SLW_NRHS 2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 #undef SLW_ROWS
@@ -5323,6 +5352,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 
 #define SLV_NAME(f) sli_##f##_avx512
 #define SLV_NAME_4(f) sli_##f##4_avx2
+#define SLV_NAME_2(f) sli_##f##2_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
@@ -5429,6 +5459,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
+#define SLW_LANES_8
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 #undef SLW_ROWS
@@ -5461,6 +5492,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLW_NAME(f) sli_##f##16_avx512
+#define SLW_NRHS 16
+#define SLW_LANES_16
+#define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 #undef SLW_TAKES_FLOATS
 #undef SLV_SPREAD_0
@@ -5681,6 +5717,32 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
+#define SLW_LANES_4
+#define SLW_LANES_8
+#define SLW_LANES_16
+#define SLI_SECTION_COMPLEX_GROUPS
+#include SL_HEADER
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+#define SLW_NAME(f) sli_##f##2_neon
+#define SLW_NRHS 2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) float64x2_t a;
+#define SLW_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p) a = vld1q_f64(p);
+#define SLW_STORE(p, a) vst1q_f64((p), a);
+#define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
+#define SLW_ADD(a, b) a = vaddq_f64(a, b);
+#define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
 #undef SLW_ROWS
@@ -30517,6 +30579,7 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 
 #undef SLV_NAME
 #undef SLV_NAME_4
+#undef SLV_NAME_2
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
@@ -30818,6 +30881,8 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 #endif
 
 #if !SLV_SINGLE
+/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
+
 SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
                          const sl_int *rows, const double *own,
                          const double *x, sl_int stride) {
@@ -30841,12 +30906,11 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   SLW_DECLARE(b)
   for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
     SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride
-              : x + (ptrdiff_t)rows[r - inner] * stride,
+    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
           b)
   }
 }
-
+/* end of copy_rows.inl.h */
 #endif
 
 SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
@@ -31094,7 +31158,7 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
      SL_VERSION_PATCH != 0
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
-/* src/impl/kernels/complex_groups.inl.h: sweeps over L of a complex matrix for 4 or more right-hand sides */
+/* src/impl/kernels/complex_groups.inl.h: sweeps over L of a complex matrix for 2 or more right-hand sides */
 
 #if SLW_ROWS == 8
 #define SLI_EACH SLI_EACH8
@@ -31152,12 +31216,16 @@ SLV_FUNCTION static void SLW_NAME(complex_group_forward)(sl_int count, const sli
                              const sl_int *rows, const void *values,
                              double *x, double *buf, sl_int stride) {
   const double *L = (const double *)values, one = 1.0;
+  const int is_fetched = stride >= 8 && sli_steps_exceed_cache(count, s, stride);
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
     sl_int group, j;
+    if (is_fetched && count > SLI_STEPS_AHEAD) {
+      sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
+    }
     for (row = first; row < height; row += SLW_ROWS) {
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -31210,6 +31278,7 @@ SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sl
                               const void *values, const double *D,
                               double *x, double *buf, sl_int stride) {
   const double *L = (const double *)values, one = 1.0;
+  const int is_fetched = stride >= 8 && sli_steps_exceed_cache(count, s, stride);
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
@@ -31222,6 +31291,9 @@ SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sl
     SLW_DECLARE(e)
     SLW_DECLARE(n)
     rows_end -= s->below;
+    if (is_fetched && count > SLI_STEPS_AHEAD) {
+      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+    }
     for (i = first; i < w; i++) {
       for (group = 0; group < stride; group += SLW_NRHS) {
         SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
@@ -31290,12 +31362,19 @@ SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sl
     const double *D, double *x, double *buf) { \
     SLW_NAME(complex_group_backward)(count, s, rows_end, values, D, x, buf, lanes); \
   }
-#if SLW_NRHS == 4
+#if SLW_NRHS == 2
+SLI_GROUP_KERNELS(2)
+#endif
+#if defined(SLW_LANES_4)
 SLI_GROUP_KERNELS(4)
 #endif
+#if defined(SLW_LANES_8)
 SLI_GROUP_KERNELS(8)
+#endif
+#if defined(SLW_LANES_16)
 SLI_GROUP_KERNELS(16)
 SLI_GROUP_KERNELS(32)
+#endif
 
 #undef SLI_EACH
 #undef SLI_PAIRS
@@ -31315,6 +31394,9 @@ SLI_GROUP_KERNELS(32)
 #undef SLI_BEFORE
 #undef SLI_ROW
 #undef SLI_GROUP_KERNELS
+#undef SLW_LANES_4
+#undef SLW_LANES_8
+#undef SLW_LANES_16
 #undef SLW_NAME
 #undef SLW_NRHS
 #endif
@@ -32132,7 +32214,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int b
 #define SLI_SMALL 0
 #endif
 #define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_ROW_AT(k) rows[at + (k)] * lanes
+#define SLI_ROW_AT(k) rows[at + (k)]
 
 #define SLI_INSIDE(k) \
   if ((k) < inner) { \
@@ -32145,15 +32227,16 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int b
     SLV_ADD(a0, b0) \
   }
 
-SLV_FUNCTION SLI_NOINLINE static void
-SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const double *L, double *x,
-                 const ptrdiff_t lanes, double *buf) {
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_step *s,
+                                   const sl_int *rows,
+                                   const double *L, double *x,
+                                   double *buf) {
   const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
   const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
-  double *xs = x + s->base * lanes;
+  double *xs = x + s->base;
   sl_int row, i, j;
   for (i = first; i < w; i++) {
-    buf[i] = xs[(i - first) * lanes];
+    buf[i] = xs[i - first];
   }
   for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
     buf[i] = 0.0;
@@ -32200,10 +32283,10 @@ SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const doub
     tile += SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
   }
   for (i = first; i < w; i++) {
-    xs[(i - first) * lanes] = buf[i];
+    xs[i - first] = buf[i];
   }
   for (i = 0; i < s->below; i++) {
-    x[rows[i] * lanes] += buf[w + i];
+    x[rows[i]] += buf[w + i];
   }
 }
 
@@ -32236,8 +32319,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
   }
 SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
                             const double *sums, const double *d,
-                            double *xs, const ptrdiff_t lanes,
-                            double *buf) {
+                            double *xs, double *buf) {
   double r[SLI_TILE], b[SLI_TILE];
   sl_int k;
   SLV_DECLARE(v)
@@ -32245,7 +32327,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
   SLI_EACH8(SLI_DECLARE, a)
   SLI_EACH8(SLI_TAKE_SUM, 0)
   for (k = 0; k < inner; k++) {
-    b[k] = xs[k * lanes];
+    b[k] = xs[k];
   }
   SLV_LOAD_PART(z, b, inner, 0.0)
   SLV_LOAD_PART(v, d, inner, 1.0)
@@ -32255,17 +32337,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
   SLV_STORE_ANY(r, v)
   SLV_NAME(complex_triangle)(inner, l, r);
   for (k = 0; k < inner; k++) {
-    xs[k * lanes] = buf[k] = r[k];
+    xs[k] = buf[k] = r[k];
   }
 }
 
 SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
-                const double *D, double *x, const ptrdiff_t lanes, double *buf) {
+                const double *D, double *x, double *buf) {
   const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
   const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
   const double *d = D + s->column - first;
-  double *xs = x + (s->base - first) * lanes, *sums = buf + SLI_TILE;
+  double *xs = x + (s->base - first), *sums = buf + SLI_TILE;
   sl_int row, j;
   SLV_DECLARE(v)
   SLV_SUM_DECLARE(a)
@@ -32283,7 +32365,7 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
     } else {
       for (j = 0; j < SLI_TILE; j++) {
         const int is_below = j >= inner && j < inner + part;
-        buf[j] = is_below ? x[rows[at + j - inner] * lanes] : 0.0;
+        buf[j] = is_below ? x[rows[at + j - inner]] : 0.0;
       }
     }
     if (inner > 0) {
@@ -32292,7 +32374,7 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
       }
       SLV_NAME(complex_diagonal)
       (tile + SLI_HALF * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
-       xs + row * lanes, lanes, buf);
+       xs + row, buf);
     }
     SLV_NAME(complex_dots)(tile, buf, first, final, sums);
   }
@@ -32307,7 +32389,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
       SLV_NAME(complex_forward_small)
       (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
     } else {
-      SLV_NAME(complex_forward_step)(s, rows, L, x, 1, buf);
+      SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
     }
     rows += s->below;
   }
@@ -32324,27 +32406,8 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
       SLV_NAME(complex_backward_small)
       (s->width, s->below, rows, end, D + s->column, x + s->base, x);
     } else {
-      SLV_NAME(complex_backward_step)(s, rows, L, D, x, 1, buf);
+      SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
     }
-  }
-}
-
-SLV_FUNCTION static void SLV_NAME(complex_forward2)(sl_int count, const sli_step *s,
-                          const sl_int *rows, const void *L, double *x,
-                          double *buf) {
-  for (; count > 0; count--, s++) {
-    SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x, 2, buf);
-    SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + 1, 2, buf);
-    rows += s->below;
-  }
-}
-SLV_FUNCTION static void SLV_NAME(complex_backward2)(sl_int count, const sli_step *s,
-                           const sl_int *rows, const void *L,
-                           const double *D, double *x, double *buf) {
-  for (s += count; count > 0; count--) {
-    rows -= (--s)->below;
-    SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x, 2, buf);
-    SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + 1, 2, buf);
   }
 }
 
@@ -32813,6 +32876,10 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 #define SLV_NAME_4(f) SLV_NAME(f##4)
 #endif
 
+#if !defined(SLV_NAME_2)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#endif
+
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
   {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
@@ -32823,9 +32890,9 @@ static const sli_kernels SLV_NAME(kernels) = {
      SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
     {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
      SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
-   {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME_4(complex_forward),
+   {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
      SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32)},
-    {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME_4(complex_backward),
+    {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
      SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32)}}},
   SLV_NAME(row),
   {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
@@ -32841,6 +32908,44 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(takahashi),
   {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
   SLV_NAME(change_tiles)};
+#endif
+
+#ifdef SLI_SECTION_COPY_ROWS
+#undef SLI_SECTION_COPY_ROWS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                         const sl_int *rows, const double *own,
+                         const double *x, sl_int stride) {
+  sl_int r;
+  SLW_DECLARE(b)
+  for (r = 0; r < SLW_ROWS; r++) {
+    if (r < inner + below) {
+      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
+                  : x + (ptrdiff_t)rows[r - inner] * stride)
+    } else {
+      SLW_ZERO(b)
+    }
+    SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                        const sl_int *rows, double *own, double *x,
+                        sl_int stride) {
+  sl_int r;
+  SLW_DECLARE(b)
+  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+    SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
+    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
+          b)
+  }
+}
 #endif
 
 /*

@@ -178,7 +178,10 @@ static void solves_are_exact_and_local(void **state) {
 static void check_other_calls(const pair_t *y, sl_isa isa) {
     const size_t n = (size_t)y->n;
     double *B = test_reals(2 * n), *X[2], *diagonal[2], logdet[2], sign[2], block[2][8], rcond[2];
-    const sl_int rows[2] = {0, y->n / 2 - 1};
+    double pairs[2][4];
+    const sl_int rows[2] = {0, y->n / 2 - 1}, columns[2] = {y->n / 2 - 1, 0};
+    sl_stats stats[2];
+    memset(stats, 0, sizeof stats);
     (void)isa;
     gen_reals(B, 2 * n, 9);
     for (int k = 0; k < 2 && n > 0; k++) {
@@ -191,6 +194,8 @@ static void check_other_calls(const pair_t *y, sl_isa isa) {
                                          NULL));
         SL_CHECK(sl_complex_logdet(y->F[k], &logdet[k], &sign[k]));
         SL_CHECK(sl_complex_inverse_block(y->F[k], block[k], 2, rows, 2, rows, 2, NULL, NULL));
+        SL_CHECK(sl_complex_inverse_pairs(y->F[k], pairs[k], rows, columns, 2, NULL, NULL));
+        sl_factor_stats(y->F[k], &stats[k]);
         SL_CHECK(sl_selected_create(&Z, y->F[k], NULL, 0, NULL, NULL));
         SL_CHECK(sl_selected_diagonal(Z, diagonal[k], NULL, y->n, NULL));
         SL_CHECK(sl_factor_rcond(y->F[k], &y->A, &rcond[k], NULL));
@@ -211,8 +216,12 @@ static void check_other_calls(const pair_t *y, sl_isa isa) {
         }
         for (int i = 0; i < 8; i++) {
             assert_true(fabs(block[0][i] - block[1][i]) <= 1e-11 * entry);
+            assert_true(fabs(pairs[0][i % 4] - pairs[1][i % 4]) <= 1e-11 * entry);
         }
         assert_true(fabs(logdet[0] - logdet[1]) <= 1e-12 * (double)n && sign[0] == sign[1]);
+        assert_int_equal(stats[0].factor.positive, stats[1].factor.positive);
+        assert_int_equal(stats[0].factor.negative, stats[1].factor.negative);
+        assert_true(stats[1].factor.positive + stats[1].factor.negative == y->n);
         assert_true(fabs(rcond[0] - rcond[1]) <= 0.1 * rcond[0]); /* ties of the estimator */
         for (int k = 0; k < 2; k++) {
             free(X[k]);

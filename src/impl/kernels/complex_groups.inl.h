@@ -1,8 +1,11 @@
-/* complex_groups.inl.h: sweeps over L of a complex matrix for 4 or more right-hand sides */
+/* complex_groups.inl.h: sweeps over L of a complex matrix for 2 or more right-hand sides */
 
 /* As multi_rhs.inl.h with SLW_GROUPS, with the storage of complex_rows.inl.h. A row of x has
  * `stride` right-hand sides, any multiple of SLW_NRHS. Each entry of L is applied to the real and
- * to the imaginary parts of a group: two multiplications for each number that is read. */
+ * to the imaginary parts of a group: two multiplications for each number that is read.
+ *
+ * The file that includes this says for how many right-hand sides it is the best: 2 with SLW_NRHS 2,
+ * and SLW_LANES_4, SLW_LANES_8, SLW_LANES_16, which stands for 32 too. */
 #if SLW_ROWS == 8
 #define SLI_EACH SLI_EACH8
 #define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
@@ -63,12 +66,16 @@ SLV_FUNCTION static void SLW_NAME(complex_group_forward)(sl_int count, const sli
                                                          const sl_int *rows, const void *values,
                                                          double *x, double *buf, sl_int stride) {
     const double *L = (const double *)values, one = 1.0;
+    const int is_fetched = stride >= 8 && sli_steps_exceed_cache(count, s, stride);
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
         double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
         sl_int group, j;
+        if (is_fetched && count > SLI_STEPS_AHEAD) {
+            sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
+        }
         for (row = first; row < height; row += SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
@@ -121,6 +128,7 @@ SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sl
                                                           const void *values, const double *D,
                                                           double *x, double *buf, sl_int stride) {
     const double *L = (const double *)values, one = 1.0;
+    const int is_fetched = stride >= 8 && sli_steps_exceed_cache(count, s, stride);
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
@@ -133,6 +141,9 @@ SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sl
         SLW_DECLARE(e)
         SLW_DECLARE(n)
         rows_end -= s->below;
+        if (is_fetched && count > SLI_STEPS_AHEAD) {
+            sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+        }
         for (i = first; i < w; i++) {
             for (group = 0; group < stride; group += SLW_NRHS) {
                 SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
@@ -202,12 +213,19 @@ SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sl
         const double *D, double *x, double *buf) { \
         SLW_NAME(complex_group_backward)(count, s, rows_end, values, D, x, buf, lanes); \
     }
-#if SLW_NRHS == 4
+#if SLW_NRHS == 2
+SLI_GROUP_KERNELS(2)
+#endif
+#if defined(SLW_LANES_4)
 SLI_GROUP_KERNELS(4)
 #endif
+#if defined(SLW_LANES_8)
 SLI_GROUP_KERNELS(8)
+#endif
+#if defined(SLW_LANES_16)
 SLI_GROUP_KERNELS(16)
 SLI_GROUP_KERNELS(32)
+#endif
 
 #undef SLI_EACH
 #undef SLI_PAIRS
@@ -227,5 +245,8 @@ SLI_GROUP_KERNELS(32)
 #undef SLI_BEFORE
 #undef SLI_ROW
 #undef SLI_GROUP_KERNELS
+#undef SLW_LANES_4
+#undef SLW_LANES_8
+#undef SLW_LANES_16
 #undef SLW_NAME
 #undef SLW_NRHS

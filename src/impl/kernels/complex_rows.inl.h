@@ -3,8 +3,7 @@
 
 /* Rows and columns come in pairs, the real and the imaginary part of a complex one. The second
  * column of a pair is i times the first: what it contributes is summed as if it were the first one,
- * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. Two right-hand
- * sides, `lanes` apart, are swept one by one; a step's panel stays in the cache meanwhile. */
+ * and turned once for each row tile. L(rows, j) is at 8 (j / 2) of a tile, j even. */
 #define SLI_HALF (SLI_TILE / 2)
 #if defined(SLV_PAIR)
 #define SLI_SMALL 1
@@ -12,7 +11,7 @@
 #define SLI_SMALL 0
 #endif
 #define SLI_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
-#define SLI_ROW_AT(k) rows[at + (k)] * lanes
+#define SLI_ROW_AT(k) rows[at + (k)]
 
 /* A pair of columns inside a tile, whose rows are a. L is stored as 0 on and above its diagonal. */
 #define SLI_INSIDE(k) \
@@ -26,15 +25,16 @@
         SLV_ADD(a0, b0) \
     }
 
-SLV_FUNCTION SLI_NOINLINE static void
-SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const double *L, double *x,
-                               const ptrdiff_t lanes, double *buf) {
+SLV_FUNCTION SLI_NOINLINE static void SLV_NAME(complex_forward_step)(const sli_step *s,
+                                                                     const sl_int *rows,
+                                                                     const double *L, double *x,
+                                                                     double *buf) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
-    double *xs = x + s->base * lanes;
+    double *xs = x + s->base;
     sl_int row, i, j;
     for (i = first; i < w; i++) {
-        buf[i] = xs[(i - first) * lanes];
+        buf[i] = xs[i - first];
     }
     for (i = w; i < SLI_TILE * sli_tiles(height); i++) {
         buf[i] = 0.0;
@@ -81,10 +81,10 @@ SLV_NAME(complex_forward_step)(const sli_step *s, const sl_int *rows, const doub
         tile += SLI_HALF * (ptrdiff_t)sli_min(w, row + SLI_TILE);
     }
     for (i = first; i < w; i++) {
-        xs[(i - first) * lanes] = buf[i];
+        xs[i - first] = buf[i];
     }
     for (i = 0; i < s->below; i++) {
-        x[rows[i] * lanes] += buf[w + i];
+        x[rows[i]] += buf[w + i];
     }
 }
 
@@ -121,8 +121,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
     }
 SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int inner,
                                                         const double *sums, const double *d,
-                                                        double *xs, const ptrdiff_t lanes,
-                                                        double *buf) {
+                                                        double *xs, double *buf) {
     double r[SLI_TILE], b[SLI_TILE];
     sl_int k;
     SLV_DECLARE(v)
@@ -130,7 +129,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
     SLI_EACH8(SLI_DECLARE, a)
     SLI_EACH8(SLI_TAKE_SUM, 0)
     for (k = 0; k < inner; k++) {
-        b[k] = xs[k * lanes];
+        b[k] = xs[k];
     }
     SLV_LOAD_PART(z, b, inner, 0.0)
     SLV_LOAD_PART(v, d, inner, 1.0)
@@ -140,18 +139,18 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
     SLV_STORE_ANY(r, v)
     SLV_NAME(complex_triangle)(inner, l, r);
     for (k = 0; k < inner; k++) {
-        xs[k * lanes] = buf[k] = r[k];
+        xs[k] = buf[k] = r[k];
     }
 }
 
 /* buf: the rows of a tile, then the sums. */
 SLV_FUNCTION SLI_NOINLINE static void
 SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const double *L,
-                                const double *D, double *x, const ptrdiff_t lanes, double *buf) {
+                                const double *D, double *x, double *buf) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
     const double *d = D + s->column - first;
-    double *xs = x + (s->base - first) * lanes, *sums = buf + SLI_TILE;
+    double *xs = x + (s->base - first), *sums = buf + SLI_TILE;
     sl_int row, j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
@@ -169,7 +168,7 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
         } else {
             for (j = 0; j < SLI_TILE; j++) {
                 const int is_below = j >= inner && j < inner + part;
-                buf[j] = is_below ? x[rows[at + j - inner] * lanes] : 0.0;
+                buf[j] = is_below ? x[rows[at + j - inner]] : 0.0;
             }
         }
         if (inner > 0) {
@@ -178,7 +177,7 @@ SLV_NAME(complex_backward_step)(const sli_step *s, const sl_int *rows, const dou
             }
             SLV_NAME(complex_diagonal)
             (tile + SLI_HALF * (ptrdiff_t)row, inner, sums + SLI_TILE * (ptrdiff_t)row, d + row,
-             xs + row * lanes, lanes, buf);
+             xs + row, buf);
         }
         SLV_NAME(complex_dots)(tile, buf, first, final, sums);
     }
@@ -193,7 +192,7 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
             SLV_NAME(complex_forward_small)
             (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
         } else {
-            SLV_NAME(complex_forward_step)(s, rows, L, x, 1, buf);
+            SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
         }
         rows += s->below;
     }
@@ -210,28 +209,8 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
             SLV_NAME(complex_backward_small)
             (s->width, s->below, rows, end, D + s->column, x + s->base, x);
         } else {
-            SLV_NAME(complex_backward_step)(s, rows, L, D, x, 1, buf);
+            SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
         }
-    }
-}
-
-/* Two right-hand sides */
-SLV_FUNCTION static void SLV_NAME(complex_forward2)(sl_int count, const sli_step *s,
-                                                    const sl_int *rows, const void *L, double *x,
-                                                    double *buf) {
-    for (; count > 0; count--, s++) {
-        SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x, 2, buf);
-        SLV_NAME(complex_forward_step)(s, rows, (const double *)L, x + 1, 2, buf);
-        rows += s->below;
-    }
-}
-SLV_FUNCTION static void SLV_NAME(complex_backward2)(sl_int count, const sli_step *s,
-                                                     const sl_int *rows, const void *L,
-                                                     const double *D, double *x, double *buf) {
-    for (s += count; count > 0; count--) {
-        rows -= (--s)->below;
-        SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x, 2, buf);
-        SLV_NAME(complex_backward_step)(s, rows, (const double *)L, D, x + 1, 2, buf);
     }
 }
 

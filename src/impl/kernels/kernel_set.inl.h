@@ -11,6 +11,10 @@
 #define SLV_NAME_4(f) SLV_NAME(f##4)
 #endif
 
+#if !defined(SLV_NAME_2)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#endif
+
 static const sli_kernels SLV_NAME(kernels) = {
     SLV_ISA,
     {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
@@ -21,9 +25,9 @@ static const sli_kernels SLV_NAME(kernels) = {
        SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
       {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
        SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
-     {{SLV_NAME(complex_forward), SLV_NAME(complex_forward2), SLV_NAME_4(complex_forward),
+     {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
        SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32)},
-      {SLV_NAME(complex_backward), SLV_NAME(complex_backward2), SLV_NAME_4(complex_backward),
+      {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
        SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32)}}},
     SLV_NAME(row),
     {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},

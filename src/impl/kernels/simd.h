@@ -12,6 +12,7 @@
  *
  *  SLV_NAME(f)            name of function f in this instruction set
  *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
+ *  SLV_NAME_2(f)          the same of a complex sweep for 2 right-hand sides
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a

@@ -181,6 +181,31 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
+#define SLW_LANES_4
+#define SLW_LANES_8
+#define SLW_LANES_16
+#include "complex_groups.inl.h"
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+/* 2 right-hand sides of complex matrices: half a register */
+#define SLW_NAME(f) sli_##f##2_avx2
+#define SLW_NRHS 2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#include "copy_rows.inl.h"
 #include "complex_groups.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE

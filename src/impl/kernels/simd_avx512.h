@@ -13,6 +13,7 @@
 #define SLV_NAME(f) sli_##f##_avx512
 /* 4 right-hand sides are one 256-bit register: AVX2's kernels do the same operations. */
 #define SLV_NAME_4(f) sli_##f##4_avx2
+#define SLV_NAME_2(f) sli_##f##2_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
@@ -123,6 +124,7 @@
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
+#define SLW_LANES_8
 #include "complex_groups.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE
@@ -155,6 +157,10 @@
     a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
+#define SLW_NAME(f) sli_##f##16_avx512
+#define SLW_NRHS 16
+#define SLW_LANES_16
+#include "complex_groups.inl.h"
 #undef SLW_TAKES_FLOATS
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1

@@ -162,6 +162,31 @@
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
+#define SLW_LANES_4
+#define SLW_LANES_8
+#define SLW_LANES_16
+#include "complex_groups.inl.h"
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
+
+/* 2 right-hand sides of complex matrices: one register */
+#define SLW_NAME(f) sli_##f##2_neon
+#define SLW_NRHS 2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) float64x2_t a;
+#define SLW_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p) a = vld1q_f64(p);
+#define SLW_STORE(p, a) vst1q_f64((p), a);
+#define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
+#define SLW_ADD(a, b) a = vaddq_f64(a, b);
+#define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
+#include "copy_rows.inl.h"
 #include "complex_groups.inl.h"
 #undef SLW_ROWS
 #undef SLW_DECLARE

@@ -98,14 +98,17 @@
 #define SLW_NRHS 2
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
+#define SLW_NAME(f) sli_##f##2_scalar
+#define SLW_NRHS 2
+#define SLW_LANES_4
+#define SLW_LANES_8
+#define SLW_LANES_16
+#include "complex_groups.inl.h"
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
-#define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_NRHS 4
-#include "complex_groups.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_GROUPS 32

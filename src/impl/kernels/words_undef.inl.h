@@ -7,6 +7,7 @@
 
 #undef SLV_NAME
 #undef SLV_NAME_4
+#undef SLV_NAME_2
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
