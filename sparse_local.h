@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7d239d467129b701
+ * FNV-1a of the lines after this comment, without the license: d3641851ea4feaae
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,57 +35,57 @@
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4182 panel.h   4208 step.h   4282 pivot_rule.h   4356 front.h   4416 pairs.h
  *   4623 inverse_front.h   4695 table.h   4723 simd.h   4818 simd_scalar_single.h
- *   4864 simd_scalar.h   4995 simd_avx2_single.h   5049 simd_avx2.h   5293 simd_avx512_single.h
- *   5348 simd_avx512.h   5520 simd_neon_single.h   5562 simd_neon.h   5802 dispatch.h
+ *   4864 simd_scalar.h   4995 simd_avx2_single.h   5049 simd_avx2.h   5295 simd_avx512_single.h
+ *   5350 simd_avx512.h   5524 simd_neon_single.h   5566 simd_neon.h   5806 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5882 csc.h   6015 csc_build.h   6149 csc64.h   6220 csc_triangle.h   6286 csc_products.h
- *   6403 permute.h   6469 sum.h   6551 output_file.h   6760 matrix_market.h
+ *   5886 csc.h   6019 csc_build.h   6153 csc64.h   6224 csc_triangle.h   6290 csc_products.h
+ *   6407 permute.h   6473 sum.h   6555 output_file.h   6764 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7206 graph.h   7348 contract.h   7602 coarsen.h   7765 labels.h   7986 subgraph.h   8181 heap.h
- *   8241 bisect.h   8468 separator.h   8730 mindeg.h   8913 dissect.h   9237 tree_cost.h
- *   9289 levelset.h   9395 geometric.h   9570 cells.h   9750 septree.h   9826 metis.h
- *   9975 metis_refined.h  10089 nd.h  10289 compress.h  10410 peel.h  10588 quotient.h
- *  11001 order.h
+ *   7210 graph.h   7352 contract.h   7606 coarsen.h   7769 labels.h   7990 subgraph.h   8185 heap.h
+ *   8245 bisect.h   8472 separator.h   8734 mindeg.h   8917 dissect.h   9241 tree_cost.h
+ *   9293 levelset.h   9399 geometric.h   9574 cells.h   9754 septree.h   9830 metis.h
+ *   9979 metis_refined.h  10093 nd.h  10293 compress.h  10414 peel.h  10592 quotient.h
+ *  11005 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11352 symbolic_types.h  11389 etree.h  11462 counts.h  11519 supernodes.h  11741 structure.h
- *  11862 schedule.h  12142 symbolic.h  12583 reach.h
+ *  11356 symbolic_types.h  11393 etree.h  11466 counts.h  11523 supernodes.h  11745 structure.h
+ *  11866 schedule.h  12146 symbolic.h  12587 reach.h
  * (factor: the numbers of L and D)
- *  12854 factor_types.h  13265 storage.h  13405 pivot_search.h  13751 pivoted.h  13819 scatter.h
- *  13977 uplooking.h  14049 null_product.h  14253 null_dense.h  14330 null_basis.h
- *  14638 null_vectors.h  14780 multifrontal.h  14970 gather.h  15018 kept.h  15187 front_tasks.h
- *  15530 nullspace.h  15733 growth.h  15809 factor_setup.h  16131 factor.h  16341 leftlooking.h
- *  16487 factor_query.h  16622 combination.h
+ *  12858 factor_types.h  13269 storage.h  13409 pivot_search.h  13755 pivoted.h  13823 scatter.h
+ *  13981 uplooking.h  14053 null_product.h  14257 null_dense.h  14334 null_basis.h
+ *  14642 null_vectors.h  14784 multifrontal.h  14974 gather.h  15022 kept.h  15191 front_tasks.h
+ *  15534 nullspace.h  15737 growth.h  15813 factor_setup.h  16135 factor.h  16345 leftlooking.h
+ *  16491 factor_query.h  16626 combination.h
  * (solve: full and local solves)
- *  16683 region_types.h  16787 work.h  16887 query.h  17095 singular.h  17365 backward.h
- *  17395 sweep_tasks.h  17725 sweep.h  17936 compile.h  18129 plan.h  18236 local.h  18388 parts.h
- *  18677 refine.h  18856 refine_local.h  19072 rcond.h  19231 defects.h
+ *  16687 region_types.h  16791 work.h  16891 query.h  17107 singular.h  17377 backward.h
+ *  17407 sweep_tasks.h  17737 sweep.h  17948 compile.h  18141 plan.h  18248 local.h  18400 parts.h
+ *  18689 refine.h  18868 refine_local.h  19084 rcond.h  19243 defects.h
  * (inverse: entries of the inverse, regions)
- *  19309 traversal.h  19558 traversal_run.h  19751 row_sets.h  19778 unit_vectors.h
- *  20005 bilinear.h  20182 entries.h  20464 block.h  20704 reserve.h  20896 selected.h
- *  21106 selected_query.h  21208 region_choose.h  21435 region.h
+ *  19321 traversal.h  19570 traversal_run.h  19763 row_sets.h  19790 unit_vectors.h
+ *  20017 bilinear.h  20194 entries.h  20476 block.h  20716 reserve.h  20908 selected.h
+ *  21118 selected_query.h  21220 region_choose.h  21447 region.h
  * (change: a factor that follows changes of its matrix)
- *  21683 update.h  22033 rank.h  22371 edges.h  22525 choose.h  22723 pins_types.h
- *  22801 pins_nulls.h  22979 pins_capacitance.h  23230 pins_held.h  23441 pins_choose.h
- *  23511 pins_rebuild.h  23726 pins_matrix.h  23877 pins.h  24137 pins_solve.h  24467 subset.h
- *  24580 restrict_analysis.h  24909 restrict_symbolic.h  25090 restrict.h  25307 edit_match.h
- *  25506 edit_place.h  25755 edit_separate.h  26068 edit_order.h  26223 edit_graph.h
- *  26318 edit_join.h  26594 edit.h  26757 edit_factor.h
+ *  21695 update.h  22045 rank.h  22383 edges.h  22537 choose.h  22735 pins_types.h
+ *  22813 pins_nulls.h  22991 pins_capacitance.h  23242 pins_held.h  23453 pins_choose.h
+ *  23523 pins_rebuild.h  23738 pins_matrix.h  23889 pins.h  24149 pins_solve.h  24479 subset.h
+ *  24592 restrict_analysis.h  24921 restrict_symbolic.h  25102 restrict.h  25319 edit_match.h
+ *  25518 edit_place.h  25767 edit_separate.h  26080 edit_order.h  26235 edit_graph.h
+ *  26330 edit_join.h  26606 edit.h  26769 edit_factor.h
  * (save: factors in files)
- *  27056 format.h  27352 decode.h  27500 check.h  27830 write.h  28135 load.h  28403 load_inverse.h
- *  28733 load_calls.h
+ *  27068 format.h  27364 decode.h  27512 check.h  27842 write.h  28147 load.h  28415 load_inverse.h
+ *  28745 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28932 batch_solve.h  29141 batch_factor.h  29342 batch_diagonal.h
+ *  28944 batch_solve.h  29153 batch_factor.h  29354 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29482 hermitian.h  29644 complex_rows.h
+ *  29494 hermitian.h  29656 complex_rows.h
  * (last: undefine every internal macro)
- *  29812 undef.h
+ *  29824 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30072 front.inl.h  30074 product.inl.h  30573 words_undef.inl.h  30656 multi_rhs.inl.h
- *  30683 multi_rhs_small.inl.h  30851 multi_rhs_tiles.inl.h  30884 copy_rows.inl.h
- *  31161 complex_groups.inl.h  31411 sweeps.inl.h  31413 unit_triangle.inl.h  31450 two_rhs.inl.h
- *  31619 small_supernode.inl.h  31798 single_rhs.inl.h  32042 kernel_set.inl.h
- *  32044 complex_small.inl.h  32208 complex_rows.inl.h  32421 inverse_front.inl.h  32706 row.inl.h
- *  32736 change.inl.h  32800 interleave.inl.h
+ *  30085 front.inl.h  30087 product.inl.h  30586 words_undef.inl.h  30671 multi_rhs.inl.h
+ *  30698 multi_rhs_small.inl.h  30866 multi_rhs_tiles.inl.h  30899 copy_rows.inl.h
+ *  31176 complex_groups.inl.h  31426 sweeps.inl.h  31428 unit_triangle.inl.h  31465 two_rhs.inl.h
+ *  31634 small_supernode.inl.h  31813 single_rhs.inl.h  32057 kernel_set.inl.h
+ *  32059 complex_small.inl.h  32223 complex_rows.inl.h  32436 inverse_front.inl.h  32721 row.inl.h
+ *  32751 change.inl.h  32815 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4701,7 +4701,7 @@ typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, co
                     double *w);
 
 typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
-                const double *M, size_t ldm);
+                const double *M, size_t ldm, int is_streamed);
 typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
                   const sl_int *index, sl_int count);
 
@@ -5096,6 +5096,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
 #define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
+#define SLV_STREAM(p, a) _mm256_stream_pd((p), a##_0), _mm256_stream_pd((p) + 4, a##_1);
+#define SLV_STREAM_END _mm_sfence();
 #define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
 #define SLV_READ_0(l) _mm256_load_pd(l)
 #define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
@@ -5360,6 +5362,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_ZERO(a) a = _mm512_setzero_pd();
 #define SLV_LOAD(a, p) a = _mm512_load_pd(p);
 #define SLV_STORE(p, a) _mm512_store_pd((p), a);
+#define SLV_STREAM(p, a) _mm512_stream_pd((p), a);
+#define SLV_STREAM_END _mm_sfence();
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLV_READ_0(l) _mm512_load_pd(l)
 #define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
@@ -17034,6 +17038,12 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
 
 #define SLI_PACK_CHUNK 1024
 
+#if defined(SLI_SMALL_TASKS)
+#define SLI_STREAMED 1
+#else
+#define SLI_STREAMED 4000000
+#endif
+
 static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, const double *B,
            sli_dense at, sl_int lanes, sl_int nrhs) {
   const sl_int *index = q->b_index, count = q->nb;
@@ -17043,12 +17053,14 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
   if (q->b_repeats) {
     sli_pack_sums(y, lanes, index, count, B, at, nrhs);
   } else if (nrhs % 8 == 0 && at.row == 1) {
+    const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
     sl_int first, r;
     for (first = 0; first < count; first += SLI_PACK_CHUNK) {
       for (r = 0; r < nrhs; r += 8) {
         kernels->interleave(y + r, lanes, index + first,
                   sli_min(SLI_PACK_CHUNK, count - first),
-                  B + (size_t)first + (size_t)r * at.column, at.column);
+                  B + (size_t)first + (size_t)r * at.column, at.column,
+                  is_streamed);
       }
     }
   } else if (nrhs % 8 == 0) {
@@ -29971,6 +29983,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_WIDE_DEGREE
 #undef SLI_BLOCK_MOST
 #undef SLI_PACK_CHUNK
+#undef SLI_STREAMED
 #undef SLI_TEMPORARY_NAMES
 #undef SLI_TEMPORARY_SUFFIX
 #undef SLI_UNNAMED_FILES
@@ -30586,6 +30599,8 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 #undef SLV_ZERO
 #undef SLV_LOAD
 #undef SLV_STORE
+#undef SLV_STREAM
+#undef SLV_STREAM_END
 #undef SLV_ADD
 #undef SLV_READ_0
 #undef SLV_READ_1
@@ -32799,10 +32814,15 @@ SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int col
 /* end of change.inl.h */
 /* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
+#if !defined(SLV_STREAM)
+#define SLV_STREAM(p, a) SLV_STORE(p, a)
+#define SLV_STREAM_END
+#endif
+
 #define SLI_ROWS_BEFORE 32
 #define SLI_BYTES_BEFORE 512
-#define SLI_INTERLEAVE_PREFETCH \
-  if (k + SLI_ROWS_BEFORE + SLI_TILE <= count) { \
+#define SLI_INTERLEAVE_PREFETCH(of_vector) \
+  if ((of_vector) && k + SLI_ROWS_BEFORE + SLI_TILE <= count) { \
     SLI_UNROLL \
     for (r = 0; r < SLI_TILE; r++) { \
       SLI_PREFETCH(v + (ptrdiff_t)index[k + SLI_ROWS_BEFORE + r] * stride, 0); \
@@ -32814,13 +32834,14 @@ SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int col
   }
 
 SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl_int *index,
-                        sl_int count, const double *M, size_t ldm) {
+                        sl_int count, const double *M, size_t ldm,
+                        int is_streamed) {
   SLI_ALIGNED(double from[SLI_TILE * SLI_TILE]);
   SLI_ALIGNED(double to[SLI_TILE * SLI_TILE]);
   sl_int k, r;
   SLV_DECLARE(a)
   for (k = 0; k + SLI_TILE <= count; k += SLI_TILE) {
-    SLI_INTERLEAVE_PREFETCH
+    SLI_INTERLEAVE_PREFETCH(!is_streamed)
     SLI_UNROLL
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD_PART(a, M + (size_t)r * ldm + k, SLI_TILE, 0.0)
@@ -32830,9 +32851,14 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
     SLI_UNROLL
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD(a, to + SLI_TILE * r)
-      SLV_STORE(v + (ptrdiff_t)index[k + r] * stride, a)
+      if (is_streamed) {
+        SLV_STREAM(v + (ptrdiff_t)index[k + r] * stride, a)
+      } else {
+        SLV_STORE(v + (ptrdiff_t)index[k + r] * stride, a)
+      }
     }
   }
+  SLV_STREAM_END
   for (; k < count; k++) {
     for (r = 0; r < SLI_TILE; r++) {
       v[(ptrdiff_t)index[k] * stride + r] = M[(size_t)r * ldm + (size_t)k];
@@ -32847,7 +32873,7 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
   sl_int k, r;
   SLV_DECLARE(a)
   for (k = 0; k + SLI_TILE <= count; k += SLI_TILE) {
-    SLI_INTERLEAVE_PREFETCH
+    SLI_INTERLEAVE_PREFETCH(1)
     SLI_UNROLL
     for (r = 0; r < SLI_TILE; r++) {
       SLV_LOAD(a, v + (ptrdiff_t)index[k + r] * stride)

@@ -21,6 +21,8 @@
  *  SLV_LOAD_PINNED(a, p)  the same; the compiler may not load it again at each use
  *  SLV_LOAD_PART(a, p, count, rest)   lanes 0 .. count-1 = p[lane], the others = rest
  *  SLV_STORE(p, a)        p[0..7] = a; p is 64-byte aligned. SLV_STORE_ANY: p is not aligned
+ *  SLV_STREAM(p, a)       SLV_STORE of a cache line around the caches; other threads may see it
+ *                         after SLV_STREAM_END; default: SLV_STORE
  *  SLV_BROADCAST(b, p)    every lane of b = *p
  *  SLV_LANE(b, a, k)      every lane of b = lane k of a; k is a constant
  *  SLV_GATHER(a, x, at)   lane k of a = x[at(k)]; at is a macro

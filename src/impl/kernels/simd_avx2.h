@@ -61,6 +61,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
 #define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
 #define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
+#define SLV_STREAM(p, a) _mm256_stream_pd((p), a##_0), _mm256_stream_pd((p) + 4, a##_1);
+#define SLV_STREAM_END _mm_sfence();
 #define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
 /* The first 4 of 8 values. */
 #define SLV_READ_0(l) _mm256_load_pd(l)

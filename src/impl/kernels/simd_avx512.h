@@ -21,6 +21,8 @@
 #define SLV_ZERO(a) a = _mm512_setzero_pd();
 #define SLV_LOAD(a, p) a = _mm512_load_pd(p);
 #define SLV_STORE(p, a) _mm512_store_pd((p), a);
+#define SLV_STREAM(p, a) _mm512_stream_pd((p), a);
+#define SLV_STREAM_END _mm_sfence();
 #define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLV_READ_0(l) _mm512_load_pd(l)
 /* With a mask of ones: g++ 12 warns of the undefined source of the plain intrinsic. The instruction

@@ -20,9 +20,10 @@ typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, co
                                         double *w);
 
 /* Copies rows 0 .. count-1 of 8 columns of M, ldm apart, to v + index[k] stride, and back. v is
- * 64-byte aligned, stride is a multiple of 8. */
+ * 64-byte aligned, stride is a multiple of 8. is_streamed: v is not read before it would have left
+ * the caches. */
 typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
-                                const double *M, size_t ldm);
+                                const double *M, size_t ldm, int is_streamed);
 typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
                                   const sl_int *index, sl_int count);
 

@@ -14,6 +14,8 @@
 #undef SLV_ZERO
 #undef SLV_LOAD
 #undef SLV_STORE
+#undef SLV_STREAM
+#undef SLV_STREAM_END
 #undef SLV_ADD
 #undef SLV_READ_0
 #undef SLV_READ_1

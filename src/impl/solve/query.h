@@ -184,6 +184,14 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
  * vector stay in the second cache. */
 #define SLI_PACK_CHUNK 1024
 
+/* Doubles of a vector that will not be in a cache any more when the sweep reads it: it is written
+ * around the caches, which saves reading each line first. */
+#if defined(SLI_SMALL_TASKS)
+#define SLI_STREAMED 1
+#else
+#define SLI_STREAMED 4000000
+#endif
+
 /* Moves b into the forward vector. Rows that are not given, and unused columns of the block, are
  * 0. */
 static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, const double *B,
@@ -195,12 +203,14 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
     if (q->b_repeats) {
         sli_pack_sums(y, lanes, index, count, B, at, nrhs);
     } else if (nrhs % 8 == 0 && at.row == 1) {
+        const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
         sl_int first, r;
         for (first = 0; first < count; first += SLI_PACK_CHUNK) {
             for (r = 0; r < nrhs; r += 8) {
                 kernels->interleave(y + r, lanes, index + first,
                                     sli_min(SLI_PACK_CHUNK, count - first),
-                                    B + (size_t)first + (size_t)r * at.column, at.column);
+                                    B + (size_t)first + (size_t)r * at.column, at.column,
+                                    is_streamed);
             }
         }
     } else if (nrhs % 8 == 0) {
