@@ -5,8 +5,8 @@
 #include "bench/lib/bench.h"
 
 /* Everything is created anew and released in every round, as in a program that solves one system.
- * Times are of the wall clock, which threads shorten; of those of sl_symbolic_create, the processor
- * seconds that the library reports for the analysis, which has one thread, are not the ordering's. */
+ * Times are of the wall clock, which threads shorten. The ordering's is that of sl_symbolic_create
+ * without the processor seconds that the library reports for the analysis, which has one thread. */
 enum { STAGES = 5, MAX_ROUNDS = 30 };
 
 static const char *const stages[STAGES] = {"order", "analyze", "first factor", "first solve",
