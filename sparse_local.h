@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d3641851ea4feaae
+ * FNV-1a of the lines after this comment, without the license: 68043a1b68c87d69
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11309,7 +11309,7 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
   const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
                       opt->ordering == SL_ORDERING_METIS_REFINED);
-  const double flops = 2 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
+  const double flops = 0.5 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
   return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
 }
 
