@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 68043a1b68c87d69
+ * FNV-1a of the lines after this comment, without the license: 92c699783db28a85
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -25,67 +25,67 @@
  *   2500 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2618 change.h     a factor that follows small changes of its matrix
  *   2705 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2852 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2983 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3034 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2854 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2985 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3036 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3126 base.h   3420 status.h   3481 options.h   3539 alloc.h   3695 hash.h   3825 file_map.h
- *   3922 sort.h   3986 parallel.h
+ *   3128 base.h   3422 status.h   3483 options.h   3541 alloc.h   3697 hash.h   3827 file_map.h
+ *   3924 sort.h   3988 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4182 panel.h   4208 step.h   4282 pivot_rule.h   4356 front.h   4416 pairs.h
- *   4623 inverse_front.h   4695 table.h   4723 simd.h   4818 simd_scalar_single.h
- *   4864 simd_scalar.h   4995 simd_avx2_single.h   5049 simd_avx2.h   5295 simd_avx512_single.h
- *   5350 simd_avx512.h   5524 simd_neon_single.h   5566 simd_neon.h   5806 dispatch.h
+ *   4184 panel.h   4210 step.h   4284 pivot_rule.h   4358 front.h   4418 pairs.h
+ *   4625 inverse_front.h   4697 table.h   4725 simd.h   4820 simd_scalar_single.h
+ *   4866 simd_scalar.h   4997 simd_avx2_single.h   5051 simd_avx2.h   5297 simd_avx512_single.h
+ *   5352 simd_avx512.h   5526 simd_neon_single.h   5568 simd_neon.h   5808 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5886 csc.h   6019 csc_build.h   6153 csc64.h   6224 csc_triangle.h   6290 csc_products.h
- *   6407 permute.h   6473 sum.h   6555 output_file.h   6764 matrix_market.h
+ *   5888 csc.h   6021 csc_build.h   6155 csc64.h   6226 csc_triangle.h   6292 csc_products.h
+ *   6409 permute.h   6475 sum.h   6557 output_file.h   6766 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7210 graph.h   7352 contract.h   7606 coarsen.h   7769 labels.h   7990 subgraph.h   8185 heap.h
- *   8245 bisect.h   8472 separator.h   8734 mindeg.h   8917 dissect.h   9241 tree_cost.h
- *   9293 levelset.h   9399 geometric.h   9574 cells.h   9754 septree.h   9830 metis.h
- *   9979 metis_refined.h  10093 nd.h  10293 compress.h  10414 peel.h  10592 quotient.h
- *  11005 order.h
+ *   7212 graph.h   7354 contract.h   7608 coarsen.h   7771 labels.h   7992 subgraph.h   8187 heap.h
+ *   8247 bisect.h   8474 separator.h   8736 mindeg.h   8919 dissect.h   9243 tree_cost.h
+ *   9295 levelset.h   9401 geometric.h   9576 cells.h   9756 septree.h   9832 metis.h
+ *   9981 metis_refined.h  10095 nd.h  10295 compress.h  10416 peel.h  10594 quotient.h
+ *  11007 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11356 symbolic_types.h  11393 etree.h  11466 counts.h  11523 supernodes.h  11745 structure.h
- *  11866 schedule.h  12146 symbolic.h  12587 reach.h
+ *  11358 symbolic_types.h  11395 etree.h  11468 counts.h  11525 supernodes.h  11747 structure.h
+ *  11868 schedule.h  12148 symbolic.h  12589 reach.h
  * (factor: the numbers of L and D)
- *  12858 factor_types.h  13269 storage.h  13409 pivot_search.h  13755 pivoted.h  13823 scatter.h
- *  13981 uplooking.h  14053 null_product.h  14257 null_dense.h  14334 null_basis.h
- *  14642 null_vectors.h  14784 multifrontal.h  14974 gather.h  15022 kept.h  15191 front_tasks.h
- *  15534 nullspace.h  15737 growth.h  15813 factor_setup.h  16135 factor.h  16345 leftlooking.h
- *  16491 factor_query.h  16626 combination.h
+ *  12860 factor_types.h  13271 storage.h  13411 pivot_search.h  13757 pivoted.h  13825 scatter.h
+ *  13983 uplooking.h  14055 null_product.h  14259 null_dense.h  14336 null_basis.h
+ *  14644 null_vectors.h  14786 multifrontal.h  14976 gather.h  15024 kept.h  15193 front_tasks.h
+ *  15536 nullspace.h  15739 growth.h  15815 factor_setup.h  16137 factor.h  16347 leftlooking.h
+ *  16493 factor_query.h  16628 combination.h
  * (solve: full and local solves)
- *  16687 region_types.h  16791 work.h  16891 query.h  17107 singular.h  17377 backward.h
- *  17407 sweep_tasks.h  17737 sweep.h  17948 compile.h  18141 plan.h  18248 local.h  18400 parts.h
- *  18689 refine.h  18868 refine_local.h  19084 rcond.h  19243 defects.h
+ *  16689 region_types.h  16793 work.h  16893 query.h  17109 singular.h  17379 backward.h
+ *  17409 sweep_tasks.h  17739 sweep.h  17950 compile.h  18143 plan.h  18250 local.h  18402 parts.h
+ *  18691 refine.h  18870 refine_local.h  19086 rcond.h  19245 defects.h
  * (inverse: entries of the inverse, regions)
- *  19321 traversal.h  19570 traversal_run.h  19763 row_sets.h  19790 unit_vectors.h
- *  20017 bilinear.h  20194 entries.h  20476 block.h  20716 reserve.h  20908 selected.h
- *  21118 selected_query.h  21220 region_choose.h  21447 region.h
+ *  19323 traversal.h  19572 traversal_run.h  19765 row_sets.h  19792 unit_vectors.h
+ *  20019 bilinear.h  20196 entries.h  20478 block.h  20718 reserve.h  20910 selected.h
+ *  21120 selected_query.h  21222 region_choose.h  21449 region.h
  * (change: a factor that follows changes of its matrix)
- *  21695 update.h  22045 rank.h  22383 edges.h  22537 choose.h  22735 pins_types.h
- *  22813 pins_nulls.h  22991 pins_capacitance.h  23242 pins_held.h  23453 pins_choose.h
- *  23523 pins_rebuild.h  23738 pins_matrix.h  23889 pins.h  24149 pins_solve.h  24479 subset.h
- *  24592 restrict_analysis.h  24921 restrict_symbolic.h  25102 restrict.h  25319 edit_match.h
- *  25518 edit_place.h  25767 edit_separate.h  26080 edit_order.h  26235 edit_graph.h
- *  26330 edit_join.h  26606 edit.h  26769 edit_factor.h
+ *  21697 update.h  22047 rank.h  22385 edges.h  22539 choose.h  22737 pins_types.h
+ *  22815 pins_nulls.h  22993 pins_capacitance.h  23244 pins_held.h  23455 pins_choose.h
+ *  23525 pins_rebuild.h  23740 pins_matrix.h  23891 pins.h  24151 pins_solve.h  24513 subset.h
+ *  24626 restrict_analysis.h  24955 restrict_symbolic.h  25136 restrict.h  25353 edit_match.h
+ *  25552 edit_place.h  25801 edit_separate.h  26114 edit_order.h  26269 edit_graph.h
+ *  26364 edit_join.h  26640 edit.h  26803 edit_factor.h
  * (save: factors in files)
- *  27068 format.h  27364 decode.h  27512 check.h  27842 write.h  28147 load.h  28415 load_inverse.h
- *  28745 load_calls.h
+ *  27102 format.h  27398 decode.h  27546 check.h  27876 write.h  28181 load.h  28449 load_inverse.h
+ *  28779 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28944 batch_solve.h  29153 batch_factor.h  29354 batch_diagonal.h
+ *  28978 batch_solve.h  29187 batch_factor.h  29388 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29494 hermitian.h  29656 complex_rows.h
+ *  29528 hermitian.h  29690 complex_rows.h
  * (last: undefine every internal macro)
- *  29824 undef.h
+ *  29858 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30085 front.inl.h  30087 product.inl.h  30586 words_undef.inl.h  30671 multi_rhs.inl.h
- *  30698 multi_rhs_small.inl.h  30866 multi_rhs_tiles.inl.h  30899 copy_rows.inl.h
- *  31176 complex_groups.inl.h  31426 sweeps.inl.h  31428 unit_triangle.inl.h  31465 two_rhs.inl.h
- *  31634 small_supernode.inl.h  31813 single_rhs.inl.h  32057 kernel_set.inl.h
- *  32059 complex_small.inl.h  32223 complex_rows.inl.h  32436 inverse_front.inl.h  32721 row.inl.h
- *  32751 change.inl.h  32815 interleave.inl.h
+ *  30120 front.inl.h  30122 product.inl.h  30621 words_undef.inl.h  30706 multi_rhs.inl.h
+ *  30733 multi_rhs_small.inl.h  30901 multi_rhs_tiles.inl.h  30934 copy_rows.inl.h
+ *  31211 complex_groups.inl.h  31461 sweeps.inl.h  31463 unit_triangle.inl.h  31500 two_rhs.inl.h
+ *  31669 small_supernode.inl.h  31848 single_rhs.inl.h  32092 kernel_set.inl.h
+ *  32094 complex_small.inl.h  32258 complex_rows.inl.h  32471 inverse_front.inl.h  32756 row.inl.h
+ *  32786 change.inl.h  32850 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2717,8 +2717,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  Weights (options.mass) are not used.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
- *  the one with pins, as with a weak mass term, as many digits are lost, and no status says so:
- *  hold one row of each component by the matrix itself, or check C' x = g.
+ *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error of
+ *  C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -2838,8 +2838,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *                of the pins.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
- *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: rounding hides
- *           whether the pins rule out the motions of a body; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g does not
+ *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body; with
+ *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
  *           over shared columns, twice, and O(k^2); as much for each null vector of components with
  *           pins. Eliminated pins: with a plan the forward sweep of their neighbors.
@@ -24391,9 +24393,37 @@ static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_w
   }
 }
 
-static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
-               sli_dense x_at, const double *B, sli_dense b_at, const double *G,
-               size_t ldg, sl_int nrhs) {
+#define SLI_PINS_LOST 1e-8
+
+static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x, const double *G,
+             size_t ldg, sl_int lanes, sl_int nrhs) {
+  sl_int p, r, k;
+  for (r = 0; r < nrhs && P->n_pins > 0; r++) {
+    double most = 0.0;
+    for (k = 0; k < R->columns; k++) {
+      most = fmax(most, fabs(x[(ptrdiff_t)k * lanes + r]));
+    }
+    for (p = 0; p < P->n_pins; p++) {
+      const sli_pin *pin = P->pins[p];
+      const double g = G[(size_t)pin->index + ldg * (size_t)r];
+      double sum = -g, size = 0.0;
+      sl_int at = 0;
+      for (k = 0; k < pin->count && at != -1; k++) {
+        at = sli_reach_index_of(R, P->F->S->iperm[pin->rows[k]]);
+        sum += at == -1 ? 0.0 : pin->values[k] * x[(ptrdiff_t)at * lanes + r];
+        size += fabs(pin->values[k]) * most;
+      }
+      if (at != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
+        return 0;
+      }
+    }
+  }
+  return 1;
+}
+
+static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
+                double *X, sli_dense x_at, const double *B, sli_dense b_at,
+                const double *G, size_t ldg, sl_int nrhs) {
   const sl_factor *F = P->base;
   const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
   const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
@@ -24427,7 +24457,11 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
              q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
   sli_pins_shift(P, q, &w->nulls, v.x, lanes);
   sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
+  if (!sli_pins_hold(P, &q->backward, v.x, G, ldg, lanes, nrhs)) {
+    return SL_ERR_INACCURATE;
+  }
   sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
+  return SL_OK;
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
@@ -24466,10 +24500,10 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     status = sli_pins_nulls_factor(&w.nulls, P);
     for (r = 0; r < nrhs && status == SL_OK; r += 8) {
       const sl_int block = sli_min(8, nrhs - r);
-      sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
-               q->nb == 0 ? B : B + (size_t)r * ldb,
-               sli_dense_of(SLI_COLUMN_MAJOR, ldb),
-               P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
+      status = sli_pins_block(
+        P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
+        q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
+        P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
     }
   }
   sli_free(&own.allocator, own.block);
@@ -30059,6 +30093,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PINS_DENSE
 #undef SLI_PINS_MAP
 #undef SLI_PINS_MEMORY
+#undef SLI_PINS_LOST
 #undef SLI_PINS_OTHER
 #undef SLI_PINS_OTHER_FLOAT
 #undef SLI_NULL_VECTORS_MAX

@@ -18,8 +18,8 @@
  *  Weights (options.mass) are not used.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
- *  the one with pins, as with a weak mass term, as many digits are lost, and no status says so:
- *  hold one row of each component by the matrix itself, or check C' x = g.
+ *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error of
+ *  C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -139,8 +139,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *                of the pins.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
- *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: rounding hides
- *           whether the pins rule out the motions of a body; SL_ERR_TOO_LARGE, SL_ERR_MEMORY.
+ *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g does not
+ *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body; with
+ *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
  *           over shared columns, twice, and O(k^2); as much for each null vector of components with
  *           pins. Eliminated pins: with a plan the forward sweep of their neighbors.

@@ -258,10 +258,41 @@ static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_w
     }
 }
 
+/* Beyond this error of C' x = g, relative to x and g, digits are lost: the solution without pins is
+ * much larger than x. */
+#define SLI_PINS_LOST 1e-8
+
+/* Is C' x = g, for the equalities whose rows are all in the vector? */
+static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x, const double *G,
+                         size_t ldg, sl_int lanes, sl_int nrhs) {
+    sl_int p, r, k;
+    for (r = 0; r < nrhs && P->n_pins > 0; r++) {
+        double most = 0.0;
+        for (k = 0; k < R->columns; k++) {
+            most = fmax(most, fabs(x[(ptrdiff_t)k * lanes + r]));
+        }
+        for (p = 0; p < P->n_pins; p++) {
+            const sli_pin *pin = P->pins[p];
+            const double g = G[(size_t)pin->index + ldg * (size_t)r];
+            double sum = -g, size = 0.0;
+            sl_int at = 0;
+            for (k = 0; k < pin->count && at != -1; k++) {
+                at = sli_reach_index_of(R, P->F->S->iperm[pin->rows[k]]);
+                sum += at == -1 ? 0.0 : pin->values[k] * x[(ptrdiff_t)at * lanes + r];
+                size += fabs(pin->values[k]) * most;
+            }
+            if (at != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
 /* Solves one block of up to 8 right-hand sides. */
-static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *X,
-                           sli_dense x_at, const double *B, sli_dense b_at, const double *G,
-                           size_t ldg, sl_int nrhs) {
+static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
+                                double *X, sli_dense x_at, const double *B, sli_dense b_at,
+                                const double *G, size_t ldg, sl_int nrhs) {
     const sl_factor *F = P->base;
     const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
     const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
@@ -295,7 +326,11 @@ static void sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_
                        q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
     sli_pins_shift(P, q, &w->nulls, v.x, lanes);
     sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
+    if (!sli_pins_hold(P, &q->backward, v.x, G, ldg, lanes, nrhs)) {
+        return SL_ERR_INACCURATE;
+    }
     sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
+    return SL_OK;
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
@@ -334,10 +369,10 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
         status = sli_pins_nulls_factor(&w.nulls, P);
         for (r = 0; r < nrhs && status == SL_OK; r += 8) {
             const sl_int block = sli_min(8, nrhs - r);
-            sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
-                           q->nb == 0 ? B : B + (size_t)r * ldb,
-                           sli_dense_of(SLI_COLUMN_MAJOR, ldb),
-                           P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
+            status = sli_pins_block(
+                P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
+                q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
+                P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
         }
     }
     sli_free(&own.allocator, own.block);
