@@ -245,6 +245,8 @@ typedef struct bench_patch {
 
 /** The patch of up to size vertices that a breadth-first search from seed finds. */
 bench_patch bench_patch_create(const bench_system *system, sl_int seed, sl_int size);
+/** A patch of the given vertices, without a boundary. */
+bench_patch bench_patch_of(const bench_system *system, const sl_int *vertices, sl_int size);
 void bench_patch_free(bench_patch *patch);
 
 /** Patches of exactly size vertices around random seeds, none a whole connected component. Returns

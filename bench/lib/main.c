@@ -62,7 +62,7 @@ static const question questions[] = {
     {"saved", "factors in files: saved, loaded, mapped, shared by processes", bench_saved},
     {"storage", "L in float against L in double: time, memory, accuracy after refinement",
      bench_storage},
-    {"restrict", "the factor of a patch from the whole one against its own analysis and factor",
+    {"restrict", "the factor of a patch from the whole one, or of thin sets, against their own",
      bench_restrict},
     {"edit", "an analysis that follows a remeshed mesh against a new order and analysis",
      bench_edit},

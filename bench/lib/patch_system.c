@@ -77,6 +77,17 @@ bench_patch bench_patch_create(const bench_system *system, sl_int seed, sl_int s
     return patch;
 }
 
+bench_patch bench_patch_of(const bench_system *system, const sl_int *vertices, sl_int size) {
+    bench_patch patch;
+    memset(&patch, 0, sizeof patch);
+    patch.vertices = bench_alloc((size_t)size, sizeof *patch.vertices);
+    memcpy(patch.vertices, vertices, (size_t)size * sizeof *vertices);
+    patch.size = size;
+    patch.matrix = submatrix(system, patch.vertices, patch.size);
+    patch.A = sl_matrix_view(patch.matrix);
+    return patch;
+}
+
 void bench_patch_free(bench_patch *patch) {
     sl_matrix_free(patch->matrix);
     free(patch->boundary_index);

@@ -4,9 +4,10 @@
 
 #include "bench/lib/bench.h"
 
-/* Patches of a 100th, a 10th and half of the vertices. The baseline is the analysis and
- * factorization of the submatrix, which is given with both triangles, in the order of the whole
- * matrix: the time of an ordering is not included. */
+/* Patches of a 100th, a 10th and half of the vertices, and sets of which little or nothing can be
+ * kept: every 10th vertex, every second one, and a band around a patch of a 10th. The baseline is
+ * the analysis and factorization of the submatrix, which is given with both triangles, in the order
+ * of the whole matrix: the times of its extraction and of an ordering are not included. */
 enum { PATCHES = 3 };
 
 typedef struct restricted {
@@ -81,12 +82,13 @@ static int check(bench_run *run, restricted *c, void (*call)(void *), const char
     return bench_expect(run, error < 1e-14 * (double)n, "%s: backward error %g", method, error);
 }
 
-static void time_patch(bench_run *run, bench_report *report, const bench_system *system,
-                       sl_int size) {
+/* Times the restriction to a patch, which it releases. */
+static void time_set(bench_run *run, bench_report *report, const bench_system *system,
+                     bench_patch patch, const char *shape) {
     restricted c;
     memset(&c, 0, sizeof c);
     c.system = system;
-    c.patch = bench_patch_create(system, system->n / 2, size);
+    c.patch = patch;
     c.perm = inherited_order(system, &c.patch);
     if (check(run, &c, call_anew, "anew") && check(run, &c, call_restrict, "restriction")) {
         const bench_contender contenders[2] = {
@@ -95,7 +97,7 @@ static void time_patch(bench_run *run, bench_report *report, const bench_system 
         static const char *const methods[2] = {"analyze and factor", "restrict"};
         bench_sample samples[2];
         char what[32];
-        snprintf(what, sizeof what, "%d rows", (int)c.patch.size);
+        snprintf(what, sizeof what, "%s%d rows", shape, (int)c.patch.size);
         bench_race(samples, contenders, 2, run->seconds);
         for (int k = 0; k < 2; k++) {
             bench_row row = {.what = what, .method = methods[k], .nrhs = 1};
@@ -109,6 +111,26 @@ static void time_patch(bench_run *run, bench_report *report, const bench_system 
     bench_patch_free(&c.patch);
 }
 
+/* Every step-th vertex, or of a patch of a 10th of the vertices the last tenth that a breadth-first
+ * search finds. */
+static void time_thin(bench_run *run, bench_report *report, const bench_system *system) {
+    const sl_int n = system->n, ring = n / 10;
+    sl_int *vertices = bench_alloc((size_t)n, sizeof *vertices);
+    bench_patch patch = bench_patch_create(system, n / 2, ring);
+    sl_int first = patch.size - patch.size / 10;
+    time_set(run, report, system,
+             bench_patch_of(system, patch.vertices + first, patch.size - first), "ring ");
+    bench_patch_free(&patch);
+    for (sl_int step = 2; step <= 10; step += 8) {
+        sl_int count = 0;
+        for (sl_int v = 0; v < n; v += step) {
+            vertices[count++] = v;
+        }
+        time_set(run, report, system, bench_patch_of(system, vertices, count), "thin ");
+    }
+    free(vertices);
+}
+
 void bench_restrict(bench_run *run) {
     static const double wanted[] = {1e4, 1e5, 1e6};
     static const sl_int parts[PATCHES] = {100, 10, 2};
@@ -118,9 +140,13 @@ void bench_restrict(bench_run *run) {
         bench_report_open(run, "restrict", "the factor of a patch", "analyze and factor");
     for (int k = 0; k < count; k++) {
         for (int part = 0; part < PATCHES; part++) {
-            time_patch(run, report, systems[k], systems[k]->n / parts[part]);
+            time_set(run, report, systems[k],
+                     bench_patch_create(systems[k], systems[k]->n / 2,
+                                        systems[k]->n / parts[part]),
+                     "");
         }
+        time_thin(run, report, systems[k]);
     }
-    bench_report_note(report, "the patch's matrix is given, in the order of the whole one");
+    bench_report_note(report, "the submatrix is given, in the order of the whole one");
     bench_report_close(report);
 }
