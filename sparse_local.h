@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4430d16722445f15
+ * FNV-1a of the lines after this comment, without the license: 2cafc2e9430a0fd9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,54 +38,54 @@
  *   4867 simd_scalar.h   4998 simd_avx2_single.h   5052 simd_avx2.h   5298 simd_avx512_single.h
  *   5353 simd_avx512.h   5527 simd_neon_single.h   5569 simd_neon.h   5809 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5889 csc.h   6022 csc_build.h   6156 csc64.h   6227 csc_triangle.h   6293 csc_products.h
- *   6410 permute.h   6476 sum.h   6558 output_file.h   6767 matrix_market.h
+ *   5890 csc.h   6023 csc_build.h   6157 csc64.h   6228 csc_triangle.h   6294 csc_products.h
+ *   6411 permute.h   6477 sum.h   6559 output_file.h   6768 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7213 graph.h   7355 contract.h   7609 coarsen.h   7772 labels.h   7993 subgraph.h   8188 heap.h
- *   8248 bisect.h   8475 separator.h   8737 mindeg.h   8920 dissect.h   9244 tree_cost.h
- *   9296 levelset.h   9402 geometric.h   9577 cells.h   9757 septree.h   9833 metis.h
- *   9982 metis_refined.h  10096 nd.h  10296 compress.h  10417 peel.h  10595 quotient.h
- *  11008 order.h
+ *   7214 graph.h   7356 contract.h   7610 coarsen.h   7773 labels.h   7994 subgraph.h   8189 heap.h
+ *   8249 bisect.h   8476 separator.h   8738 mindeg.h   8921 dissect.h   9245 tree_cost.h
+ *   9297 levelset.h   9403 geometric.h   9578 cells.h   9758 septree.h   9834 metis.h
+ *   9983 metis_refined.h  10097 nd.h  10297 compress.h  10418 peel.h  10596 quotient.h
+ *  11009 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11359 symbolic_types.h  11396 etree.h  11469 counts.h  11526 supernodes.h  11748 structure.h
- *  11869 schedule.h  12149 symbolic.h  12590 reach.h
+ *  11360 symbolic_types.h  11397 etree.h  11470 counts.h  11527 supernodes.h  11749 structure.h
+ *  11870 schedule.h  12150 symbolic.h  12591 reach.h
  * (factor: the numbers of L and D)
- *  12861 factor_types.h  13272 storage.h  13412 pivot_search.h  13758 pivoted.h  13826 scatter.h
- *  13984 uplooking.h  14056 null_product.h  14260 null_dense.h  14337 null_basis.h
- *  14645 null_vectors.h  14787 multifrontal.h  14977 gather.h  15025 kept.h  15194 front_tasks.h
- *  15537 nullspace.h  15740 growth.h  15816 factor_setup.h  16138 factor.h  16348 leftlooking.h
- *  16494 factor_query.h  16629 combination.h
+ *  12862 factor_types.h  13273 storage.h  13413 pivot_search.h  13759 pivoted.h  13827 scatter.h
+ *  13985 uplooking.h  14057 null_product.h  14261 null_dense.h  14338 null_basis.h
+ *  14646 null_vectors.h  14788 multifrontal.h  14978 gather.h  15026 kept.h  15195 front_tasks.h
+ *  15538 nullspace.h  15741 growth.h  15817 factor_setup.h  16139 factor.h  16349 leftlooking.h
+ *  16495 factor_query.h  16630 combination.h
  * (solve: full and local solves)
- *  16690 region_types.h  16794 work.h  16894 query.h  17110 singular.h  17380 backward.h
- *  17410 sweep_tasks.h  17740 sweep.h  17951 compile.h  18144 plan.h  18251 local.h  18403 parts.h
- *  18692 refine.h  18871 refine_local.h  19087 rcond.h  19246 defects.h
+ *  16691 region_types.h  16795 work.h  16895 query.h  17111 singular.h  17381 backward.h
+ *  17411 sweep_tasks.h  17741 sweep.h  17952 compile.h  18145 plan.h  18252 local.h  18404 parts.h
+ *  18693 refine.h  18872 refine_local.h  19088 rcond.h  19247 defects.h
  * (inverse: entries of the inverse, regions)
- *  19324 traversal.h  19573 traversal_run.h  19766 row_sets.h  19793 unit_vectors.h
- *  20020 bilinear.h  20197 entries.h  20479 block.h  20719 reserve.h  20911 selected.h
- *  21121 selected_query.h  21223 region_choose.h  21450 region.h
+ *  19325 traversal.h  19574 traversal_run.h  19767 row_sets.h  19794 unit_vectors.h
+ *  20021 bilinear.h  20198 entries.h  20480 block.h  20720 reserve.h  20912 selected.h
+ *  21122 selected_query.h  21224 region_choose.h  21451 region.h
  * (change: a factor that follows changes of its matrix)
- *  21698 update.h  22048 rank.h  22386 edges.h  22540 choose.h  22738 pins_types.h
- *  22816 pins_nulls.h  22994 pins_capacitance.h  23245 pins_held.h  23456 pins_choose.h
- *  23526 pins_rebuild.h  23741 pins_matrix.h  23892 pins.h  24152 pins_solve.h  24514 subset.h
- *  24627 restrict_analysis.h  24956 restrict_symbolic.h  25137 restrict.h  25354 edit_match.h
- *  25553 edit_place.h  25802 edit_separate.h  26115 edit_order.h  26270 edit_graph.h
- *  26365 edit_join.h  26641 edit.h  26804 edit_factor.h
+ *  21699 update.h  22049 rank.h  22387 edges.h  22541 choose.h  22739 pins_types.h
+ *  22817 pins_nulls.h  22995 pins_capacitance.h  23246 pins_held.h  23457 pins_choose.h
+ *  23527 pins_rebuild.h  23742 pins_matrix.h  23893 pins.h  24153 pins_solve.h  24515 subset.h
+ *  24628 restrict_analysis.h  24957 restrict_symbolic.h  25138 restrict.h  25355 edit_match.h
+ *  25554 edit_place.h  25803 edit_separate.h  26116 edit_order.h  26271 edit_graph.h
+ *  26366 edit_join.h  26642 edit.h  26805 edit_factor.h
  * (save: factors in files)
- *  27103 format.h  27399 decode.h  27547 check.h  27877 write.h  28182 load.h  28450 load_inverse.h
- *  28780 load_calls.h
+ *  27104 format.h  27400 decode.h  27548 check.h  27878 write.h  28183 load.h  28451 load_inverse.h
+ *  28781 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28979 batch_solve.h  29188 batch_factor.h  29389 batch_diagonal.h
+ *  28980 batch_solve.h  29189 batch_factor.h  29390 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29529 hermitian.h  29691 complex_rows.h
+ *  29530 hermitian.h  29692 complex_rows.h
  * (last: undefine every internal macro)
- *  29859 undef.h
+ *  29860 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30121 front.inl.h  30123 product.inl.h  30622 words_undef.inl.h  30707 multi_rhs.inl.h
- *  30734 multi_rhs_small.inl.h  30902 multi_rhs_tiles.inl.h  30935 copy_rows.inl.h
- *  31212 complex_groups.inl.h  31462 sweeps.inl.h  31464 unit_triangle.inl.h  31501 two_rhs.inl.h
- *  31670 small_supernode.inl.h  31849 single_rhs.inl.h  32093 kernel_set.inl.h
- *  32095 complex_small.inl.h  32259 complex_rows.inl.h  32472 inverse_front.inl.h  32757 row.inl.h
- *  32787 change.inl.h  32851 interleave.inl.h
+ *  30122 front.inl.h  30124 product.inl.h  30623 words_undef.inl.h  30708 multi_rhs.inl.h
+ *  30735 multi_rhs_small.inl.h  30903 multi_rhs_tiles.inl.h  30936 copy_rows.inl.h
+ *  31213 complex_groups.inl.h  31463 sweeps.inl.h  31465 unit_triangle.inl.h  31502 two_rhs.inl.h
+ *  31671 small_supernode.inl.h  31850 single_rhs.inl.h  32094 kernel_set.inl.h
+ *  32096 complex_small.inl.h  32260 complex_rows.inl.h  32473 inverse_front.inl.h  32758 row.inl.h
+ *  32788 change.inl.h  32852 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5847,12 +5847,13 @@ SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsi
 
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
-  unsigned first[4], one[4], seven[4], xcr0;
-  sli_cpuid(0, first);
+  const unsigned last =
+    13;
+  unsigned one[4], seven[4], xcr0;
   sli_cpuid(1, one);
   sli_cpuid(7, seven);
   xcr0 = one[2] & SLI_OSXSAVE ? sli_xcr0() : 0; /* untested: every processor here has it */
-  return sli_isa_of(first[0], one[2], seven[1], xcr0);
+  return sli_isa_of(last, one[2], seven[1], xcr0);
 #elif defined(SLI_ARM)
   return SL_ISA_NEON;
 #else

@@ -54,12 +54,13 @@ SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsi
  * support. CPUID traps under a hypervisor (microseconds), so this runs once for each factor. */
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86)
-    unsigned first[4], one[4], seven[4], xcr0;
-    sli_cpuid(0, first);
+    const unsigned last =
+        13; /* AVX, without which the rest is not looked at, comes with this leaf */
+    unsigned one[4], seven[4], xcr0;
     sli_cpuid(1, one);
-    sli_cpuid(7, seven); /* of a processor without this leaf: anything */
+    sli_cpuid(7, seven);                          /* of a processor without this leaf: anything */
     xcr0 = one[2] & SLI_OSXSAVE ? sli_xcr0() : 0; /* untested: every processor here has it */
-    return sli_isa_of(first[0], one[2], seven[1], xcr0);
+    return sli_isa_of(last, one[2], seven[1], xcr0);
 #elif defined(SLI_ARM)
     return SL_ISA_NEON;
 #else
