@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2cafc2e9430a0fd9
+ * FNV-1a of the lines after this comment, without the license: 44abb4344afdf419
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2717,8 +2717,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  Weights (options.mass) are not used.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
- *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error of
- *  C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
+ *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error
+ *  of C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F

@@ -18,8 +18,8 @@
  *  Weights (options.mass) are not used.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
- *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error of
- *  C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
+ *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error
+ *  of C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
