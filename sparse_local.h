@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 44abb4344afdf419
+ * FNV-1a of the lines after this comment, without the license: ac324065addebd43
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,57 +35,57 @@
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4185 panel.h   4211 step.h   4285 pivot_rule.h   4359 front.h   4419 pairs.h
  *   4626 inverse_front.h   4698 table.h   4726 simd.h   4821 simd_scalar_single.h
- *   4867 simd_scalar.h   4998 simd_avx2_single.h   5052 simd_avx2.h   5298 simd_avx512_single.h
- *   5353 simd_avx512.h   5527 simd_neon_single.h   5569 simd_neon.h   5809 dispatch.h
+ *   4867 simd_scalar.h   5004 simd_avx2_single.h   5058 simd_avx2.h   5308 simd_avx512_single.h
+ *   5363 simd_avx512.h   5541 simd_neon_single.h   5583 simd_neon.h   5827 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5890 csc.h   6023 csc_build.h   6157 csc64.h   6228 csc_triangle.h   6294 csc_products.h
- *   6411 permute.h   6477 sum.h   6559 output_file.h   6768 matrix_market.h
+ *   5908 csc.h   6041 csc_build.h   6175 csc64.h   6246 csc_triangle.h   6312 csc_products.h
+ *   6429 permute.h   6495 sum.h   6577 output_file.h   6786 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7214 graph.h   7356 contract.h   7610 coarsen.h   7773 labels.h   7994 subgraph.h   8189 heap.h
- *   8249 bisect.h   8476 separator.h   8738 mindeg.h   8921 dissect.h   9245 tree_cost.h
- *   9297 levelset.h   9403 geometric.h   9578 cells.h   9758 septree.h   9834 metis.h
- *   9983 metis_refined.h  10097 nd.h  10297 compress.h  10418 peel.h  10596 quotient.h
- *  11009 order.h
+ *   7232 graph.h   7374 contract.h   7628 coarsen.h   7791 labels.h   8012 subgraph.h   8207 heap.h
+ *   8267 bisect.h   8494 separator.h   8756 mindeg.h   8939 dissect.h   9263 tree_cost.h
+ *   9315 levelset.h   9421 geometric.h   9596 cells.h   9776 septree.h   9852 metis.h
+ *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 peel.h  10614 quotient.h
+ *  11027 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11360 symbolic_types.h  11397 etree.h  11470 counts.h  11527 supernodes.h  11749 structure.h
- *  11870 schedule.h  12150 symbolic.h  12591 reach.h
+ *  11378 symbolic_types.h  11415 etree.h  11488 counts.h  11545 supernodes.h  11767 structure.h
+ *  11888 schedule.h  12168 symbolic.h  12609 reach.h
  * (factor: the numbers of L and D)
- *  12862 factor_types.h  13273 storage.h  13413 pivot_search.h  13759 pivoted.h  13827 scatter.h
- *  13985 uplooking.h  14057 null_product.h  14261 null_dense.h  14338 null_basis.h
- *  14646 null_vectors.h  14788 multifrontal.h  14978 gather.h  15026 kept.h  15195 front_tasks.h
- *  15538 nullspace.h  15741 growth.h  15817 factor_setup.h  16139 factor.h  16349 leftlooking.h
- *  16495 factor_query.h  16630 combination.h
+ *  12880 factor_types.h  13291 storage.h  13431 pivot_search.h  13777 pivoted.h  13845 scatter.h
+ *  14003 uplooking.h  14075 null_product.h  14279 null_dense.h  14356 null_basis.h
+ *  14664 null_vectors.h  14806 multifrontal.h  14996 gather.h  15044 kept.h  15213 front_tasks.h
+ *  15556 nullspace.h  15759 growth.h  15835 factor_setup.h  16157 factor.h  16367 leftlooking.h
+ *  16513 factor_query.h  16648 combination.h
  * (solve: full and local solves)
- *  16691 region_types.h  16795 work.h  16895 query.h  17111 singular.h  17381 backward.h
- *  17411 sweep_tasks.h  17741 sweep.h  17952 compile.h  18145 plan.h  18252 local.h  18404 parts.h
- *  18693 refine.h  18872 refine_local.h  19088 rcond.h  19247 defects.h
+ *  16709 region_types.h  16813 work.h  16913 query.h  17129 singular.h  17399 backward.h
+ *  17429 sweep_tasks.h  17759 sweep.h  17970 compile.h  18163 plan.h  18270 local.h  18422 parts.h
+ *  18711 refine.h  18890 refine_local.h  19106 rcond.h  19265 defects.h
  * (inverse: entries of the inverse, regions)
- *  19325 traversal.h  19574 traversal_run.h  19767 row_sets.h  19794 unit_vectors.h
- *  20021 bilinear.h  20198 entries.h  20480 block.h  20720 reserve.h  20912 selected.h
- *  21122 selected_query.h  21224 region_choose.h  21451 region.h
+ *  19343 traversal.h  19592 traversal_run.h  19785 row_sets.h  19812 unit_vectors.h
+ *  20039 bilinear.h  20216 entries.h  20498 block.h  20738 reserve.h  20930 selected.h
+ *  21140 selected_query.h  21242 region_choose.h  21469 region.h
  * (change: a factor that follows changes of its matrix)
- *  21699 update.h  22049 rank.h  22387 edges.h  22541 choose.h  22739 pins_types.h
- *  22817 pins_nulls.h  22995 pins_capacitance.h  23246 pins_held.h  23457 pins_choose.h
- *  23527 pins_rebuild.h  23742 pins_matrix.h  23893 pins.h  24153 pins_solve.h  24515 subset.h
- *  24628 restrict_analysis.h  24957 restrict_symbolic.h  25138 restrict.h  25355 edit_match.h
- *  25554 edit_place.h  25803 edit_separate.h  26116 edit_order.h  26271 edit_graph.h
- *  26366 edit_join.h  26642 edit.h  26805 edit_factor.h
+ *  21717 update.h  22067 rank.h  22405 edges.h  22559 choose.h  22757 pins_types.h
+ *  22835 pins_nulls.h  23013 pins_capacitance.h  23264 pins_held.h  23475 pins_choose.h
+ *  23545 pins_rebuild.h  23760 pins_matrix.h  23911 pins.h  24171 pins_solve.h  24533 subset.h
+ *  24646 restrict_analysis.h  24975 restrict_symbolic.h  25156 restrict.h  25373 edit_match.h
+ *  25572 edit_place.h  25821 edit_separate.h  26134 edit_order.h  26289 edit_graph.h
+ *  26384 edit_join.h  26660 edit.h  26823 edit_factor.h
  * (save: factors in files)
- *  27104 format.h  27400 decode.h  27548 check.h  27878 write.h  28183 load.h  28451 load_inverse.h
- *  28781 load_calls.h
+ *  27122 format.h  27418 decode.h  27566 check.h  27896 write.h  28201 load.h  28469 load_inverse.h
+ *  28799 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28980 batch_solve.h  29189 batch_factor.h  29390 batch_diagonal.h
+ *  28998 batch_solve.h  29207 batch_factor.h  29408 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29530 hermitian.h  29692 complex_rows.h
+ *  29548 hermitian.h  29710 complex_rows.h
  * (last: undefine every internal macro)
- *  29860 undef.h
+ *  29878 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30122 front.inl.h  30124 product.inl.h  30623 words_undef.inl.h  30708 multi_rhs.inl.h
- *  30735 multi_rhs_small.inl.h  30903 multi_rhs_tiles.inl.h  30936 copy_rows.inl.h
- *  31213 complex_groups.inl.h  31463 sweeps.inl.h  31465 unit_triangle.inl.h  31502 two_rhs.inl.h
- *  31671 small_supernode.inl.h  31850 single_rhs.inl.h  32094 kernel_set.inl.h
- *  32096 complex_small.inl.h  32260 complex_rows.inl.h  32473 inverse_front.inl.h  32758 row.inl.h
- *  32788 change.inl.h  32852 interleave.inl.h
+ *  30140 front.inl.h  30142 product.inl.h  30641 words_undef.inl.h  30726 copy_rows.inl.h
+ *  30764 multi_rhs.inl.h  30791 multi_rhs_small.inl.h  30959 multi_rhs_tiles.inl.h
+ *  31236 complex_groups.inl.h  31486 sweeps.inl.h  31488 unit_triangle.inl.h  31525 two_rhs.inl.h
+ *  31694 small_supernode.inl.h  31873 single_rhs.inl.h  32117 kernel_set.inl.h
+ *  32119 complex_small.inl.h  32283 complex_rows.inl.h  32496 inverse_front.inl.h  32781 row.inl.h
+ *  32811 change.inl.h  32875 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4955,6 +4955,8 @@ typedef struct sli_kernels {
 
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -4969,6 +4971,8 @@ typedef struct sli_kernels {
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -4977,6 +4981,8 @@ typedef struct sli_kernels {
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_GROUPS 32
 #define SLW_NRHS 8
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5214,6 +5220,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
 #define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5276,6 +5284,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_DIVIDE(a, s) \
   a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
   a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5459,6 +5469,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLW_GROUPS 8
@@ -5496,6 +5508,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_DIVIDE(a, s) \
   a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
   a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5718,6 +5732,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_0 = vdivq_f64(a##_0, s_); \
     a##_1 = vdivq_f64(a##_1, s_); \
   }
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5787,6 +5803,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_2 = vdivq_f64(a##_2, s_); \
     a##_3 = vdivq_f64(a##_3, s_); \
   }
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -30698,6 +30716,44 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 #undef SLW_DIVIDE
 #endif
 
+#ifdef SLI_SECTION_COPY_ROWS
+#undef SLI_SECTION_COPY_ROWS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                         const sl_int *rows, const double *own,
+                         const double *x, sl_int stride) {
+  sl_int r;
+  SLW_DECLARE(b)
+  for (r = 0; r < SLW_ROWS; r++) {
+    if (r < inner + below) {
+      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
+                  : x + (ptrdiff_t)rows[r - inner] * stride)
+    } else {
+      SLW_ZERO(b)
+    }
+    SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                        const sl_int *rows, double *own, double *x,
+                        sl_int stride) {
+  sl_int r;
+  SLW_DECLARE(b)
+  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+    SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
+    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
+          b)
+  }
+}
+#endif
+
 #ifdef SLI_SECTION_MULTI_RHS
 #undef SLI_SECTION_MULTI_RHS
 #if SL_VERSION_MAJOR != 0 || \
@@ -30930,39 +30986,6 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 #define SLI_STRIDE_PARAMETER
 #define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
 #define SLI_KERNEL(f) SLW_SWEEP(f)
-#endif
-
-#if !SLV_SINGLE
-/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
-
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
-                         const sl_int *rows, const double *own,
-                         const double *x, sl_int stride) {
-  sl_int r;
-  SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS; r++) {
-    if (r < inner + below) {
-      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
-                  : x + (ptrdiff_t)rows[r - inner] * stride)
-    } else {
-      SLW_ZERO(b)
-    }
-    SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-                        const sl_int *rows, double *own, double *x,
-                        sl_int stride) {
-  sl_int r;
-  SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
-    SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
-          b)
-  }
-}
-/* end of copy_rows.inl.h */
 #endif
 
 SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
@@ -32971,44 +32994,6 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(takahashi),
   {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
   SLV_NAME(change_tiles)};
-#endif
-
-#ifdef SLI_SECTION_COPY_ROWS
-#undef SLI_SECTION_COPY_ROWS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
-
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
-                         const sl_int *rows, const double *own,
-                         const double *x, sl_int stride) {
-  sl_int r;
-  SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS; r++) {
-    if (r < inner + below) {
-      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
-                  : x + (ptrdiff_t)rows[r - inner] * stride)
-    } else {
-      SLW_ZERO(b)
-    }
-    SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-                        const sl_int *rows, double *own, double *x,
-                        sl_int stride) {
-  sl_int r;
-  SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
-    SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
-          b)
-  }
-}
 #endif
 
 /*

@@ -2,7 +2,7 @@
 
 /* A row of x has `stride` right-hand sides. With SLW_GROUPS this is any multiple of SLW_NRHS: each
  * row tile of L is applied to all groups of SLW_NRHS right-hand sides while it is in the first
- * cache. Otherwise there is one group. */
+ * cache. Otherwise there is one group. copy_rows.inl.h is included before. */
 
 /* SLW_EACH(op, k) is op(0, k) op(1, k) .. over the SLW_ROWS rows that are kept in registers,
  * SLW_HIGH and SLW_LOW are its halves in descending order. a0, a1, .. are the accumulators of these

@@ -32,10 +32,6 @@
 #define SLI_KERNEL(f) SLW_SWEEP(f)
 #endif
 
-#if !SLV_SINGLE
-#include "copy_rows.inl.h"
-#endif
-
 /* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
  * the triangle of the diagonal tile. Rows below are updated in x in place. */
 SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,

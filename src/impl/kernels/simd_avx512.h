@@ -121,6 +121,7 @@
 #define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #define SLW_GROUPS 8 /* of L in float: no copies by width, to keep the object small */
 #include "multi_rhs.inl.h"
@@ -157,6 +158,7 @@
 #define SLW_DIVIDE(a, s) \
     a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
     a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##16_avx512

@@ -158,6 +158,7 @@
         a##_0 = vdivq_f64(a##_0, s_); \
         a##_1 = vdivq_f64(a##_1, s_); \
     }
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##4_neon
@@ -224,6 +225,7 @@
         a##_2 = vdivq_f64(a##_2, s_); \
         a##_3 = vdivq_f64(a##_3, s_); \
     }
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"

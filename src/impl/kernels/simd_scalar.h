@@ -96,6 +96,7 @@
 /* Arrays gain nothing from duplicating L: two right-hand sides use multi_rhs.inl.h too. */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##2_scalar
@@ -107,12 +108,14 @@
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##8_scalar
 #define SLW_GROUPS 32
 #define SLW_NRHS 8
+#include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs.inl.h"
 #include "sweeps.inl.h"
