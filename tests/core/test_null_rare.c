@@ -210,13 +210,16 @@ static void null_pivots_of_a_sum_are_confirmed(void **state) {
         b[k] = 1.0;
     }
     p[N] = t;
-    const sl_csc A = {N, N, p, i, one};
-    const double *values[2] = {one, two}, c[2] = {1, 1};
+    const sl_csc A = {N, N, p, i, one}, B = {N, N, p, i, two};
+    static double first[2 * N], second[2 * N];
+    const double *const values[2] = {first, second}, c[2] = {1, 1};
     sl_options opt = skipping();
     sl_symbolic *S;
     sl_factor *F;
     sl_stats stats;
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_symbolic_scatter(S, first, &A, NULL));
+    SL_CHECK(sl_symbolic_scatter(S, second, &B, NULL));
     SL_CHECK(sl_factor_create_combination(&F, S, c, values, 2, &opt, &stats));
     assert_int_equal(stats.factor.null, 1);
     SL_CHECK(sl_factor_solve(F, x, N, b, N, 1, NULL));
