@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ac324065addebd43
+ * FNV-1a of the lines after this comment, without the license: ed85033bfab096f7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -52,40 +52,40 @@
  * (factor: the numbers of L and D)
  *  12880 factor_types.h  13291 storage.h  13431 pivot_search.h  13777 pivoted.h  13845 scatter.h
  *  14003 uplooking.h  14075 null_product.h  14279 null_dense.h  14356 null_basis.h
- *  14664 null_vectors.h  14806 multifrontal.h  14996 gather.h  15044 kept.h  15213 front_tasks.h
- *  15556 nullspace.h  15759 growth.h  15835 factor_setup.h  16157 factor.h  16367 leftlooking.h
- *  16513 factor_query.h  16648 combination.h
+ *  14664 null_vectors.h  14806 multifrontal.h  14996 gather.h  15044 kept.h  15214 front_tasks.h
+ *  15557 nullspace.h  15760 growth.h  15836 factor_setup.h  16158 factor.h  16368 leftlooking.h
+ *  16514 factor_query.h  16649 combination.h
  * (solve: full and local solves)
- *  16709 region_types.h  16813 work.h  16913 query.h  17129 singular.h  17399 backward.h
- *  17429 sweep_tasks.h  17759 sweep.h  17970 compile.h  18163 plan.h  18270 local.h  18422 parts.h
- *  18711 refine.h  18890 refine_local.h  19106 rcond.h  19265 defects.h
+ *  16710 region_types.h  16814 work.h  16914 query.h  17130 singular.h  17400 backward.h
+ *  17430 sweep_tasks.h  17760 sweep.h  17971 compile.h  18164 plan.h  18271 local.h  18423 parts.h
+ *  18712 refine.h  18891 refine_local.h  19107 rcond.h  19266 defects.h
  * (inverse: entries of the inverse, regions)
- *  19343 traversal.h  19592 traversal_run.h  19785 row_sets.h  19812 unit_vectors.h
- *  20039 bilinear.h  20216 entries.h  20498 block.h  20738 reserve.h  20930 selected.h
- *  21140 selected_query.h  21242 region_choose.h  21469 region.h
+ *  19344 traversal.h  19593 traversal_run.h  19786 row_sets.h  19813 unit_vectors.h
+ *  20040 bilinear.h  20217 entries.h  20499 block.h  20739 reserve.h  20931 selected.h
+ *  21141 selected_query.h  21243 region_choose.h  21470 region.h
  * (change: a factor that follows changes of its matrix)
- *  21717 update.h  22067 rank.h  22405 edges.h  22559 choose.h  22757 pins_types.h
- *  22835 pins_nulls.h  23013 pins_capacitance.h  23264 pins_held.h  23475 pins_choose.h
- *  23545 pins_rebuild.h  23760 pins_matrix.h  23911 pins.h  24171 pins_solve.h  24533 subset.h
- *  24646 restrict_analysis.h  24975 restrict_symbolic.h  25156 restrict.h  25373 edit_match.h
- *  25572 edit_place.h  25821 edit_separate.h  26134 edit_order.h  26289 edit_graph.h
- *  26384 edit_join.h  26660 edit.h  26823 edit_factor.h
+ *  21718 update.h  22068 rank.h  22406 edges.h  22560 choose.h  22758 pins_types.h
+ *  22836 pins_nulls.h  23014 pins_capacitance.h  23265 pins_held.h  23476 pins_choose.h
+ *  23546 pins_rebuild.h  23761 pins_matrix.h  23912 pins.h  24172 pins_solve.h  24547 subset.h
+ *  24660 restrict_analysis.h  24989 restrict_symbolic.h  25170 restrict.h  25387 edit_match.h
+ *  25586 edit_place.h  25835 edit_separate.h  26148 edit_order.h  26303 edit_graph.h
+ *  26398 edit_join.h  26674 edit.h  26837 edit_factor.h
  * (save: factors in files)
- *  27122 format.h  27418 decode.h  27566 check.h  27896 write.h  28201 load.h  28469 load_inverse.h
- *  28799 load_calls.h
+ *  27136 format.h  27432 decode.h  27580 check.h  27910 write.h  28215 load.h  28483 load_inverse.h
+ *  28813 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28998 batch_solve.h  29207 batch_factor.h  29408 batch_diagonal.h
+ *  29012 batch_solve.h  29221 batch_factor.h  29422 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29548 hermitian.h  29710 complex_rows.h
+ *  29562 hermitian.h  29724 complex_rows.h
  * (last: undefine every internal macro)
- *  29878 undef.h
+ *  29892 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30140 front.inl.h  30142 product.inl.h  30641 words_undef.inl.h  30726 copy_rows.inl.h
- *  30764 multi_rhs.inl.h  30791 multi_rhs_small.inl.h  30959 multi_rhs_tiles.inl.h
- *  31236 complex_groups.inl.h  31486 sweeps.inl.h  31488 unit_triangle.inl.h  31525 two_rhs.inl.h
- *  31694 small_supernode.inl.h  31873 single_rhs.inl.h  32117 kernel_set.inl.h
- *  32119 complex_small.inl.h  32283 complex_rows.inl.h  32496 inverse_front.inl.h  32781 row.inl.h
- *  32811 change.inl.h  32875 interleave.inl.h
+ *  30154 front.inl.h  30156 product.inl.h  30655 words_undef.inl.h  30740 copy_rows.inl.h
+ *  30778 multi_rhs.inl.h  30805 multi_rhs_small.inl.h  30973 multi_rhs_tiles.inl.h
+ *  31250 complex_groups.inl.h  31500 sweeps.inl.h  31502 unit_triangle.inl.h  31539 two_rhs.inl.h
+ *  31708 small_supernode.inl.h  31887 single_rhs.inl.h  32131 kernel_set.inl.h
+ *  32133 complex_small.inl.h  32297 complex_rows.inl.h  32510 inverse_front.inl.h  32795 row.inl.h
+ *  32825 change.inl.h  32889 interleave.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -15068,7 +15068,8 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
   p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
   for (s = 0; s < S->n_supers; s++) {
     const sli_step *step = &S->steps[s];
-    const sl_off size = sli_triangle_offset(sli_update_tiles(step->width, step->below));
+    const sl_off size =
+      sli_triangle_offset(sli_update_tiles(step->width, step->below)) + SLI_TILE;
     p->update_room = p->from[s] != -1 && size > p->update_room ? size : p->update_room;
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -24361,6 +24362,18 @@ static void sli_pins_set_held(const sl_pins *P, const sli_reach *R, double *x, s
   }
 }
 
+static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b, sl_int lanes) {
+  sl_int p, r;
+  for (p = 0; p < P->n_pins; p++) {
+    const sli_pin *pin = P->pins[p];
+    const sl_int at =
+      pin->count == 1 ? sli_reach_index_of(R, P->F->S->iperm[pin->rows[0]]) : -1;
+    for (r = 0; r < lanes && at != -1; r++) {
+      b[(ptrdiff_t)at * lanes + r] = 0.0;
+    }
+  }
+}
+
 static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
               const double *G, size_t ldg, sl_int nrhs) {
   const sli_reach *R = &P->held_reach;
@@ -24451,6 +24464,7 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   sl_int p;
   sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
   sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
+  sli_pins_clear_rows(P, &q->forward, v.y, lanes);
   sli_pins_defects(P, q, &w->nulls, v.y, lanes);
   if (is_whole) {
     sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);

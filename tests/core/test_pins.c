@@ -53,6 +53,30 @@ static void equalities_hold(void **state) {
     pinned_free(&p);
 }
 
+/* b in pinned rows alone gives x = 0, full and local, and not the rounding of it. */
+static void a_pinned_row_takes_no_load(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
+    const sl_int row = 41, wanted[2] = {41, 42};
+    const double one = 1.0, g[2] = {0.0, 0.0};
+    double x[2] = {1.0, 1.0}, *X = test_reals((size_t)p.n), *B = test_reals((size_t)p.n);
+    sl_plan *plan;
+    SL_CHECK(sl_plan_create(&plan, p.y.S, &row, 1, wanted, 2, NULL, NULL));
+    B[row] = 1.0;
+    pin(&p, 43);
+    pin(&p, row);
+    SL_CHECK(sl_pins_solve(p.P, plan, x, 2, &one, 1, g, 2, 1, NULL));
+    SL_CHECK(sl_pins_solve(p.P, NULL, X, (size_t)p.n, B, (size_t)p.n, g, 2, 1, NULL));
+    assert_true(x[0] == 0.0 && x[1] == 0.0);
+    for (sl_int k = 0; k < p.n; k++) {
+        assert_true(X[k] == 0.0);
+    }
+    sl_plan_free(plan);
+    free(X);
+    free(B);
+    pinned_free(&p);
+}
+
 /* One pin makes a Laplacian regular, wherever it is, the null row included. */
 static void a_pin_makes_a_laplacian_regular(void **state) {
     (void)state;
@@ -245,6 +269,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pins_hold_rows_of_definite_matrices),
         cmocka_unit_test(equalities_hold),
+        cmocka_unit_test(a_pinned_row_takes_no_load),
         cmocka_unit_test(a_pin_makes_a_laplacian_regular),
         cmocka_unit_test(pins_of_several_components),
         cmocka_unit_test(a_changed_factor_is_refused_until_the_refactorization),

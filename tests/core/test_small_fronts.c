@@ -140,7 +140,9 @@ static void a_chain_of_fronts_has_one_worker(void **state) {
     opt.threads.context = &calls;
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
     SL_CHECK(sl_factor_refactor(F, &M.view, NULL));
+#if !defined(SL_VERIFY) /* which divides small systems, too */
     assert_int_equal(calls, 0);
+#endif
     sl_factor_free(F);
     sl_symbolic_free(S);
     gen_matrix_free(&M);

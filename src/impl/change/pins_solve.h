@@ -204,6 +204,20 @@ static void sli_pins_set_held(const sl_pins *P, const sli_reach *R, double *x, s
     }
 }
 
+/* Clears b in pinned rows, where it changes nothing but the multiplier. So x is 0, and no rounding
+ * of 0, where b is nonzero in pinned rows only. */
+static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b, sl_int lanes) {
+    sl_int p, r;
+    for (p = 0; p < P->n_pins; p++) {
+        const sli_pin *pin = P->pins[p];
+        const sl_int at =
+            pin->count == 1 ? sli_reach_index_of(R, P->F->S->iperm[pin->rows[0]]) : -1;
+        for (r = 0; r < lanes && at != -1; r++) {
+            b[(ptrdiff_t)at * lanes + r] = 0.0;
+        }
+    }
+}
+
 /* e := L^-1 P (-A(:, H) g) in the vector of held_reach; x += e; e := D^-1 e. */
 static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
                             const double *G, size_t ldg, sl_int nrhs) {
@@ -300,6 +314,7 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     sl_int p;
     sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
     sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
+    sli_pins_clear_rows(P, &q->forward, v.y, lanes);
     sli_pins_defects(P, q, &w->nulls, v.y, lanes);
     if (is_whole) {
         sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);

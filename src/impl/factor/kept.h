@@ -17,7 +17,8 @@ typedef struct sli_kept {
     /* a piece a worker */
     sl_int *local;    /* n */
     sl_int *relative; /* rows of the tallest front */
-    double *update;   /* update_room: the largest triangle of a kept supernode */
+    /* update_room: the largest triangle of a kept supernode, and what vector loads read beyond */
+    double *update;
     sl_off update_room;
 } sli_kept;
 
@@ -36,7 +37,8 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
     p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
     for (s = 0; s < S->n_supers; s++) {
         const sli_step *step = &S->steps[s];
-        const sl_off size = sli_triangle_offset(sli_update_tiles(step->width, step->below));
+        const sl_off size =
+            sli_triangle_offset(sli_update_tiles(step->width, step->below)) + SLI_TILE;
         p->update_room = p->from[s] != -1 && size > p->update_room ? size : p->update_room;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
