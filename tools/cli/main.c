@@ -25,7 +25,7 @@ static const command commands[] = {
     {"geodesic", "distances on the surface by the heat method, Voronoi cells", command_geodesic},
     {"vectors", "tangent vectors carried over the surface, logarithmic map", command_vectors},
     {"deform", "a mesh deformed by handles that are grabbed, moved, released", command_deform},
-    {"edit", "a system edited at random places, and a factor that follows", command_edit},
+    {"edit", "a system or a mesh edited at random places, and a factor that follows", command_edit},
     {"save", "factors the Laplacian of a mesh and saves the factor in a file", command_save},
     {"view", "a page for a browser: the mesh and fields on it, to turn and to query", command_view},
     {"query", "answers local solves with a saved factor, from standard input", command_query},
