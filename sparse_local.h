@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ed85033bfab096f7
+ * FNV-1a of the lines after this comment, without the license: 81828ed63989a4d8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,81 +11,81 @@
  *    552 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    747 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    919 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1059 factor.h     the numerical factorization P A P' = L D L'
- *   1340 solve.h      full solves, and the workspace of all solves
- *   1453 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1547 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1660 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1773 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1909 batch.h      many independent solves by one call, distributed over threads
- *   1959 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2137 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2257 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2361 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2500 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2618 change.h     a factor that follows small changes of its matrix
- *   2705 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2854 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2985 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3037 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   1060 factor.h     the numerical factorization P A P' = L D L'
+ *   1341 solve.h      full solves, and the workspace of all solves
+ *   1454 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1548 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1661 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1774 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1910 batch.h      many independent solves by one call, distributed over threads
+ *   1960 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2138 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2258 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2362 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2501 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2619 change.h     a factor that follows small changes of its matrix
+ *   2706 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2856 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2987 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3039 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3129 base.h   3423 status.h   3484 options.h   3542 alloc.h   3698 hash.h   3828 file_map.h
- *   3925 sort.h   3989 parallel.h
+ *   3131 base.h   3425 status.h   3486 options.h   3544 alloc.h   3700 hash.h   3830 file_map.h
+ *   3927 sort.h   3991 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4185 panel.h   4211 step.h   4285 pivot_rule.h   4359 front.h   4419 pairs.h
- *   4626 inverse_front.h   4698 table.h   4726 simd.h   4821 simd_scalar_single.h
- *   4867 simd_scalar.h   5004 simd_avx2_single.h   5058 simd_avx2.h   5308 simd_avx512_single.h
- *   5363 simd_avx512.h   5541 simd_neon_single.h   5583 simd_neon.h   5827 dispatch.h
+ *   4187 panel.h   4213 step.h   4287 pivot_rule.h   4361 front.h   4421 pairs.h
+ *   4628 inverse_front.h   4700 table.h   4728 simd.h   4823 simd_scalar_single.h
+ *   4869 simd_scalar.h   5008 simd_avx2_single.h   5062 simd_avx2.h   5302 simd_avx512_single.h
+ *   5357 simd_avx512.h   5531 simd_neon_single.h   5573 simd_neon.h   5807 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5908 csc.h   6041 csc_build.h   6175 csc64.h   6246 csc_triangle.h   6312 csc_products.h
- *   6429 permute.h   6495 sum.h   6577 output_file.h   6786 matrix_market.h
+ *   5888 csc.h   6021 csc_build.h   6155 csc64.h   6226 csc_triangle.h   6292 csc_products.h
+ *   6409 permute.h   6475 sum.h   6557 output_file.h   6766 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7232 graph.h   7374 contract.h   7628 coarsen.h   7791 labels.h   8012 subgraph.h   8207 heap.h
- *   8267 bisect.h   8494 separator.h   8756 mindeg.h   8939 dissect.h   9263 tree_cost.h
- *   9315 levelset.h   9421 geometric.h   9596 cells.h   9776 septree.h   9852 metis.h
- *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 peel.h  10614 quotient.h
- *  11027 order.h
+ *   7212 graph.h   7354 contract.h   7608 coarsen.h   7771 labels.h   7992 subgraph.h   8187 heap.h
+ *   8247 bisect.h   8474 separator.h   8736 mindeg.h   8919 dissect.h   9243 tree_cost.h
+ *   9295 levelset.h   9401 geometric.h   9576 cells.h   9756 septree.h   9832 metis.h
+ *   9981 metis_refined.h  10095 nd.h  10295 compress.h  10416 peel.h  10594 quotient.h
+ *  11007 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11378 symbolic_types.h  11415 etree.h  11488 counts.h  11545 supernodes.h  11767 structure.h
- *  11888 schedule.h  12168 symbolic.h  12609 reach.h
+ *  11358 symbolic_types.h  11395 etree.h  11468 counts.h  11525 supernodes.h  11747 structure.h
+ *  11868 schedule.h  12148 symbolic.h  12589 reach.h
  * (factor: the numbers of L and D)
- *  12880 factor_types.h  13291 storage.h  13431 pivot_search.h  13777 pivoted.h  13845 scatter.h
- *  14003 uplooking.h  14075 null_product.h  14279 null_dense.h  14356 null_basis.h
- *  14664 null_vectors.h  14806 multifrontal.h  14996 gather.h  15044 kept.h  15214 front_tasks.h
- *  15557 nullspace.h  15760 growth.h  15836 factor_setup.h  16158 factor.h  16368 leftlooking.h
- *  16514 factor_query.h  16649 combination.h
+ *  12860 factor_types.h  13271 storage.h  13411 pivot_search.h  13757 pivoted.h  13825 scatter.h
+ *  13983 uplooking.h  14055 null_product.h  14259 null_dense.h  14336 null_basis.h
+ *  14644 null_vectors.h  14786 multifrontal.h  14976 gather.h  15024 kept.h  15194 front_tasks.h
+ *  15537 nullspace.h  15740 growth.h  15816 factor_setup.h  16138 factor.h  16348 leftlooking.h
+ *  16494 factor_query.h  16629 combination.h
  * (solve: full and local solves)
- *  16710 region_types.h  16814 work.h  16914 query.h  17130 singular.h  17400 backward.h
- *  17430 sweep_tasks.h  17760 sweep.h  17971 compile.h  18164 plan.h  18271 local.h  18423 parts.h
- *  18712 refine.h  18891 refine_local.h  19107 rcond.h  19266 defects.h
+ *  16690 region_types.h  16794 work.h  16894 query.h  17110 singular.h  17380 backward.h
+ *  17410 sweep_tasks.h  17740 sweep.h  17951 compile.h  18144 plan.h  18251 local.h  18403 parts.h
+ *  18692 refine.h  18871 refine_local.h  19087 rcond.h  19246 defects.h
  * (inverse: entries of the inverse, regions)
- *  19344 traversal.h  19593 traversal_run.h  19786 row_sets.h  19813 unit_vectors.h
- *  20040 bilinear.h  20217 entries.h  20499 block.h  20739 reserve.h  20931 selected.h
- *  21141 selected_query.h  21243 region_choose.h  21470 region.h
+ *  19324 traversal.h  19573 traversal_run.h  19766 row_sets.h  19793 unit_vectors.h
+ *  20020 bilinear.h  20197 entries.h  20479 block.h  20719 reserve.h  20911 selected.h
+ *  21121 selected_query.h  21223 region_choose.h  21450 region.h
  * (change: a factor that follows changes of its matrix)
- *  21718 update.h  22068 rank.h  22406 edges.h  22560 choose.h  22758 pins_types.h
- *  22836 pins_nulls.h  23014 pins_capacitance.h  23265 pins_held.h  23476 pins_choose.h
- *  23546 pins_rebuild.h  23761 pins_matrix.h  23912 pins.h  24172 pins_solve.h  24547 subset.h
- *  24660 restrict_analysis.h  24989 restrict_symbolic.h  25170 restrict.h  25387 edit_match.h
- *  25586 edit_place.h  25835 edit_separate.h  26148 edit_order.h  26303 edit_graph.h
- *  26398 edit_join.h  26674 edit.h  26837 edit_factor.h
+ *  21698 update.h  22048 rank.h  22386 edges.h  22540 choose.h  22738 pins_types.h
+ *  22816 pins_nulls.h  22994 pins_capacitance.h  23245 pins_held.h  23456 pins_choose.h
+ *  23526 pins_rebuild.h  23741 pins_matrix.h  23892 pins.h  24152 pins_solve.h  24527 subset.h
+ *  24640 restrict_analysis.h  24969 restrict_symbolic.h  25150 restrict.h  25367 edit_match.h
+ *  25566 edit_place.h  25815 edit_separate.h  26128 edit_order.h  26283 edit_graph.h
+ *  26378 edit_join.h  26654 edit.h  26817 edit_factor.h
  * (save: factors in files)
- *  27136 format.h  27432 decode.h  27580 check.h  27910 write.h  28215 load.h  28483 load_inverse.h
- *  28813 load_calls.h
+ *  27116 format.h  27412 decode.h  27560 check.h  27890 write.h  28195 load.h  28463 load_inverse.h
+ *  28793 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29012 batch_solve.h  29221 batch_factor.h  29422 batch_diagonal.h
+ *  28992 batch_solve.h  29201 batch_factor.h  29402 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29562 hermitian.h  29724 complex_rows.h
+ *  29542 hermitian.h  29704 complex_rows.h
  * (last: undefine every internal macro)
- *  29892 undef.h
+ *  29872 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30154 front.inl.h  30156 product.inl.h  30655 words_undef.inl.h  30740 copy_rows.inl.h
- *  30778 multi_rhs.inl.h  30805 multi_rhs_small.inl.h  30973 multi_rhs_tiles.inl.h
- *  31250 complex_groups.inl.h  31500 sweeps.inl.h  31502 unit_triangle.inl.h  31539 two_rhs.inl.h
- *  31708 small_supernode.inl.h  31887 single_rhs.inl.h  32131 kernel_set.inl.h
- *  32133 complex_small.inl.h  32297 complex_rows.inl.h  32510 inverse_front.inl.h  32795 row.inl.h
- *  32825 change.inl.h  32889 interleave.inl.h
+ *  30134 front.inl.h  30136 product.inl.h  30635 words_undef.inl.h  30712 copy_rows.inl.h
+ *  30750 multi_rhs.inl.h  30777 multi_rhs_small.inl.h  30945 multi_rhs_tiles.inl.h
+ *  31222 complex_groups.inl.h  31472 sweeps.inl.h  31474 unit_triangle.inl.h  31511 two_rhs.inl.h
+ *  31680 small_supernode.inl.h  31859 single_rhs.inl.h  32103 kernel_set.inl.h
+ *  32105 complex_small.inl.h  32269 complex_rows.inl.h  32482 inverse_front.inl.h  32767 row.inl.h
+ *  32797 change.inl.h  32861 interleave.inl.h  32992 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -937,8 +937,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  the roots have fewer of them.
  *
  *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
- *  SL_ORDERING_MINDEG first eliminate such rows, and those that come to have so few: a tree or a
- *  chain of n rows then has paths of O(log n) columns, and with minimum degree a tree has no fill.
+ *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
+ *  are left. Paths in a tree or a chain of n rows then have O(log n) columns, and with minimum
+ *  degree a tree has no fill.
  *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
@@ -2716,9 +2717,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *  as they are in components without pins; b has to be in balance with them, which is not checked.
  *  Weights (options.mass) are not used.
  *
- *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
- *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error
- *  of C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
+ *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
+ *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
+ *  check C' x = g and report the loss (SL_ERR_INACCURATE). Local solves check the equalities whose
+ *  rows are all in their reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -4997,6 +4999,8 @@ typedef struct sli_kernels {
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
 #include SL_HEADER
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 #undef SLI_LOOP
@@ -5233,14 +5237,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_LANES_16
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##2_avx2
 #define SLW_NRHS 2
@@ -5256,14 +5254,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_avx2
 #define SLW_GROUPS 32
@@ -5299,6 +5291,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_SECTION_FRONT
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
+#include SL_HEADER
+#define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -5481,14 +5475,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_LANES_8
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##16_avx512
 #define SLW_GROUPS 32
@@ -5532,6 +5520,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_SECTION_FRONT
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
+#include SL_HEADER
+#define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -5745,14 +5735,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_LANES_16
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##2_neon
 #define SLW_NRHS 2
@@ -5768,14 +5752,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #include SL_HEADER
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##8_neon
 #define SLW_GROUPS 32
@@ -5818,6 +5796,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLI_SECTION_FRONT
 #include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
+#include SL_HEADER
+#define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -30720,14 +30700,6 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 #undef SLV_SUMS
 #undef SLV_SUM_LOAD
 #undef SLV_SUM_STORE
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
 #endif
 
 #ifdef SLI_SECTION_COPY_ROWS
@@ -33008,6 +32980,25 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(takahashi),
   {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
   SLV_NAME(change_tiles)};
+#endif
+
+#ifdef SLI_SECTION_LANES_UNDEF
+#undef SLI_SECTION_LANES_UNDEF
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
+
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
 #endif
 
 /*

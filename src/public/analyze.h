@@ -24,8 +24,9 @@
  *  the roots have fewer of them.
  *
  *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
- *  SL_ORDERING_MINDEG first eliminate such rows, and those that come to have so few: a tree or a
- *  chain of n rows then has paths of O(log n) columns, and with minimum degree a tree has no fill.
+ *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
+ *  are left. Paths in a tree or a chain of n rows then have O(log n) columns, and with minimum
+ *  degree a tree has no fill.
  *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its

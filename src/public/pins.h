@@ -17,9 +17,10 @@
  *  as they are in components without pins; b has to be in balance with them, which is not checked.
  *  Weights (options.mass) are not used.
  *
- *  Accuracy: the capacitance matrix corrects the solution without pins. Where that is larger than
- *  the one with pins, as with a weak mass term, as many digits are lost: solves tell by the error
- *  of C' x = g (SL_ERR_INACCURATE), a local one if the rows are in its reach.
+ *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
+ *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
+ *  check C' x = g and report the loss (SL_ERR_INACCURATE). Local solves check the equalities whose
+ *  rows are all in their reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F

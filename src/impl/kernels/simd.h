@@ -5,7 +5,7 @@
 #include "panel.h"
 
 /* A template *.inl.h is compiled once for each instruction set. It uses two groups of macros, which
- * the files simd_*.h define and words_undef.inl.h undefines.
+ * the files simd_*.h define. words_undef.inl.h undefines them, lanes_undef.inl.h those of SLW_.
  *
  * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile. In the files
  * simd_*_single.h they are vectors of floats.

@@ -188,14 +188,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_LANES_8
 #define SLW_LANES_16
 #include "complex_groups.inl.h"
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#include "lanes_undef.inl.h"
 
 /* 2 right-hand sides of complex matrices: half a register */
 #define SLW_NAME(f) sli_##f##2_avx2
@@ -210,14 +203,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
 #include "copy_rows.inl.h"
 #include "complex_groups.inl.h"
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#include "lanes_undef.inl.h"
 
 /* 8 right-hand sides: two registers */
 #define SLW_NAME(f) sli_##f##8_avx2
@@ -247,6 +233,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "lanes_undef.inl.h"
 #include "words_undef.inl.h"
 
 #endif

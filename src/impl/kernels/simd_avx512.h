@@ -129,14 +129,7 @@
 #define SLW_NRHS 8
 #define SLW_LANES_8
 #include "complex_groups.inl.h"
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#include "lanes_undef.inl.h"
 
 /* 16 right-hand sides: two registers. An entry of L that is broadcast serves two FMAs, so that
  * loads no longer limit the rate. */
@@ -174,6 +167,7 @@
 #include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "lanes_undef.inl.h"
 #include "words_undef.inl.h"
 
 #endif

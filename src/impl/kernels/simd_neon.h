@@ -167,14 +167,7 @@
 #define SLW_LANES_8
 #define SLW_LANES_16
 #include "complex_groups.inl.h"
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#include "lanes_undef.inl.h"
 
 /* 2 right-hand sides of complex matrices: one register */
 #define SLW_NAME(f) sli_##f##2_neon
@@ -189,14 +182,7 @@
 #define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
 #include "copy_rows.inl.h"
 #include "complex_groups.inl.h"
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE
+#include "lanes_undef.inl.h"
 
 /* 8 right-hand sides: four registers */
 #define SLW_NAME(f) sli_##f##8_neon
@@ -233,6 +219,7 @@
 #include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "lanes_undef.inl.h"
 #include "words_undef.inl.h"
 
 #endif

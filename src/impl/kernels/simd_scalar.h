@@ -123,6 +123,7 @@
 #include "front.inl.h"
 #include "front.inl.h"
 #include "kernel_set.inl.h"
+#include "lanes_undef.inl.h"
 #include "words_undef.inl.h"
 #undef SLI_LOOP
 

@@ -66,11 +66,3 @@
 #undef SLV_SUMS
 #undef SLV_SUM_LOAD
 #undef SLV_SUM_STORE
-#undef SLW_ROWS
-#undef SLW_DECLARE
-#undef SLW_ZERO
-#undef SLW_LOAD
-#undef SLW_STORE
-#undef SLW_FNMA
-#undef SLW_ADD
-#undef SLW_DIVIDE

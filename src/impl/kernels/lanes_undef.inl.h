@@ -1,0 +1,10 @@
+/* lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
+
+#undef SLW_ROWS
+#undef SLW_DECLARE
+#undef SLW_ZERO
+#undef SLW_LOAD
+#undef SLW_STORE
+#undef SLW_FNMA
+#undef SLW_ADD
+#undef SLW_DIVIDE
