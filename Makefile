@@ -55,12 +55,16 @@ CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
 FUZZERS := $(wildcard tests/fuzz/fuzz_*.c)
-WHITE_BOX := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null)
+SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads ordering_threads inverse_threads)
+# Tests that compile the bodies with their own faults, or are linked with small tasks.
+OWN_BODIES := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null) $(SMALL_TASK_TESTS)
 BENCH_SOURCES := $(wildcard bench/lib/*.c bench/questions/*.c)
 PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
 
 object = $(addprefix $(B)/obj/,$(addsuffix .o,$(1)))
 IMPL = $(B)/obj/sparse_local.o
+# The bodies again, where small systems are divided among workers, too.
+SMALL_TASKS = $(B)/obj/small_tasks.o
 LIBRARY = $(B)/libtools.a
 PAGE := build/view_page_text.c
 TEST_PROGRAMS = $(TESTS:tests/%.c=$(B)/tests/%)
@@ -193,9 +197,9 @@ $(B)/obj/sparse_local.c:
 	@mkdir -p $(@D)
 	@printf '/* sparse_local.c: the bodies */\n#define SPARSE_LOCAL_IMPLEMENTATION\n#include "sparse_local.h"\n' >$@
 
-$(IMPL): $(B)/obj/sparse_local.c sparse_local.h $(B)/flags | build/deps.ok
+$(IMPL) $(SMALL_TASKS): $(B)/obj/sparse_local.c sparse_local.h $(B)/flags | build/deps.ok
 	$(call say,CC  )
-	$(Q)$(IMPL_COMPILE) -c -o $@ $<
+	$(Q)$(IMPL_COMPILE) $(if $(filter $(SMALL_TASKS),$@),-DSLI_SMALL_TASKS=1) -c -o $@ $<
 
 $(LIBRARY): $(call object,$(TOOLS:.c=) $(PAGE:.c=))
 	@rm -f $@
@@ -228,7 +232,9 @@ $(B)/obj/tests/%.o: OPT := $(OPT:-O2=-O1)
 $(B)/tests/%: $(B)/obj/tests/%.o $(LIBRARY) $(IMPL)
 	@mkdir -p $(@D)
 	$(call say,LINK)
-	$(Q)$(LINK) -o $@ $(if $(filter tests/$*.c,$(WHITE_BOX)),$(filter-out $(IMPL),$^),$^) $(TEST_LIBS) $(LIBS)
+	$(Q)$(LINK) -o $@ $(if $(filter tests/$*.c,$(OWN_BODIES)),$(filter-out $(IMPL),$^),$^) $(TEST_LIBS) $(LIBS)
+
+$(SMALL_TASK_TESTS:%.c=$(B)/%): $(SMALL_TASKS)
 
 $(B)/tests/replay_%: $(B)/obj/tests/fuzz/fuzz_%.o $(B)/obj/tests/fuzz/replay.o $(LIBRARY) $(IMPL)
 	@mkdir -p $(@D)
@@ -354,13 +360,13 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 	@cat build/platforms/*.txt
 
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
-	@+$(SUB_MAKE) run-tests B=build/sanitize OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY \
+	@+$(SUB_MAKE) run-tests B=build/sanitize OPT='-O1 -g -fno-var-tracking -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
-	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fsanitize=thread' REPLAYS= \
+	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fno-var-tracking -fsanitize=thread' REPLAYS= \
 	TEST_PROGRAMS='$(THREADED:%=build/races/tests/core/%)'
 
 test-openmp: deps sparse_local.h ## the tests of threads, with OpenMP compiled in

@@ -1,7 +1,5 @@
 /* test_inverse_threads.c: the selected inverse and the diagonal with threads: bits and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
-#define SPARSE_LOCAL_IMPLEMENTATION
-#define SLI_SMALL_TASKS 1 /* small systems are divided, too */
 #include "tests/lib/pools.h"
 #include "tests/lib/check_inverse.h"
 

@@ -1,7 +1,5 @@
 /* test_ordering_threads.c: analyses by several threads: the same order, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
-#define SPARSE_LOCAL_IMPLEMENTATION
-#define SLI_SMALL_TASKS 1 /* small graphs are ordered by several workers, too */
 #include "tests/lib/pools.h"
 #include "tests/lib/order_patterns.h"
 #include "tests/lib/ordering_meshes.h"

@@ -1,7 +1,5 @@
 /* test_threads.c: factorizations and solves by several threads: the same bits, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
-#define SPARSE_LOCAL_IMPLEMENTATION
-#define SLI_SMALL_TASKS 1 /* small systems are divided too, small fronts into pieces */
 #include "tests/lib/pools.h"
 #include "tests/lib/factored.h"
 
