@@ -20,6 +20,7 @@ typedef struct arguments_t {
     const double *B;
     size_t ldx, ldb;
     sl_int nrhs, steps;
+    int has_pins;
     sl_stats stats;
 } arguments_t;
 
@@ -58,6 +59,7 @@ enum {
     STEPS_ = 131072,
     SQUARE_ = 262144, /* a matrix that must be square */
     VALUES_ = 524288, /* and one that must have values */
+    PINS_ = 1048576,  /* a set of pins */
     SOLVE_ = F_ | FAILED_ | X_ | LDX_ | B_ | LDB_ | NRHS_
 };
 
@@ -163,6 +165,24 @@ static sl_status restriction(arguments_t *a) {
     return status;
 }
 
+/* A call on a set of so many pins, which the call may change. */
+#define ON_PINS(name, count, call) \
+    static sl_status name(arguments_t *a) { \
+        sl_pins *pins = a->has_pins ? pins_make(count) : NULL; \
+        const sl_status status = call; \
+        sl_pins_free(pins); \
+        return status; \
+    }
+
+static sl_pins *pins_make(sl_int count) {
+    sl_pins *pins = NULL;
+    SL_CHECK(sl_pins_create(&pins, o->good.F, NULL));
+    for (sl_int row = 0; row < count; row++) {
+        SL_CHECK(sl_pins_add(pins, row, NULL));
+    }
+    return pins;
+}
+
 CALL(check, sl_csc_check(a->A, &a->stats))
 CALL(refactor, sl_factor_refactor(a->F, a->A, &a->stats))
 CALL(changed, sl_factor_refactor_changed(a->F, a->A, a->xset, a->nx, &a->stats))
@@ -190,6 +210,16 @@ CALL(reserve_plan, sl_work_reserve_plan(a->W, a->P, a->nrhs))
 CALL(reserve_refine, sl_work_reserve_refine(a->W, a->F, a->nrhs))
 CALL(reserve_selected, sl_work_reserve_selected(a->W, a->Z))
 CALL(reserve_region, sl_work_reserve_region(a->W, a->R, a->F))
+ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset[0], &a->stats))
+ON_PINS(pins_add_rows, 1, sl_pins_add_rows(pins, a->xset, a->nx, &a->stats))
+ON_PINS(pins_equality, 1, sl_pins_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
+ON_PINS(pins_release, 1, sl_pins_release(pins, 0))
+ON_PINS(pins_release_rows, N, sl_pins_release_rows(pins, a->xset, a->nx, &a->stats))
+ON_PINS(pins_matrix, 1, sl_pins_set_matrix(pins, a->A, &a->stats))
+ON_PINS(pins_refactor, 1, sl_pins_refactor(pins))
+ON_PINS(pins_solve, 1,
+        sl_pins_solve(pins, NULL, a->X, a->ldx, a->B, a->ldb, o->entries, N, a->nrhs, NULL))
+CREATE(pins, sl_pins, sl_pins_free, sl_pins_create(&out, a->F, NULL))
 CREATE(symbolic, sl_symbolic, sl_symbolic_free, sl_symbolic_create(&out, a->A, NULL, &a->stats))
 CREATE(edit, sl_symbolic, sl_symbolic_free,
        sl_symbolic_edit(&out, a->S, &o->good.M.view, a->A, o->perm, NULL, &a->stats))
@@ -247,6 +277,15 @@ static const struct {
     {"sl_selected_entries", selected_entries, Z_ | X_ | LIST_},
     {"sl_region_create", region, F_ | FAILED_ | XSET_},
     {"sl_region_refactor", region_refactor, F_ | FAILED_ | OTHER_ | R_},
+    {"sl_pins_create", pins, F_ | FAILED_},
+    {"sl_pins_add", pins_add, PINS_},
+    {"sl_pins_add_rows", pins_add_rows, PINS_ | LIST_},
+    {"sl_pins_add_equality", pins_equality, PINS_ | LIST_ | B_},
+    {"sl_pins_release", pins_release, PINS_},
+    {"sl_pins_release_rows", pins_release_rows, PINS_ | LIST_},
+    {"sl_pins_set_matrix", pins_matrix, PINS_ | A_ | SQUARE_ | VALUES_},
+    {"sl_pins_refactor", pins_refactor, PINS_},
+    {"sl_pins_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
     {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
@@ -322,6 +361,7 @@ SPOIL(zero_ldb, a->ldb = 0)
 SPOIL(negative_nrhs, a->nrhs = -1)
 SPOIL(least_nrhs, a->nrhs = INT32_MIN)
 SPOIL(negative_steps, a->steps = -1)
+SPOIL(no_pins, a->has_pins = 0)
 
 static const struct {
     const char *name;
@@ -373,6 +413,7 @@ static const struct {
     {"nrhs = -1", negative_nrhs, NRHS_, SL_ERR_ARGUMENT},
     {"nrhs = -2^31", least_nrhs, NRHS_, SL_ERR_ARGUMENT},
     {"steps = -1", negative_steps, STEPS_, SL_ERR_ARGUMENT},
+    {"pins NULL", no_pins, PINS_, SL_ERR_ARGUMENT},
 };
 
 enum { CALLS = sizeof calls / sizeof calls[0], WRONGS = sizeof wrongs / sizeof wrongs[0] };
@@ -403,6 +444,7 @@ static arguments_t arguments(void) {
     a.ldx = a.ldb = N;
     a.nrhs = 2;
     a.steps = 1;
+    a.has_pins = 1;
     return a;
 }
 

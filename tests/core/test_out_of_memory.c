@@ -322,6 +322,40 @@ static sl_status edit_factor(fixture_t *f, const sl_options *opt) {
     return status;
 }
 
+/* A set of pins is as before after each call that fails. */
+static sl_status pins(fixture_t *f, const sl_int *rows, sl_int count, const sl_options *opt) {
+    static const sl_int gone[3] = {7, 0, 12};
+    sl_pins *P = GARBAGE(sl_pins);
+    sl_status status = sl_pins_create(&P, f->y.F, opt);
+    MADE_OR_NULL(status, P);
+    if (status == SL_OK) {
+        status = sl_pins_set_matrix(P, &f->y.M.view, NULL);
+    }
+    if (status == SL_OK) {
+        status = sl_pins_add_rows(P, rows, count, NULL);
+        assert_int_equal(sl_pins_count(P), status == SL_OK ? count : 0);
+    }
+    if (status == SL_OK) {
+        status = sl_pins_release_rows(P, gone, 3, NULL);
+        assert_int_equal(sl_pins_count(P), status == SL_OK ? count - 3 : count);
+    }
+    if (status == SL_OK) {
+        memcpy(f->X, f->before, sizeof f->X);
+        status = sl_pins_solve(P, NULL, f->X, 225, f->B, 225, f->B, 225, 3, NULL);
+        assert_true((memcmp(f->X, f->before, sizeof f->X) != 0) == (status == SL_OK));
+    }
+    sl_pins_free(P);
+    return status;
+}
+
+static sl_status pins_few(fixture_t *f, const sl_options *opt) {
+    return pins(f, f->bset, 20, opt);
+}
+
+static sl_status pins_half(fixture_t *f, const sl_options *opt) {
+    return pins(f, f->perm, 112, opt);
+}
+
 static void fixture_make(fixture_t *f, int style) {
     uint64_t seed = 2;
     f->y = factored_make(GEN_GRID2, 225, 1, style, NULL);
@@ -362,6 +396,8 @@ static void every_allocation_may_fail(void **state) {
         {"sl_factor_restrict, few rows", restrict_few},
         {"sl_symbolic_edit", edit},
         {"sl_factor_edit", edit_factor},
+        {"sl_pins_*", pins_few},
+        {"sl_pins_*, half of the rows", pins_half},
         {"sl_plan_create", plan},
         {"sl_work_create", work},
         {"sl_work_reserve_factor", reserve_factor},
