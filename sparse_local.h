@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 81828ed63989a4d8
+ * FNV-1a of the lines after this comment, without the license: 05fa62a17f8b5890
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,59 +33,59 @@
  *   3131 base.h   3425 status.h   3486 options.h   3544 alloc.h   3700 hash.h   3830 file_map.h
  *   3927 sort.h   3991 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4187 panel.h   4213 step.h   4287 pivot_rule.h   4361 front.h   4421 pairs.h
- *   4628 inverse_front.h   4700 table.h   4728 simd.h   4823 simd_scalar_single.h
- *   4869 simd_scalar.h   5008 simd_avx2_single.h   5062 simd_avx2.h   5302 simd_avx512_single.h
- *   5357 simd_avx512.h   5531 simd_neon_single.h   5573 simd_neon.h   5807 dispatch.h
+ *   4187 panel.h   4213 step.h   4291 pivot_rule.h   4365 front.h   4425 pairs.h
+ *   4632 inverse_front.h   4704 table.h   4732 simd.h   4827 simd_scalar_single.h
+ *   4873 simd_scalar.h   5011 simd_avx2_single.h   5065 simd_avx2.h   5306 simd_avx512_single.h
+ *   5361 simd_avx512.h   5537 simd_neon_single.h   5579 simd_neon.h   5814 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5888 csc.h   6021 csc_build.h   6155 csc64.h   6226 csc_triangle.h   6292 csc_products.h
- *   6409 permute.h   6475 sum.h   6557 output_file.h   6766 matrix_market.h
+ *   5895 csc.h   6028 csc_build.h   6162 csc64.h   6233 csc_triangle.h   6299 csc_products.h
+ *   6416 permute.h   6482 sum.h   6564 output_file.h   6773 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7212 graph.h   7354 contract.h   7608 coarsen.h   7771 labels.h   7992 subgraph.h   8187 heap.h
- *   8247 bisect.h   8474 separator.h   8736 mindeg.h   8919 dissect.h   9243 tree_cost.h
- *   9295 levelset.h   9401 geometric.h   9576 cells.h   9756 septree.h   9832 metis.h
- *   9981 metis_refined.h  10095 nd.h  10295 compress.h  10416 peel.h  10594 quotient.h
- *  11007 order.h
+ *   7219 graph.h   7361 contract.h   7615 coarsen.h   7778 labels.h   7999 subgraph.h   8194 heap.h
+ *   8254 bisect.h   8481 separator.h   8743 mindeg.h   8926 dissect.h   9250 tree_cost.h
+ *   9302 levelset.h   9408 geometric.h   9583 cells.h   9763 septree.h   9839 metis.h
+ *   9988 metis_refined.h  10102 nd.h  10302 compress.h  10423 peel.h  10601 quotient.h
+ *  11014 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11358 symbolic_types.h  11395 etree.h  11468 counts.h  11525 supernodes.h  11747 structure.h
- *  11868 schedule.h  12148 symbolic.h  12589 reach.h
+ *  11365 symbolic_types.h  11402 etree.h  11475 counts.h  11532 supernodes.h  11754 structure.h
+ *  11875 schedule.h  12155 symbolic.h  12596 reach.h
  * (factor: the numbers of L and D)
- *  12860 factor_types.h  13271 storage.h  13411 pivot_search.h  13757 pivoted.h  13825 scatter.h
- *  13983 uplooking.h  14055 null_product.h  14259 null_dense.h  14336 null_basis.h
- *  14644 null_vectors.h  14786 multifrontal.h  14976 gather.h  15024 kept.h  15194 front_tasks.h
- *  15537 nullspace.h  15740 growth.h  15816 factor_setup.h  16138 factor.h  16348 leftlooking.h
- *  16494 factor_query.h  16629 combination.h
+ *  12867 factor_types.h  13278 storage.h  13418 pivot_search.h  13764 pivoted.h  13832 scatter.h
+ *  13990 uplooking.h  14062 null_product.h  14266 null_dense.h  14343 null_basis.h
+ *  14651 null_vectors.h  14793 multifrontal.h  14983 gather.h  15031 kept.h  15201 front_tasks.h
+ *  15544 nullspace.h  15747 growth.h  15823 factor_setup.h  16145 factor.h  16355 leftlooking.h
+ *  16501 factor_query.h  16636 combination.h
  * (solve: full and local solves)
- *  16690 region_types.h  16794 work.h  16894 query.h  17110 singular.h  17380 backward.h
- *  17410 sweep_tasks.h  17740 sweep.h  17951 compile.h  18144 plan.h  18251 local.h  18403 parts.h
- *  18692 refine.h  18871 refine_local.h  19087 rcond.h  19246 defects.h
+ *  16697 region_types.h  16801 work.h  16901 query.h  17117 singular.h  17387 backward.h
+ *  17417 sweep_tasks.h  17747 sweep.h  17958 compile.h  18151 plan.h  18258 local.h  18410 parts.h
+ *  18699 refine.h  18878 refine_local.h  19094 rcond.h  19253 defects.h
  * (inverse: entries of the inverse, regions)
- *  19324 traversal.h  19573 traversal_run.h  19766 row_sets.h  19793 unit_vectors.h
- *  20020 bilinear.h  20197 entries.h  20479 block.h  20719 reserve.h  20911 selected.h
- *  21121 selected_query.h  21223 region_choose.h  21450 region.h
+ *  19331 traversal.h  19580 traversal_run.h  19773 row_sets.h  19800 unit_vectors.h
+ *  20027 bilinear.h  20204 entries.h  20486 block.h  20726 reserve.h  20918 selected.h
+ *  21128 selected_query.h  21230 region_choose.h  21457 region.h
  * (change: a factor that follows changes of its matrix)
- *  21698 update.h  22048 rank.h  22386 edges.h  22540 choose.h  22738 pins_types.h
- *  22816 pins_nulls.h  22994 pins_capacitance.h  23245 pins_held.h  23456 pins_choose.h
- *  23526 pins_rebuild.h  23741 pins_matrix.h  23892 pins.h  24152 pins_solve.h  24527 subset.h
- *  24640 restrict_analysis.h  24969 restrict_symbolic.h  25150 restrict.h  25367 edit_match.h
- *  25566 edit_place.h  25815 edit_separate.h  26128 edit_order.h  26283 edit_graph.h
- *  26378 edit_join.h  26654 edit.h  26817 edit_factor.h
+ *  21705 update.h  22055 rank.h  22393 edges.h  22547 choose.h  22745 pins_types.h
+ *  22823 pins_nulls.h  23001 pins_capacitance.h  23252 pins_held.h  23463 pins_choose.h
+ *  23533 pins_rebuild.h  23748 pins_matrix.h  23899 pins.h  24159 pins_solve.h  24534 subset.h
+ *  24647 restrict_analysis.h  24976 restrict_symbolic.h  25157 restrict.h  25374 edit_match.h
+ *  25573 edit_place.h  25822 edit_separate.h  26135 edit_order.h  26290 edit_graph.h
+ *  26385 edit_join.h  26661 edit.h  26824 edit_factor.h
  * (save: factors in files)
- *  27116 format.h  27412 decode.h  27560 check.h  27890 write.h  28195 load.h  28463 load_inverse.h
- *  28793 load_calls.h
+ *  27123 format.h  27419 decode.h  27567 check.h  27897 write.h  28202 load.h  28470 load_inverse.h
+ *  28800 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28992 batch_solve.h  29201 batch_factor.h  29402 batch_diagonal.h
+ *  28999 batch_solve.h  29208 batch_factor.h  29409 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29542 hermitian.h  29704 complex_rows.h
+ *  29549 hermitian.h  29711 complex_rows.h
  * (last: undefine every internal macro)
- *  29872 undef.h
+ *  29879 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30134 front.inl.h  30136 product.inl.h  30635 words_undef.inl.h  30712 copy_rows.inl.h
- *  30750 multi_rhs.inl.h  30777 multi_rhs_small.inl.h  30945 multi_rhs_tiles.inl.h
- *  31222 complex_groups.inl.h  31472 sweeps.inl.h  31474 unit_triangle.inl.h  31511 two_rhs.inl.h
- *  31680 small_supernode.inl.h  31859 single_rhs.inl.h  32103 kernel_set.inl.h
- *  32105 complex_small.inl.h  32269 complex_rows.inl.h  32482 inverse_front.inl.h  32767 row.inl.h
- *  32797 change.inl.h  32861 interleave.inl.h  32992 lanes_undef.inl.h
+ *  30141 front.inl.h  30143 product.inl.h  30640 words_undef.inl.h  30717 copy_rows.inl.h
+ *  30755 multi_rhs.inl.h  30774 complex_groups.inl.h  30913 multi_rhs_small.inl.h
+ *  31085 multi_rhs_tiles.inl.h  31354 sweeps.inl.h  31356 unit_triangle.inl.h  31393 two_rhs.inl.h
+ *  31562 small_supernode.inl.h  31743 single_rhs.inl.h  31987 kernel_set.inl.h
+ *  31989 complex_small.inl.h  32159 complex_rows.inl.h  32374 inverse_front.inl.h  32659 row.inl.h
+ *  32689 change.inl.h  32753 interleave.inl.h  32884 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4262,10 +4262,14 @@ SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
 
 #define SLI_STEPS_AHEAD 2
 #define SLI_ROWS_FETCHED 24
+#if defined(SLI_SMALL_TASKS)
+#define SLI_FETCHED_BYTES 1
+#else
 #define SLI_FETCHED_BYTES 4000000
+#endif
 
 SLI_INLINE int sli_steps_exceed_cache(sl_int count, const sli_step *s, sl_int nrhs) {
-  return count > SLI_STEPS_AHEAD &&
+  return nrhs >= 8 && count > SLI_STEPS_AHEAD &&
        (size_t)s[count - 1].base * (size_t)nrhs * sizeof(double) > SLI_FETCHED_BYTES;
 }
 
@@ -4845,7 +4849,7 @@ typedef struct sli_kernels {
 #define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
 #define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
 #define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP(SLI_TILE, a[i_] = i_ > (k) ? a[i_] : 0.0F)
+#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0F)
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4
@@ -4939,7 +4943,7 @@ typedef struct sli_kernels {
 #define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
 #define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
 #define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP(SLI_TILE, a[i_] = i_ > (k) ? a[i_] : 0.0)
+#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0)
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
 #define SLW_ROWS 4
@@ -4965,10 +4969,9 @@ typedef struct sli_kernels {
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
-#define SLW_LANES_4
-#define SLW_LANES_8
-#define SLW_LANES_16
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 
 #define SLW_NAME(f) sli_##f##4_scalar
@@ -5232,10 +5235,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
-#define SLW_LANES_4
-#define SLW_LANES_8
-#define SLW_LANES_16
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
@@ -5250,9 +5252,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
 #define SLW_ADD(a, b) a = _mm_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#define SLW_GROUPS 2
+#define SLW_COMPLEX
 #define SLI_SECTION_COPY_ROWS
 #include SL_HEADER
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
@@ -5472,8 +5476,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
-#define SLW_LANES_8
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLW_GROUPS 8
+#define SLW_COMPLEX
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
@@ -5504,8 +5509,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##16_avx512
 #define SLW_NRHS 16
-#define SLW_LANES_16
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #undef SLW_TAKES_FLOATS
 #undef SLV_SPREAD_0
@@ -5730,10 +5736,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
-#define SLW_LANES_4
-#define SLW_LANES_8
-#define SLW_LANES_16
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
@@ -5748,9 +5753,11 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
 #define SLW_ADD(a, b) a = vaddq_f64(a, b);
 #define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
+#define SLW_GROUPS 2
+#define SLW_COMPLEX
 #define SLI_SECTION_COPY_ROWS
 #include SL_HEADER
-#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
@@ -30378,6 +30385,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
     SLV_FNMA(a##i, e0, b) \
   }
+#define SLI_BY_RULE(k)
 #define SLI_TAKE_PIVOT(k, d) \
   D[2 * (k)] = D[2 * (k) + 1] = d; \
   magnitude[2 * (k)] = magnitude[2 * (k) + 1] = sums[2 * (k)] + sums[2 * (k) + 1];
@@ -30387,6 +30395,11 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
   if ((i) > (k)) { \
     SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
     SLV_FNMA(a##i, l, b) \
+  }
+#define SLI_BY_RULE(k) \
+  if (rule != NULL) { \
+    d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
+    SLV_BROADCAST(b, &d) \
   }
 #define SLI_TAKE_PIVOT(k, d) \
   D[k] = d; \
@@ -30399,10 +30412,7 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLV_STORE(sums, m) \
     SLV_LANE(b, a##k, (k)*SLV_PARTS) \
     d = x[(SLI_TILE + SLV_PARTS) * (k)]; \
-    if (rule != NULL) { \
-      d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
-      SLV_BROADCAST(b, &d) \
-    } \
+    SLI_BY_RULE(k) \
     SLV_DIVIDE(l, a##k, b) \
     SLI_TAKE_PIVOT(k, d) \
     minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
@@ -30442,8 +30452,10 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
                         SLV_VALUE *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
+#if !SLV_COMPLEX
   const sl_int column = f->column + first;
-  const sli_pivot_rule *rule = !SLV_COMPLEX && f->rule->replaces ? f->rule : NULL;
+  const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
+#endif
   SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
            SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
   const SLV_VALUE *q = p;
@@ -30516,17 +30528,18 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_SOLVE
 #undef SLI_TURN
 #undef SLI_TAKE_PIVOT
+#undef SLI_BY_RULE
 #undef SLI_DECLARE_TURNED
 #undef SLI_CLEAR_TURNED
 #undef SLI_EACH
 #undef SLI_EACH_AGAIN
 
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
-                         sl_int t1, SLV_VALUE *B) {
-  if (c > c0) {
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
+                         sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
+  if (c0 > first) {
     SLV_FRONT(product)
-    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c, c + 1, SLI_TILE * c0,
-     SLI_TILE * c, SLV_OF(f, panel), f->width, 0, B);
+    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, SLI_TILE * first,
+     SLI_TILE * c0, SLV_OF(f, panel), f->width, 0, B);
   }
 }
 
@@ -30534,14 +30547,10 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
-  if (c0 > 0) {
-    SLV_FRONT(product)
-    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, c0, c1, c0, c1, 0, SLI_TILE * c0,
-     SLV_OF(f, panel), f->width, 0, B);
-  }
+  SLV_FRONT(catch_up)(f, 0, c0, c1, c0, c1, B);
   for (c = c0; c < c1; c++) {
     SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
-    SLV_FRONT(catch_up)(f, c0, c, c, c1, B);
+    SLV_FRONT(catch_up)(f, c0, c, c + 1, c, c1, B);
     if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     } else {
@@ -30556,13 +30565,9 @@ SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t
   SLV_VALUE *B = (SLV_VALUE *)scratch;
   const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
   sl_int c;
-  if (c0 > 0) {
-    SLV_FRONT(product)
-    (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, 0, SLI_TILE * c0,
-     SLV_OF(f, panel), f->width, 0, B);
-  }
+  SLV_FRONT(catch_up)(f, 0, c0, c1, t0, t1, B);
   for (c = c0; c < c1; c++) {
-    SLV_FRONT(catch_up)(f, c0, c, t0, t1, B);
+    SLV_FRONT(catch_up)(f, c0, c, c + 1, t0, t1, B);
     SLV_FRONT(tile_rows)
     (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
   }
@@ -30761,6 +30766,101 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 #define SLW_LOW SLI_LOW4
 #endif
 
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+
+#if defined(SLW_COMPLEX)
+/* src/impl/kernels/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
+
+#define SLI_PARTS 2
+#define SLI_KERNEL(f) SLW_NAME(complex_group_##f)
+#define SLI_TABLE(f) SLV_NAME(complex_##f)
+
+#if SLW_ROWS == 8
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
+#else
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
+#endif
+
+#define SLI_PREPARE const double one = 1.0;
+#define SLI_NEGATE(n, c) \
+  SLW_ZERO(n) \
+  SLW_FNMA(n, one, c)
+#define SLI_SUBTRACT(r, s, l, b, c, n) \
+  SLW_FNMA(a##r, (l)[r], b) \
+  SLW_FNMA(a##s, (l)[r], c) \
+  SLW_FNMA(a##r, (l)[s], n) \
+  SLW_FNMA(a##s, (l)[s], b)
+#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
+#define SLI_APPLY_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_DECLARE(n) \
+  SLW_LOAD(b, xj) \
+  SLW_LOAD(c, xj + stride) \
+  SLI_NEGATE(n, c) \
+  SLI_PAIRS(SLI_APPLY, l)
+#define SLI_GATHER(r, s, l) \
+  SLW_FNMA(b, (l)[r], a##r) \
+  SLW_FNMA(c, (l)[r], a##s) \
+  SLW_FNMA(e, (l)[s], a##s) \
+  SLW_FNMA(n, (l)[s], a##r)
+#define SLI_GATHER_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_DECLARE(e) \
+  SLW_DECLARE(n) \
+  SLW_LOAD(b, xj) \
+  SLW_LOAD(c, xj + stride) \
+  SLW_ZERO(e) \
+  SLW_ZERO(n) \
+  SLI_PAIRS(SLI_GATHER, l) \
+  SLW_ADD(b, e) \
+  SLW_FNMA(c, one, n) \
+  SLW_STORE(xj, b) \
+  SLW_STORE(xj + stride, c)
+#define SLI_BELOW(r, s, k, m) \
+  if ((r) > (k)) { \
+    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
+  }
+#define SLI_COLUMN(k, m, unused) \
+  if (SLI_IS_IN(k, inner)) { \
+    SLI_NEGATE(n, a##m) \
+    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
+  }
+#define SLI_TRIANGLE \
+  SLW_DECLARE(n) \
+  SLI_PAIRS(SLI_COLUMN, 0)
+#define SLI_BEFORE(i, j, k, m) \
+  if ((i) < (k) && SLI_IS_IN(i, inner)) { \
+    const double *at = l + SLI_TILE / 2 * (i); \
+    SLW_FNMA(a##i, at[k], a##k) \
+    SLW_FNMA(a##i, at[m], a##m) \
+    SLW_FNMA(a##j, at[k], a##m) \
+    SLW_FNMA(a##j, at[m], n) \
+  }
+#define SLI_ROW(k, m, unused) \
+  SLI_NEGATE(n, a##k) \
+  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
+#define SLI_TRIANGLE_UP \
+  SLW_DECLARE(n) \
+  SLI_PAIRS_DOWN(SLI_ROW, 0)
+/* end of complex_groups.inl.h */
+#else
+
+#define SLI_PARTS 1
+#if defined(SLW_GROUPS)
+#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
+#else
+#define SLI_KERNEL(f) SLW_SWEEP(f)
+#endif
+#define SLI_TABLE(f) SLV_SWEEP(f)
+
 #if defined(SLW_TAKES_FLOATS)
 #define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
 #define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
@@ -30769,25 +30869,61 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
 #define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
 #endif
 
-#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+#define SLI_PREPARE SLW_ENTRIES(v, SLI_TILE)
 #define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
+#define SLI_APPLY_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
+  SLW_LOAD(b, xj) \
+  SLW_EACH(SLI_APPLY, v)
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+#define SLI_GATHER_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
+  SLW_LOAD(b, xj) \
+  SLW_ZERO(c) \
+  SLW_HIGH(SLI_GATHER, v) \
+  SLW_LOW(SLI_GATHER2, v) \
+  SLW_ADD(b, c) \
+  SLW_STORE(xj, b)
+#define SLI_DOWN(r, k) \
+  if ((r) > (k)) { \
+    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
+  }
+#define SLI_COLUMN(k, unused) \
+  if (SLI_IS_IN(k, inner)) { \
+    SLW_EACH_AGAIN(SLI_DOWN, k) \
+  }
+#define SLI_TRIANGLE \
+  SLW_SET_ENTRIES(v, l, inner, SLW_ROWS) \
+  SLW_EACH(SLI_COLUMN, 0)
+#define SLI_UP(j, k) \
+  if ((j) < (k) && SLI_IS_IN(j, inner)) { \
+    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
+  }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+#define SLI_TRIANGLE_UP \
+  SLW_SET_ENTRIES(v, l, inner, SLW_ROWS) \
+  SLW_HIGH(SLI_ROW, 0) \
+  SLW_LOW(SLI_ROW, 0)
 
+#if SLW_ROWS == 8 || defined(SLW_HALF)
 /* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
 
 #if SLW_ROWS == 8
 #define SLI_LOAD_OWN(k, p) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLW_LOAD(a##k, (p) + (k)*stride) \
   }
 #define SLI_STORE_OWN(k, p) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLW_STORE((p) + (k)*stride, a##k) \
   }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_PREFETCH_OWN(k, bytes) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLV_PREFETCH(l, k, bytes) \
   }
 #define SLI_DOWN_OWN(r, k) \
@@ -30796,7 +30932,7 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
   }
 #define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
 #define SLI_BELOW_OWN(k, unused) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
   }
 
@@ -30843,11 +30979,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
   }
 #define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
 #define SLI_ABOVE_OWN(k, unused) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
   }
 #define SLI_DIVIDE_OWN(k, unused) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLW_LOAD(b, xs + (k)*stride) \
     SLW_DIVIDE(b, d[k]) \
     SLW_ADD(a##k, b) \
@@ -30923,7 +31059,7 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_BACKWARD
 #undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
-#elif defined(SLW_HALF)
+#else
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
                             const sl_int *rows, const SLV_VALUE *l,
                             double *xs, double *x) {
@@ -30942,36 +31078,23 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 }
 #endif
 /* end of multi_rhs_small.inl.h */
+#define SLI_SMALL
+#endif
+#endif
+
 /* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
 #define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-#define SLI_DOWN(r, k) \
-  if ((r) > (k)) { \
-    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
-  }
-#define SLI_UP(j, k) \
-  if ((j) < (k) && (j) < inner) { \
-    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
-  }
-#define SLI_COLUMN(k, unused) \
-  if ((k) < inner) { \
-    SLW_EACH_AGAIN(SLI_DOWN, k) \
-  }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
 #define SLI_SET_STRIDE
-#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
 #define SLI_IS_DIRECT 1
 #else
 #define SLI_IS_DIRECT 0
 #define SLI_STRIDE_PARAMETER
 #define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
-#define SLI_KERNEL(f) SLW_SWEEP(f)
 #endif
 
 SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
@@ -30980,17 +31103,17 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
   const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-  SLW_ENTRIES(v, SLI_TILE)
+  SLI_PREPARE
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+    const SLV_VALUE *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / SLI_PARTS;
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
     sl_int group, j;
     if (is_fetched && count > SLI_STEPS_AHEAD) {
       sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
     }
-#if SLW_ROWS == 8 || defined(SLW_HALF)
+#if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {
         SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
@@ -31007,10 +31130,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
       const sl_int *below_rows = rows + (row + inner - w);
       for (group = 0; group < stride; group += SLW_NRHS) {
         double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
         const double *xj = xs + (ptrdiff_t)first * stride + group;
         SLW_EACH(SLI_DECLARE, 0)
-        SLW_DECLARE(b)
         if (is_below) {
           SLW_EACH(SLI_LOAD_BELOW, x + group)
         } else {
@@ -31019,15 +31141,13 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
           }
           SLW_EACH(SLI_LOAD, p)
         }
-        for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
+        for (j = first; j < final;
+           j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
           SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-          SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
-          SLW_LOAD(b, xj)
-          SLW_EACH(SLI_APPLY, v)
+          SLI_APPLY_COLUMN
         }
         if (inner > 0) {
-          SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
-          SLW_EACH(SLI_COLUMN, 0)
+          SLI_TRIANGLE
         }
         if (is_below) {
           SLW_EACH(SLI_STORE_BELOW, x + group)
@@ -31039,7 +31159,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
         }
       }
       if (lane + SLW_ROWS == SLI_TILE) {
-        tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+        tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
       }
     }
   }
@@ -31052,22 +31172,19 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
   const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-  SLW_ENTRIES(v, SLI_TILE)
+  SLI_PREPARE
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const sl_int padded = SLI_TILE * sli_tiles(height);
-    const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+    const SLV_VALUE *tile = L + (s->panel + sli_panel_size(w, s->below)) / SLI_PARTS;
     const double *d = D + s->column - first;
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
     sl_int group, i, j;
-    SLW_DECLARE(b)
-    SLW_DECLARE(c)
     rows_end -= s->below;
     if (is_fetched && count > SLI_STEPS_AHEAD) {
       sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
     }
-#if SLW_ROWS == 8 || defined(SLW_HALF)
+#if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {
         SLW_SWEEP(backward_small)
@@ -31078,24 +31195,25 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #endif
     for (i = first; i < w; i++) {
       for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_DECLARE(b)
         SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
         SLW_DIVIDE(b, d[i])
         SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
       }
     }
-    for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+    for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
       const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
       const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
       const sl_int below = height - (sl_int)row - inner;
       const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
       const sl_int *below_rows = rows_end + (row + inner - w);
       if (lane + SLW_ROWS == SLI_TILE) {
-        tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+        tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
       }
       for (group = 0; group < stride; group += SLW_NRHS) {
         double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
         double *xj = xs + (ptrdiff_t) final * stride + group;
-        const SLV_VALUE *l = tile + SLI_TILE * row + lane;
+        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
         SLW_EACH(SLI_DECLARE, 0)
         if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
           SLW_EACH(SLI_LOAD_BELOW, x + group)
@@ -31106,26 +31224,18 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
           SLW_EACH(SLI_LOAD, p)
         }
         if (inner > 0) {
-          SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
-          SLW_HIGH(SLI_ROW, 0)
-          SLW_LOW(SLI_ROW, 0)
+          SLI_TRIANGLE_UP
           SLW_EACH(SLI_STORE, p)
           if (inner < SLW_ROWS) {
             SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
           }
         }
-        l = tile + SLI_TILE * (ptrdiff_t) final + lane;
-        for (j = final - 1; j >= first; j--) {
+        l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
+        for (j = final; j > first; j -= SLI_PARTS) {
           l -= SLI_TILE;
-          xj -= stride;
+          xj -= SLI_PARTS * (ptrdiff_t)stride;
           SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-          SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
-          SLW_LOAD(b, xj)
-          SLW_ZERO(c)
-          SLW_HIGH(SLI_GATHER, v)
-          SLW_LOW(SLI_GATHER2, v)
-          SLW_ADD(b, c)
-          SLW_STORE(xj, b)
+          SLI_GATHER_COLUMN
         }
       }
     }
@@ -31134,17 +31244,23 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 
 #if defined(SLW_GROUPS)
 #define SLI_GROUPED_KERNELS(lanes) \
-  SLV_FUNCTION static void SLV_SWEEP(forward##lanes)(sl_int count, const sli_step *s, \
+  SLV_FUNCTION static void SLI_TABLE(forward##lanes)(sl_int count, const sli_step *s, \
                              const sl_int *rows, const void *values, \
                              double *x, double *buf) { \
     SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
   } \
-  SLV_FUNCTION static void SLV_SWEEP(backward##lanes)( \
+  SLV_FUNCTION static void SLI_TABLE(backward##lanes)( \
     sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
     const double *D, double *x, double *buf) { \
     SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
   }
-#if SLW_NRHS == 8
+#if SLW_NRHS == 2
+SLI_GROUPED_KERNELS(2)
+#endif
+#if SLW_NRHS <= 4 && SLW_GROUPS >= 4
+SLI_GROUPED_KERNELS(4)
+#endif
+#if SLW_NRHS <= 8 && SLW_GROUPS >= 8
 SLI_GROUPED_KERNELS(8)
 #endif
 #if SLW_GROUPS == 32
@@ -31158,17 +31274,10 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_STORE_BELOW
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
-#undef SLI_KERNEL
 #undef SLI_IS_DIRECT
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
 /* end of multi_rhs_tiles.inl.h */
 
-#if SLW_NRHS == 8 && !SLV_SINGLE
+#if SLW_NRHS == 8 && !SLV_SINGLE && !defined(SLW_COMPLEX)
 SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
                       double *sums) {
   enum { distance = SLW_NRHS };
@@ -31188,20 +31297,43 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 }
 #endif
 
-#undef SLW_ENTRIES
-#undef SLW_SET_ENTRIES
 #undef SLI_DECLARE
 #undef SLI_LOAD
 #undef SLI_STORE
+#undef SLI_PARTS
+#undef SLI_KERNEL
+#undef SLI_TABLE
+#undef SLI_SMALL
+#undef SLI_PREPARE
 #undef SLI_APPLY
+#undef SLI_APPLY_COLUMN
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_GATHER_COLUMN
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLI_TRIANGLE
+#undef SLI_TRIANGLE_UP
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_BELOW
+#undef SLI_BEFORE
+#undef SLW_ENTRIES
+#undef SLW_SET_ENTRIES
 #undef SLW_EACH
 #undef SLW_EACH_AGAIN
 #undef SLW_HIGH
 #undef SLW_LOW
 
-#if SLV_SINGLE
+#if SLV_SINGLE || defined(SLW_COMPLEX)
 #undef SLV_SINGLE
 #define SLV_SINGLE 0
+#undef SLW_COMPLEX
 #undef SLW_NAME
 #undef SLW_NRHS
 #undef SLW_HALF
@@ -31210,256 +31342,6 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLV_SINGLE
 #define SLV_SINGLE 1
 #endif
-#endif
-
-#ifdef SLI_SECTION_COMPLEX_GROUPS
-#undef SLI_SECTION_COMPLEX_GROUPS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/complex_groups.inl.h: sweeps over L of a complex matrix for 2 or more right-hand sides */
-
-#if SLW_ROWS == 8
-#define SLI_EACH SLI_EACH8
-#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
-#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
-#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
-#else
-#define SLI_EACH SLI_EACH4
-#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
-#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
-#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
-#endif
-
-#define SLI_DECLARE(r, unused) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
-#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
-#define SLI_NEGATE(n, c) \
-  SLW_ZERO(n) \
-  SLW_FNMA(n, one, c)
-#define SLI_SUBTRACT(r, s, l, b, c, n) \
-  SLW_FNMA(a##r, (l)[r], b) \
-  SLW_FNMA(a##s, (l)[r], c) \
-  SLW_FNMA(a##r, (l)[s], n) \
-  SLW_FNMA(a##s, (l)[s], b)
-#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
-#define SLI_GATHER(r, s, l) \
-  SLW_FNMA(b, (l)[r], a##r) \
-  SLW_FNMA(c, (l)[r], a##s) \
-  SLW_FNMA(e, (l)[s], a##s) \
-  SLW_FNMA(n, (l)[s], a##r)
-#define SLI_BELOW(r, s, k, m) \
-  if ((r) > (k)) { \
-    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
-  }
-#define SLI_COLUMN(k, m, unused) \
-  if ((k) < inner) { \
-    SLI_NEGATE(n, a##m) \
-    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
-  }
-#define SLI_BEFORE(i, j, k, m) \
-  if ((i) < (k) && (i) < inner) { \
-    const double *at = l + SLI_TILE / 2 * (i); \
-    SLW_FNMA(a##i, at[k], a##k) \
-    SLW_FNMA(a##i, at[m], a##m) \
-    SLW_FNMA(a##j, at[k], a##m) \
-    SLW_FNMA(a##j, at[m], n) \
-  }
-#define SLI_ROW(k, m, unused) \
-  SLI_NEGATE(n, a##k) \
-  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
-
-SLV_FUNCTION static void SLW_NAME(complex_group_forward)(sl_int count, const sli_step *s,
-                             const sl_int *rows, const void *values,
-                             double *x, double *buf, sl_int stride) {
-  const double *L = (const double *)values, one = 1.0;
-  const int is_fetched = stride >= 8 && sli_steps_exceed_cache(count, s, stride);
-  for (; count > 0; rows += s->below, count--, s++) {
-    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const double *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / 2;
-    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
-    ptrdiff_t row;
-    sl_int group, j;
-    if (is_fetched && count > SLI_STEPS_AHEAD) {
-      sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
-    }
-    for (row = first; row < height; row += SLW_ROWS) {
-      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sl_int below = height - (sl_int)row - inner;
-      const int is_below = inner == 0 && below >= SLW_ROWS;
-      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      const sl_int *below_rows = rows + (row + inner - w);
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        const double *l = tile + SLI_TILE / 2 * (ptrdiff_t)first + lane;
-        const double *xj = xs + (ptrdiff_t)first * stride + group;
-        SLI_EACH(SLI_DECLARE, 0)
-        SLW_DECLARE(b)
-        SLW_DECLARE(c)
-        SLW_DECLARE(n)
-        if (is_below) {
-          SLI_EACH(SLI_LOAD_BELOW, x + group)
-        } else {
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
-          }
-          SLI_EACH(SLI_LOAD, p)
-        }
-        for (j = first; j < final; j += 2, l += SLI_TILE, xj += 2 * (ptrdiff_t)stride) {
-          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-          SLW_LOAD(b, xj)
-          SLW_LOAD(c, xj + stride)
-          SLI_NEGATE(n, c)
-          SLI_PAIRS(SLI_APPLY, l)
-        }
-        if (is_below) {
-          SLI_EACH(SLI_STORE_BELOW, x + group)
-          continue;
-        }
-        SLI_PAIRS(SLI_COLUMN, 0)
-        SLI_EACH(SLI_STORE, p)
-        if (inner < SLW_ROWS) {
-          SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
-        }
-      }
-      if (lane + SLW_ROWS == SLI_TILE) {
-        tile += SLI_TILE / 2 * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-      }
-    }
-  }
-}
-
-SLV_FUNCTION static void SLW_NAME(complex_group_backward)(sl_int count, const sli_step *s,
-                              const sl_int *rows_end,
-                              const void *values, const double *D,
-                              double *x, double *buf, sl_int stride) {
-  const double *L = (const double *)values, one = 1.0;
-  const int is_fetched = stride >= 8 && sli_steps_exceed_cache(count, s, stride);
-  for (s += count; count > 0; count--) {
-    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const double *tile = L + (s->panel + sli_panel_size(w, s->below)) / 2;
-    const double *d = D + s->column - first;
-    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
-    ptrdiff_t row;
-    sl_int group, i, j;
-    SLW_DECLARE(b)
-    SLW_DECLARE(c)
-    SLW_DECLARE(e)
-    SLW_DECLARE(n)
-    rows_end -= s->below;
-    if (is_fetched && count > SLI_STEPS_AHEAD) {
-      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
-    }
-    for (i = first; i < w; i++) {
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
-        SLW_DIVIDE(b, d[i])
-        SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
-      }
-    }
-    for (row = SLI_TILE * (ptrdiff_t)sli_tiles(height) - SLW_ROWS; row >= first;
-       row -= SLW_ROWS) {
-      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sl_int below = height - (sl_int)row - inner;
-      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      const sl_int *below_rows = rows_end + (row + inner - w);
-      if (lane + SLW_ROWS == SLI_TILE) {
-        tile -= SLI_TILE / 2 * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-      }
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        double *xj = xs + (ptrdiff_t) final * stride + group;
-        const double *l = tile + SLI_TILE / 2 * row + lane;
-        SLI_EACH(SLI_DECLARE, 0)
-        if (inner == 0 && below >= SLW_ROWS) {
-          SLI_EACH(SLI_LOAD_BELOW, x + group)
-        } else {
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
-          }
-          SLI_EACH(SLI_LOAD, p)
-        }
-        if (inner > 0) {
-          SLI_PAIRS_DOWN(SLI_ROW, 0)
-          SLI_EACH(SLI_STORE, p)
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
-          }
-        }
-        l = tile + SLI_TILE / 2 * (ptrdiff_t) final + lane;
-        for (j = final; j > first; j -= 2) {
-          l -= SLI_TILE;
-          xj -= 2 * (ptrdiff_t)stride;
-          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-          SLW_LOAD(b, xj)
-          SLW_LOAD(c, xj + stride)
-          SLW_ZERO(e)
-          SLW_ZERO(n)
-          SLI_PAIRS(SLI_GATHER, l)
-          SLW_ADD(b, e)
-          SLW_FNMA(c, one, n)
-          SLW_STORE(xj, b)
-          SLW_STORE(xj + stride, c)
-        }
-      }
-    }
-  }
-}
-
-#define SLI_GROUP_KERNELS(lanes) \
-  SLV_FUNCTION static void SLV_NAME(complex_forward##lanes)( \
-    sl_int count, const sli_step *s, const sl_int *rows, const void *values, double *x, \
-    double *buf) { \
-    SLW_NAME(complex_group_forward)(count, s, rows, values, x, buf, lanes); \
-  } \
-  SLV_FUNCTION static void SLV_NAME(complex_backward##lanes)( \
-    sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
-    const double *D, double *x, double *buf) { \
-    SLW_NAME(complex_group_backward)(count, s, rows_end, values, D, x, buf, lanes); \
-  }
-#if SLW_NRHS == 2
-SLI_GROUP_KERNELS(2)
-#endif
-#if defined(SLW_LANES_4)
-SLI_GROUP_KERNELS(4)
-#endif
-#if defined(SLW_LANES_8)
-SLI_GROUP_KERNELS(8)
-#endif
-#if defined(SLW_LANES_16)
-SLI_GROUP_KERNELS(16)
-SLI_GROUP_KERNELS(32)
-#endif
-
-#undef SLI_EACH
-#undef SLI_PAIRS
-#undef SLI_PAIRS_AGAIN
-#undef SLI_PAIRS_DOWN
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_LOAD_BELOW
-#undef SLI_STORE_BELOW
-#undef SLI_NEGATE
-#undef SLI_SUBTRACT
-#undef SLI_APPLY
-#undef SLI_GATHER
-#undef SLI_BELOW
-#undef SLI_COLUMN
-#undef SLI_BEFORE
-#undef SLI_ROW
-#undef SLI_GROUP_KERNELS
-#undef SLW_LANES_4
-#undef SLW_LANES_8
-#undef SLW_LANES_16
-#undef SLW_NAME
-#undef SLW_NRHS
 #endif
 
 #ifdef SLI_SECTION_SWEEPS
@@ -31698,13 +31580,13 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
 
 #define SLI_COLUMN(k, unused) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
     SLV_LANE(y##k, a, k) \
     SLV_DOT(a, l + SLI_TILE * (k), y##k) \
   }
 #define SLI_EVEN_ODD(k, unused) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
     if ((k) % 2 == 0) { \
       SLV_DOT(a, l + SLI_TILE * (k), y##k) \
@@ -31748,18 +31630,19 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
 }
 
 #define SLI_DOT(k) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     SLV_PREFETCH(l, k, -SLI_PREFETCH_DISTANCE) \
     SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
   }
-#define SLI_DOTS \
-  SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS SLI_DOT(7) SLI_DOTS_OWN
+#define SLI_DOTS_OWN \
+  SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 #define SLI_ROW_AT(k) rows[at + (k)]
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 #define SLI_SET(k, unused) double r##k = r[k];
 #define SLI_GET(k, unused) \
-  if ((k) < w) { \
+  if (SLI_IS_IN(k, w)) { \
     xs[k] = r##k; \
   }
 #define SLI_XT(j, k) \
@@ -31799,7 +31682,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
     SLV_GATHER(v, x, SLI_ROW_AT_OWN)
     SLV_FIRST(v, w + at)
     SLV_BELOW(v, w - 1)
-    SLI_DOTS
+    SLI_DOTS_OWN
   }
   SLI_CLEAR_WIDE
   SLV_WIDEN(t, l, w, SLI_TILE)
@@ -31842,6 +31725,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, c
 #undef SLI_EVEN_ODD
 #undef SLI_DOT
 #undef SLI_DOTS
+#undef SLI_DOTS_OWN
 #undef SLI_ROW_AT
 #undef SLI_ROW_AT_PART
 #undef SLI_ROW_AT_OWN
@@ -32104,17 +31988,23 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 
 /* src/impl/kernels/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_triangle)(const sl_int w, const double *l,
-                                 double *r) {
-  sl_int j, k;
-  for (k = w - 2; k > 0; k -= 2) {
-    for (j = 0; j < k; j += 2) {
-      const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
-      r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
-      r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
-    }
+#define SLI_XT(j, k) \
+  { \
+    const double re = l[SLI_TILE / 2 * (j) + (k)], im = l[SLI_TILE / 2 * (j) + (k) + 1]; \
+    r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[(k) + 1], r[j])); \
+    r[(j) + 1] = SLV_FNMA1(re, r[(k) + 1], SLV_FNMA1(-im, r[k], r[(j) + 1])); \
   }
-}
+
+#define SLI_UNIT_TRIANGLE(w) \
+  if ((w) > 6) { \
+    SLI_XT(0, 6) SLI_XT(2, 6) SLI_XT(4, 6) \
+  } \
+  if ((w) > 4) { \
+    SLI_XT(0, 4) SLI_XT(2, 4) \
+  } \
+  if ((w) > 2) { \
+    SLI_XT(0, 2) \
+  }
 
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
@@ -32221,7 +32111,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
   SLV_SUMS(v, a)
   SLV_ADD(v, z)
   SLV_STORE_ANY(r, v)
-  SLV_NAME(complex_triangle)(w, l, r);
+  SLI_UNIT_TRIANGLE(w)
   for (k = 0; k < w; k++) {
     xs[k] = r[k];
   }
@@ -32278,7 +32168,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int b
 #define SLI_ROW_AT(k) rows[at + (k)]
 
 #define SLI_INSIDE(k) \
-  if ((k) < inner) { \
+  if (SLI_IS_IN(k, inner)) { \
     SLV_LANE(v, a0, k) \
     SLV_LANE(u, a0, (k) + 1) \
     SLV_ZERO(b0) \
@@ -32373,7 +32263,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
 }
 
 #define SLI_TAKE_SUM(k, unused) \
-  if ((k) < inner) { \
+  if (SLI_IS_IN((k) / 2 * 2, inner)) { \
     SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
   } else { \
     SLV_SUM_ZERO(a##k) \
@@ -32396,7 +32286,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
   SLV_SUMS(v, a)
   SLV_ADD(v, z)
   SLV_STORE_ANY(r, v)
-  SLV_NAME(complex_triangle)(inner, l, r);
+  SLI_UNIT_TRIANGLE(inner)
   for (k = 0; k < inner; k++) {
     xs[k] = buf[k] = r[k];
   }
@@ -32477,6 +32367,8 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
 #undef SLI_ROW_AT
 #undef SLI_DECLARE
 #undef SLI_HALF
+#undef SLI_UNIT_TRIANGLE
+#undef SLI_XT
 #undef SLI_SMALL
 /* end of complex_rows.inl.h */
 /* src/impl/kernels/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */

@@ -15,7 +15,7 @@
 
 /* A pair of columns inside a tile, whose rows are a. L is stored as 0 on and above its diagonal. */
 #define SLI_INSIDE(k) \
-    if ((k) < inner) { \
+    if (SLI_IS_IN(k, inner)) { \
         SLV_LANE(v, a0, k) \
         SLV_LANE(u, a0, (k) + 1) \
         SLV_ZERO(b0) \
@@ -114,7 +114,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_dots)(const double *tile, const do
 /* The diagonal tile: adds up the partial sums, adds the right-hand side divided by D, and solves
  * with the triangle. l: its diagonal part. buf: its rows. */
 #define SLI_TAKE_SUM(k, unused) \
-    if ((k) < inner) { \
+    if (SLI_IS_IN((k) / 2 * 2, inner)) { \
         SLV_SUM_LOAD(a##k, sums + SLI_TILE * (k)) \
     } else { \
         SLV_SUM_ZERO(a##k) \
@@ -137,7 +137,7 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_diagonal)(const double *l, sl_int 
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
     SLV_STORE_ANY(r, v)
-    SLV_NAME(complex_triangle)(inner, l, r);
+    SLI_UNIT_TRIANGLE(inner)
     for (k = 0; k < inner; k++) {
         xs[k] = buf[k] = r[k];
     }
@@ -219,4 +219,6 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
 #undef SLI_ROW_AT
 #undef SLI_DECLARE
 #undef SLI_HALF
+#undef SLI_UNIT_TRIANGLE
+#undef SLI_XT
 #undef SLI_SMALL

@@ -3,18 +3,25 @@
 /* As small_supernode.inl.h, with the storage of complex_rows.inl.h: the width is a constant in each
  * of 4 copies, and y or the sums of all columns stay in registers. */
 
-/* x(j) -= conj(L(k, j)) x(k) in the w columns of a diagonal tile. r: x */
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_triangle)(const sl_int w, const double *l,
-                                                               double *r) {
-    sl_int j, k;
-    for (k = w - 2; k > 0; k -= 2) {
-        for (j = 0; j < k; j += 2) {
-            const double re = l[SLI_TILE / 2 * j + k], im = l[SLI_TILE / 2 * j + k + 1];
-            r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[k + 1], r[j]));
-            r[j + 1] = SLV_FNMA1(re, r[k + 1], SLV_FNMA1(-im, r[k], r[j + 1]));
-        }
+/* r(j) -= conj(L(k, j)) r(k) */
+#define SLI_XT(j, k) \
+    { \
+        const double re = l[SLI_TILE / 2 * (j) + (k)], im = l[SLI_TILE / 2 * (j) + (k) + 1]; \
+        r[j] = SLV_FNMA1(re, r[k], SLV_FNMA1(im, r[(k) + 1], r[j])); \
+        r[(j) + 1] = SLV_FNMA1(re, r[(k) + 1], SLV_FNMA1(-im, r[k], r[(j) + 1])); \
     }
-}
+
+/* The same for all pairs k of the w columns of a diagonal tile at l. */
+#define SLI_UNIT_TRIANGLE(w) \
+    if ((w) > 6) { \
+        SLI_XT(0, 6) SLI_XT(2, 6) SLI_XT(4, 6) \
+    } \
+    if ((w) > 4) { \
+        SLI_XT(0, 4) SLI_XT(2, 4) \
+    } \
+    if ((w) > 2) { \
+        SLI_XT(0, 2) \
+    }
 
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
@@ -125,7 +132,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
     SLV_SUMS(v, a)
     SLV_ADD(v, z)
     SLV_STORE_ANY(r, v)
-    SLV_NAME(complex_triangle)(w, l, r);
+    SLI_UNIT_TRIANGLE(w)
     for (k = 0; k < w; k++) {
         xs[k] = r[k];
     }

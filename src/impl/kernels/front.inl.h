@@ -56,6 +56,7 @@
         SLV_BROADCAST(b, x + SLI_TILE * (k) + 2 * (i) + 1) \
         SLV_FNMA(a##i, e0, b) \
     }
+#define SLI_BY_RULE(k) /* no pivot is replaced */
 /* The magnitudes of both rows of a pair: the sum of those of the real and of the imaginary part. */
 #define SLI_TAKE_PIVOT(k, d) \
     D[2 * (k)] = D[2 * (k) + 1] = d; \
@@ -66,6 +67,11 @@
     if ((i) > (k)) { \
         SLV_BROADCAST(b, x + SLI_TILE * (k) + (i)) \
         SLV_FNMA(a##i, l, b) \
+    }
+#define SLI_BY_RULE(k) \
+    if (rule != NULL) { \
+        d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
+        SLV_BROADCAST(b, &d) \
     }
 #define SLI_TAKE_PIVOT(k, d) \
     D[k] = d; \
@@ -78,10 +84,7 @@
         SLV_STORE(sums, m) \
         SLV_LANE(b, a##k, (k)*SLV_PARTS) \
         d = x[(SLI_TILE + SLV_PARTS) * (k)]; \
-        if (rule != NULL) { \
-            d = SLV_PIVOT(sli_pivot_by_rule(rule, column + (k), d, sums[k])); \
-            SLV_BROADCAST(b, &d) \
-        } \
+        SLI_BY_RULE(k) \
         SLV_DIVIDE(l, a##k, b) \
         SLI_TAKE_PIVOT(k, d) \
         minus_sign[k] = (SLV_VALUE)(d < 0 ? 1 : -1); \
@@ -123,8 +126,10 @@
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
                                                 SLV_VALUE *reciprocals) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
+#if !SLV_COMPLEX
     const sl_int column = f->column + first;
-    const sli_pivot_rule *rule = !SLV_COMPLEX && f->rule->replaces ? f->rule : NULL;
+    const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
+#endif
     SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
                    SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
     const SLV_VALUE *q = p;
@@ -199,18 +204,19 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_SOLVE
 #undef SLI_TURN
 #undef SLI_TAKE_PIVOT
+#undef SLI_BY_RULE
 #undef SLI_DECLARE_TURNED
 #undef SLI_CLEAR_TURNED
 #undef SLI_EACH
 #undef SLI_EACH_AGAIN
 
-/* Applies the columns of the group before tile c to column tile c of row tiles t0 .. t1-1. */
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int c0, sl_int c, sl_int t0,
-                                                 sl_int t1, SLV_VALUE *B) {
-    if (c > c0) {
+/* Applies column tiles first .. c0-1 to column tiles c0 .. c1-1 of row tiles t0 .. t1-1. */
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(catch_up)(const sli_front *f, sl_int first, sl_int c0,
+                                                 sl_int c1, sl_int t0, sl_int t1, SLV_VALUE *B) {
+    if (c0 > first) {
         SLV_FRONT(product)
-        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c, c + 1, SLI_TILE * c0,
-         SLI_TILE * c, SLV_OF(f, panel), f->width, 0, B);
+        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, SLI_TILE * first,
+         SLI_TILE * c0, SLV_OF(f, panel), f->width, 0, B);
     }
 }
 
@@ -218,14 +224,10 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
     SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
-    if (c0 > 0) {
-        SLV_FRONT(product)
-        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, c0, c1, c0, c1, 0, SLI_TILE * c0,
-         SLV_OF(f, panel), f->width, 0, B);
-    }
+    SLV_FRONT(catch_up)(f, 0, c0, c1, c0, c1, B);
     for (c = c0; c < c1; c++) {
         SLV_VALUE *reciprocals = SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0);
-        SLV_FRONT(catch_up)(f, c0, c, c, c1, B);
+        SLV_FRONT(catch_up)(f, c0, c, c + 1, c, c1, B);
         if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
             sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
         } else {
@@ -240,13 +242,9 @@ SLV_FUNCTION static void SLV_FRONT(rows)(const sli_front *f, sl_int c0, sl_int t
     SLV_VALUE *B = (SLV_VALUE *)scratch;
     const sl_int c1 = sli_min(c0 + SLI_GROUP_TILES, sli_tiles(f->width));
     sl_int c;
-    if (c0 > 0) {
-        SLV_FRONT(product)
-        (SLV_OF(f, panel), f->width, SLV_OF(f, D), f->E, t0, t1, c0, c1, 0, SLI_TILE * c0,
-         SLV_OF(f, panel), f->width, 0, B);
-    }
+    SLV_FRONT(catch_up)(f, 0, c0, c1, t0, t1, B);
     for (c = c0; c < c1; c++) {
-        SLV_FRONT(catch_up)(f, c0, c, t0, t1, B);
+        SLV_FRONT(catch_up)(f, c0, c, c + 1, t0, t1, B);
         SLV_FRONT(tile_rows)
         (f, c, t0, t1, SLV_OF(f, reciprocals) + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     }

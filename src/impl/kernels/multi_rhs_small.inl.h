@@ -6,16 +6,16 @@
  * The rows of its columns stay in registers; the rows below are read one after another. The
  * distance between rows of x is `stride`. */
 #define SLI_LOAD_OWN(k, p) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLW_LOAD(a##k, (p) + (k)*stride) \
     }
 #define SLI_STORE_OWN(k, p) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLW_STORE((p) + (k)*stride, a##k) \
     }
 #define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
 #define SLI_PREFETCH_OWN(k, bytes) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLV_PREFETCH(l, k, bytes) \
     }
 #define SLI_DOWN_OWN(r, k) \
@@ -24,7 +24,7 @@
     }
 #define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
 #define SLI_BELOW_OWN(k, unused) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
     }
 
@@ -72,11 +72,11 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_
     }
 #define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
 #define SLI_ABOVE_OWN(k, unused) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
     }
 #define SLI_DIVIDE_OWN(k, unused) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLW_LOAD(b, xs + (k)*stride) \
         SLW_DIVIDE(b, d[k]) \
         SLW_ADD(a##k, b) \
@@ -153,7 +153,7 @@ SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_i
 #undef SLI_BACKWARD
 #undef SLI_BY_WIDTH
 #undef SLI_CLEAR_WIDE
-#elif defined(SLW_HALF)
+#else
 /* 8 rows do not fit in the registers: first one half of the right-hand sides, then the other. */
 SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
                                                       const sl_int *rows, const SLV_VALUE *l,

@@ -1,35 +1,30 @@
 /* multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
+/* Whoever includes this has defined
+ *
+ *  SLI_PARTS              real columns that a column of L stands for: 2 of a complex matrix, or 1
+ *  SLI_KERNEL(f)          the name of sweep f
+ *  SLI_TABLE(f)           its name in the table of kernels, for groups
+ *  SLI_PREPARE            declares what a sweep needs
+ *  SLI_APPLY_COLUMN       a -= l x(j), with x(j) at xj
+ *  SLI_GATHER_COLUMN      x(j) -= l' a
+ *  SLI_TRIANGLE           the first `inner` columns of the triangle at l on the rows a
+ *  SLI_TRIANGLE_UP        the same for its transpose
+ *
+ * where a0, a1, .. are SLW_ROWS rows in registers. */
+
 /* Rows below the diagonal block, at their positions in x. */
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
 #define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r) /* x(j) -= L(r, j) x(r), in two chains */
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-/* Inside the diagonal block: column k updates the rows below it, row k the columns before it. */
-#define SLI_DOWN(r, k) \
-    if ((r) > (k)) { \
-        SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
-    }
-#define SLI_UP(j, k) \
-    if ((j) < (k) && (j) < inner) { \
-        SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
-    }
-#define SLI_COLUMN(k, unused) \
-    if ((k) < inner) { \
-        SLW_EACH_AGAIN(SLI_DOWN, k) \
-    }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
 
 #if defined(SLW_GROUPS)
 #define SLI_STRIDE_PARAMETER , sl_int stride
 #define SLI_SET_STRIDE
-#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
 #define SLI_IS_DIRECT 1 /* rows below are loaded from x and not from a copy */
 #else
 #define SLI_IS_DIRECT 0
 #define SLI_STRIDE_PARAMETER
 #define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
-#define SLI_KERNEL(f) SLW_SWEEP(f)
 #endif
 
 /* Computes SLW_ROWS rows at a time: x(rows) -= L(rows, j) x(j) for the columns j before them, then
@@ -40,17 +35,17 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
     const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-    SLW_ENTRIES(v, SLI_TILE)
+    SLI_PREPARE
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
+        const SLV_VALUE *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / SLI_PARTS;
         double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
         sl_int group, j;
         if (is_fetched && count > SLI_STEPS_AHEAD) {
             sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
         }
-#if SLW_ROWS == 8 || defined(SLW_HALF)
+#if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
                 SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
@@ -67,10 +62,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
             const sl_int *below_rows = rows + (row + inner - w);
             for (group = 0; group < stride; group += SLW_NRHS) {
                 double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-                const SLV_VALUE *l = tile + SLI_TILE * (ptrdiff_t)first + lane;
+                const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
                 const double *xj = xs + (ptrdiff_t)first * stride + group;
                 SLW_EACH(SLI_DECLARE, 0)
-                SLW_DECLARE(b)
                 if (is_below) {
                     SLW_EACH(SLI_LOAD_BELOW, x + group)
                 } else {
@@ -79,15 +73,13 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                     }
                     SLW_EACH(SLI_LOAD, p)
                 }
-                for (j = first; j < final; j++, l += SLI_TILE, xj += stride) {
+                for (j = first; j < final;
+                     j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
                     SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-                    SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
-                    SLW_LOAD(b, xj)
-                    SLW_EACH(SLI_APPLY, v)
+                    SLI_APPLY_COLUMN
                 }
                 if (inner > 0) {
-                    SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
-                    SLW_EACH(SLI_COLUMN, 0)
+                    SLI_TRIANGLE
                 }
                 if (is_below) {
                     SLW_EACH(SLI_STORE_BELOW, x + group)
@@ -99,7 +91,7 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                 }
             }
             if (lane + SLW_ROWS == SLI_TILE) {
-                tile += SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+                tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
         }
     }
@@ -114,22 +106,19 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
     const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
-    SLW_ENTRIES(v, SLI_TILE)
+    SLI_PREPARE
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-        const sl_int padded = SLI_TILE * sli_tiles(height);
-        const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
+        const SLV_VALUE *tile = L + (s->panel + sli_panel_size(w, s->below)) / SLI_PARTS;
         const double *d = D + s->column - first;
         double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
         sl_int group, i, j;
-        SLW_DECLARE(b)
-        SLW_DECLARE(c)
         rows_end -= s->below;
         if (is_fetched && count > SLI_STEPS_AHEAD) {
             sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
         }
-#if SLW_ROWS == 8 || defined(SLW_HALF)
+#if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
                 SLW_SWEEP(backward_small)
@@ -140,24 +129,25 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 #endif
         for (i = first; i < w; i++) {
             for (group = 0; group < stride; group += SLW_NRHS) {
+                SLW_DECLARE(b)
                 SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
                 SLW_DIVIDE(b, d[i])
                 SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
             }
         }
-        for (row = padded - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+        for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
             const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
             const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
             const sl_int below = height - (sl_int)row - inner;
             const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
             const sl_int *below_rows = rows_end + (row + inner - w);
             if (lane + SLW_ROWS == SLI_TILE) {
-                tile -= SLI_TILE * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+                tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
             }
             for (group = 0; group < stride; group += SLW_NRHS) {
                 double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
                 double *xj = xs + (ptrdiff_t) final * stride + group;
-                const SLV_VALUE *l = tile + SLI_TILE * row + lane;
+                const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
                 SLW_EACH(SLI_DECLARE, 0)
                 if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
                     SLW_EACH(SLI_LOAD_BELOW, x + group)
@@ -168,26 +158,18 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                     SLW_EACH(SLI_LOAD, p)
                 }
                 if (inner > 0) {
-                    SLW_SET_ENTRIES(v, l, inner, SLW_ROWS)
-                    SLW_HIGH(SLI_ROW, 0)
-                    SLW_LOW(SLI_ROW, 0)
+                    SLI_TRIANGLE_UP
                     SLW_EACH(SLI_STORE, p)
                     if (inner < SLW_ROWS) {
                         SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
                     }
                 }
-                l = tile + SLI_TILE * (ptrdiff_t) final + lane;
-                for (j = final - 1; j >= first; j--) {
+                l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
+                for (j = final; j > first; j -= SLI_PARTS) {
                     l -= SLI_TILE;
-                    xj -= stride;
+                    xj -= SLI_PARTS * (ptrdiff_t)stride;
                     SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-                    SLW_SET_ENTRIES(v, l, 1, SLW_ROWS)
-                    SLW_LOAD(b, xj)
-                    SLW_ZERO(c)
-                    SLW_HIGH(SLI_GATHER, v)
-                    SLW_LOW(SLI_GATHER2, v)
-                    SLW_ADD(b, c)
-                    SLW_STORE(xj, b)
+                    SLI_GATHER_COLUMN
                 }
             }
         }
@@ -195,19 +177,25 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
 }
 
 #if defined(SLW_GROUPS)
-/* The kernels of wide blocks; see sli_forward_kernel. */
+/* See sli_forward_kernel. */
 #define SLI_GROUPED_KERNELS(lanes) \
-    SLV_FUNCTION static void SLV_SWEEP(forward##lanes)(sl_int count, const sli_step *s, \
+    SLV_FUNCTION static void SLI_TABLE(forward##lanes)(sl_int count, const sli_step *s, \
                                                        const sl_int *rows, const void *values, \
                                                        double *x, double *buf) { \
         SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
     } \
-    SLV_FUNCTION static void SLV_SWEEP(backward##lanes)( \
+    SLV_FUNCTION static void SLI_TABLE(backward##lanes)( \
         sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
         const double *D, double *x, double *buf) { \
         SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
     }
-#if SLW_NRHS == 8
+#if SLW_NRHS == 2
+SLI_GROUPED_KERNELS(2)
+#endif
+#if SLW_NRHS <= 4 && SLW_GROUPS >= 4
+SLI_GROUPED_KERNELS(4)
+#endif
+#if SLW_NRHS <= 8 && SLW_GROUPS >= 8
 SLI_GROUPED_KERNELS(8)
 #endif
 #if SLW_GROUPS == 32
@@ -221,11 +209,4 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_STORE_BELOW
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
-#undef SLI_KERNEL
 #undef SLI_IS_DIRECT
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW

@@ -73,8 +73,9 @@
  *  SLV_EACH_COLUMN(op, t)             op(0, t) op(1, t) .. over the columns of that block
  *
  * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.
- * The largest SLW_NRHS of an instruction set, 8 or 16, has SLW_GROUPS defined: its sweeps take
- * several groups of so many right-hand sides, up to SLW_GROUPS of them.
+ * With SLW_GROUPS defined, sweeps take several groups of SLW_NRHS right-hand sides, up to
+ * SLW_GROUPS in all: those of the largest SLW_NRHS of an instruction set, 8 or 16, and those of
+ * complex matrices, which SLW_COMPLEX asks for.
  *
  *  SLW_NAME(f), SLW_NRHS  name of function f; the number of right-hand sides
  *  SLW_ROWS               rows that are kept in registers, 4 or 8

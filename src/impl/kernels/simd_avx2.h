@@ -184,10 +184,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
-#define SLW_LANES_4
-#define SLW_LANES_8
-#define SLW_LANES_16
-#include "complex_groups.inl.h"
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
 /* 2 right-hand sides of complex matrices: half a register */
@@ -201,8 +200,10 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
 #define SLW_ADD(a, b) a = _mm_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#define SLW_GROUPS 2
+#define SLW_COMPLEX
 #include "copy_rows.inl.h"
-#include "complex_groups.inl.h"
+#include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
 /* 8 right-hand sides: two registers */

@@ -127,8 +127,9 @@
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
-#define SLW_LANES_8
-#include "complex_groups.inl.h"
+#define SLW_GROUPS 8
+#define SLW_COMPLEX
+#include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
 /* 16 right-hand sides: two registers. An entry of L that is broadcast serves two FMAs, so that
@@ -156,8 +157,9 @@
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##16_avx512
 #define SLW_NRHS 16
-#define SLW_LANES_16
-#include "complex_groups.inl.h"
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#include "multi_rhs.inl.h"
 #undef SLW_TAKES_FLOATS
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1

@@ -163,10 +163,9 @@
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
-#define SLW_LANES_4
-#define SLW_LANES_8
-#define SLW_LANES_16
-#include "complex_groups.inl.h"
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
 /* 2 right-hand sides of complex matrices: one register */
@@ -180,8 +179,10 @@
 #define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
 #define SLW_ADD(a, b) a = vaddq_f64(a, b);
 #define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
+#define SLW_GROUPS 2
+#define SLW_COMPLEX
 #include "copy_rows.inl.h"
-#include "complex_groups.inl.h"
+#include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
 /* 8 right-hand sides: four registers */

@@ -77,7 +77,7 @@
 #define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
 #define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
 #define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP(SLI_TILE, a[i_] = i_ > (k) ? a[i_] : 0.0)
+#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0)
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
 #define SLW_ROWS 4
@@ -101,10 +101,9 @@
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
-#define SLW_LANES_4
-#define SLW_LANES_8
-#define SLW_LANES_16
-#include "complex_groups.inl.h"
+#define SLW_GROUPS 32
+#define SLW_COMPLEX
+#include "multi_rhs.inl.h"
 
 #define SLW_NAME(f) sli_##f##4_scalar
 #define SLW_NRHS 4

@@ -29,7 +29,7 @@
 #define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
 #define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
 #define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP(SLI_TILE, a[i_] = i_ > (k) ? a[i_] : 0.0F)
+#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0F)
 #define SLV_TILES 1
 #define SLV_COLUMNS 4
 #define SLV_EACH_COLUMN SLI_EACH4

@@ -26,14 +26,14 @@
 
 /* The diagonal tile, one column after another; L is stored as 0 on and above its diagonal. */
 #define SLI_COLUMN(k, unused) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
         SLV_LANE(y##k, a, k) \
         SLV_DOT(a, l + SLI_TILE * (k), y##k) \
     }
 /* A tile below: even and odd columns have a sum each, two independent chains of FMAs. */
 #define SLI_EVEN_ODD(k, unused) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLV_PREFETCH(l, k, SLI_PREFETCH_DISTANCE) \
         if ((k) % 2 == 0) { \
             SLV_DOT(a, l + SLI_TILE * (k), y##k) \
@@ -78,21 +78,22 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_forward)(const sl_int w, sl_
 
 /* x(j) -= L(rows, j)' x(rows), from the last column to the first: L is read backward in memory. */
 #define SLI_DOT(k) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         SLV_PREFETCH(l, k, -SLI_PREFETCH_DISTANCE) \
         SLV_SUM_DOT(a##k, l + SLI_TILE * (k), v) \
     }
-#define SLI_DOTS \
-    SLI_DOT(7) SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
+#define SLI_DOTS SLI_DOT(7) SLI_DOTS_OWN
+#define SLI_DOTS_OWN \
+    SLI_DOT(6) SLI_DOT(5) SLI_DOT(4) SLI_DOT(3) SLI_DOT(2) SLI_DOT(1) SLI_DOT(0)
 /* Positions in x of the 8 rows of a tile. PART: the last tile, which has fewer rows; its last
- * position is repeated. OWN: the tile that holds the columns too; their lanes get any valid
- * position. */
+ * position is repeated. OWN: the tile that holds the columns too, at most 7; their lanes get any
+ * valid position. */
 #define SLI_ROW_AT(k) rows[at + (k)]
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 #define SLI_SET(k, unused) double r##k = r[k];
 #define SLI_GET(k, unused) \
-    if ((k) < w) { \
+    if (SLI_IS_IN(k, w)) { \
         xs[k] = r##k; \
     }
 #define SLI_XT(j, k) \
@@ -133,7 +134,7 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
         SLV_GATHER(v, x, SLI_ROW_AT_OWN)
         SLV_FIRST(v, w + at)
         SLV_BELOW(v, w - 1)
-        SLI_DOTS
+        SLI_DOTS_OWN
     }
     SLI_CLEAR_WIDE
     SLV_WIDEN(t, l, w, SLI_TILE)
@@ -176,6 +177,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, c
 #undef SLI_EVEN_ODD
 #undef SLI_DOT
 #undef SLI_DOTS
+#undef SLI_DOTS_OWN
 #undef SLI_ROW_AT
 #undef SLI_ROW_AT_PART
 #undef SLI_ROW_AT_OWN

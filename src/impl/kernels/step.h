@@ -76,17 +76,21 @@ SLI_INLINE size_t sli_sweep_scratch(sl_int height, sl_int width, sl_int nrhs) {
  * again at every page. */
 #define SLI_PREFETCH_DISTANCE 4096
 
-/* Rows of x are whole cache lines in sweeps of 16 and 32 right-hand sides, and the hardware does
+/* Rows of x are whole cache lines in sweeps of 8 and more right-hand sides, and the hardware does
  * not foresee where the next ones are. The lists of rows say it: while a step is computed, the rows
  * of the step SLI_STEPS_AHEAD from it are prefetched, up to SLI_ROWS_FETCHED of each kind. With
  * more, a step takes long enough to hide most misses. At n = 1e6 in 2D the sweeps take 0.6 of the
  * time. It costs 10 percent if x is in the cache anyway: below SLI_FETCHED_BYTES. */
 #define SLI_STEPS_AHEAD 2
 #define SLI_ROWS_FETCHED 24
+#if defined(SLI_SMALL_TASKS)
+#define SLI_FETCHED_BYTES 1
+#else
 #define SLI_FETCHED_BYTES 4000000
+#endif
 
 SLI_INLINE int sli_steps_exceed_cache(sl_int count, const sli_step *s, sl_int nrhs) {
-    return count > SLI_STEPS_AHEAD &&
+    return nrhs >= 8 && count > SLI_STEPS_AHEAD &&
            (size_t)s[count - 1].base * (size_t)nrhs * sizeof(double) > SLI_FETCHED_BYTES;
 }
 
