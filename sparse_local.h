@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 05fa62a17f8b5890
+ * FNV-1a of the lines after this comment, without the license: 0570d1cb856dafed
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -50,42 +50,42 @@
  *  11365 symbolic_types.h  11402 etree.h  11475 counts.h  11532 supernodes.h  11754 structure.h
  *  11875 schedule.h  12155 symbolic.h  12596 reach.h
  * (factor: the numbers of L and D)
- *  12867 factor_types.h  13278 storage.h  13418 pivot_search.h  13764 pivoted.h  13832 scatter.h
- *  13990 uplooking.h  14062 null_product.h  14266 null_dense.h  14343 null_basis.h
- *  14651 null_vectors.h  14793 multifrontal.h  14983 gather.h  15031 kept.h  15201 front_tasks.h
- *  15544 nullspace.h  15747 growth.h  15823 factor_setup.h  16145 factor.h  16355 leftlooking.h
- *  16501 factor_query.h  16636 combination.h
+ *  12867 factor_types.h  13285 storage.h  13425 pivot_search.h  13771 pivoted.h  13839 scatter.h
+ *  13997 uplooking.h  14069 null_product.h  14273 null_dense.h  14350 null_basis.h
+ *  14658 null_vectors.h  14800 multifrontal.h  14990 gather.h  15038 kept.h  15208 front_tasks.h
+ *  15551 nullspace.h  15754 growth.h  15830 factor_setup.h  16152 factor.h  16362 leftlooking.h
+ *  16508 factor_query.h  16643 combination.h
  * (solve: full and local solves)
- *  16697 region_types.h  16801 work.h  16901 query.h  17117 singular.h  17387 backward.h
- *  17417 sweep_tasks.h  17747 sweep.h  17958 compile.h  18151 plan.h  18258 local.h  18410 parts.h
- *  18699 refine.h  18878 refine_local.h  19094 rcond.h  19253 defects.h
+ *  16704 region_types.h  16808 work.h  16908 query.h  17124 singular.h  17394 backward.h
+ *  17424 sweep_tasks.h  17755 sweep.h  17966 compile.h  18159 plan.h  18266 local.h  18418 parts.h
+ *  18707 refine.h  18886 refine_local.h  19102 rcond.h  19261 defects.h
  * (inverse: entries of the inverse, regions)
- *  19331 traversal.h  19580 traversal_run.h  19773 row_sets.h  19800 unit_vectors.h
- *  20027 bilinear.h  20204 entries.h  20486 block.h  20726 reserve.h  20918 selected.h
- *  21128 selected_query.h  21230 region_choose.h  21457 region.h
+ *  19339 traversal.h  19588 traversal_run.h  19781 row_sets.h  19808 unit_vectors.h
+ *  20035 bilinear.h  20212 entries.h  20494 block.h  20734 reserve.h  20926 selected.h
+ *  21136 selected_query.h  21238 region_choose.h  21465 region.h
  * (change: a factor that follows changes of its matrix)
- *  21705 update.h  22055 rank.h  22393 edges.h  22547 choose.h  22745 pins_types.h
- *  22823 pins_nulls.h  23001 pins_capacitance.h  23252 pins_held.h  23463 pins_choose.h
- *  23533 pins_rebuild.h  23748 pins_matrix.h  23899 pins.h  24159 pins_solve.h  24534 subset.h
- *  24647 restrict_analysis.h  24976 restrict_symbolic.h  25157 restrict.h  25374 edit_match.h
- *  25573 edit_place.h  25822 edit_separate.h  26135 edit_order.h  26290 edit_graph.h
- *  26385 edit_join.h  26661 edit.h  26824 edit_factor.h
+ *  21713 update.h  22063 rank.h  22401 edges.h  22555 choose.h  22753 pins_types.h
+ *  22831 pins_nulls.h  23009 pins_capacitance.h  23260 pins_held.h  23471 pins_choose.h
+ *  23541 pins_rebuild.h  23756 pins_matrix.h  23907 pins.h  24167 pins_solve.h  24542 subset.h
+ *  24655 restrict_analysis.h  24984 restrict_symbolic.h  25165 restrict.h  25382 edit_match.h
+ *  25581 edit_place.h  25830 edit_separate.h  26143 edit_order.h  26298 edit_graph.h
+ *  26393 edit_join.h  26669 edit.h  26832 edit_factor.h
  * (save: factors in files)
- *  27123 format.h  27419 decode.h  27567 check.h  27897 write.h  28202 load.h  28470 load_inverse.h
- *  28800 load_calls.h
+ *  27131 format.h  27427 decode.h  27575 check.h  27905 write.h  28210 load.h  28478 load_inverse.h
+ *  28808 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  28999 batch_solve.h  29208 batch_factor.h  29409 batch_diagonal.h
+ *  29007 batch_solve.h  29216 batch_factor.h  29417 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29549 hermitian.h  29711 complex_rows.h
+ *  29557 hermitian.h  29719 complex_rows.h
  * (last: undefine every internal macro)
- *  29879 undef.h
+ *  29887 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30141 front.inl.h  30143 product.inl.h  30640 words_undef.inl.h  30717 copy_rows.inl.h
- *  30755 multi_rhs.inl.h  30774 complex_groups.inl.h  30913 multi_rhs_small.inl.h
- *  31085 multi_rhs_tiles.inl.h  31354 sweeps.inl.h  31356 unit_triangle.inl.h  31393 two_rhs.inl.h
- *  31562 small_supernode.inl.h  31743 single_rhs.inl.h  31987 kernel_set.inl.h
- *  31989 complex_small.inl.h  32159 complex_rows.inl.h  32374 inverse_front.inl.h  32659 row.inl.h
- *  32689 change.inl.h  32753 interleave.inl.h  32884 lanes_undef.inl.h
+ *  30149 front.inl.h  30151 product.inl.h  30648 words_undef.inl.h  30725 copy_rows.inl.h
+ *  30763 multi_rhs.inl.h  30782 complex_groups.inl.h  30921 multi_rhs_small.inl.h
+ *  31093 multi_rhs_tiles.inl.h  31362 sweeps.inl.h  31364 unit_triangle.inl.h  31401 two_rhs.inl.h
+ *  31570 small_supernode.inl.h  31751 single_rhs.inl.h  31995 kernel_set.inl.h
+ *  31997 complex_small.inl.h  32167 complex_rows.inl.h  32382 inverse_front.inl.h  32667 row.inl.h
+ *  32697 change.inl.h  32761 interleave.inl.h  32892 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13068,15 +13068,14 @@ SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
 #define SLI_MARK_BEGIN SLI_HASH_4
 
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                           float *single, int is_half, sl_off first,
-                           sl_off last, const double *x,
-                           const sl_int *scatter_from,
+                           float *single, int is_half, double most,
+                           uint64_t *marks, sl_off first, sl_off last,
+                           const double *x, const sl_int *scatter_from,
                            sli_failure *failure) {
   const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
-  const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX; /* untested: constant */
   const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
   double largest = F->extents[s].entry;
-  uint64_t *marks = panel == NULL ? NULL : F->marks, mark = 0; /* untested: constant */
+  uint64_t mark = 0;
   sl_off m;
   for (m = first; m < last; m++) {
     if (scatter_from != NULL && m < ahead) { /* untested: constant */
@@ -13138,20 +13137,28 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   if (F->marks != NULL) {
     F->marks[s] = SLI_MARK_BEGIN;
   }
+  if (from->A != NULL && panel == NULL) {
+    return sli_panel_load_entries(F, s, NULL, single, 0, SLI_SINGLE_MOST, NULL, m, end,
+                    from->A->x, S->scatter_from, failure);
+  }
+  if (from->A != NULL && sli_is_complex(F)) {
+    return sli_panel_load_entries(F, s, panel, NULL, 1, DBL_MAX, F->marks, m, end, from->A->x,
+                    S->scatter_from, failure);
+  }
   if (from->A != NULL) {
-    return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, 0, m, end, from->A->x,
-                            S->scatter_from, failure)
-         : sli_is_complex(F) ? sli_panel_load_entries(F, s, panel, NULL, 1, m, end,
-                              from->A->x, S->scatter_from, failure)
-                   : sli_panel_load_entries(F, s, panel, NULL, 0, m, end,
-                              from->A->x, S->scatter_from, failure);
+    return sli_panel_load_entries(F, s, panel, NULL, 0, DBL_MAX, F->marks, m, end, from->A->x,
+                    S->scatter_from, failure);
   }
   for (; m < end && status == SL_OK; m = last) {
     last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
     sli_source_sum(from, m, (sl_int)(last - m), sums);
-    status = panel == NULL
-           ? sli_panel_load_entries(F, s, NULL, single, 0, m, last, sums, NULL, failure)
-           : sli_panel_load_entries(F, s, panel, NULL, 0, m, last, sums, NULL, failure);
+    if (panel == NULL) {
+      status = sli_panel_load_entries(F, s, NULL, single, 0, SLI_SINGLE_MOST, NULL, m, last,
+                      sums, NULL, failure);
+    } else {
+      status = sli_panel_load_entries(F, s, panel, NULL, 0, DBL_MAX, F->marks, m, last, sums,
+                      NULL, failure);
+    }
   }
   return status;
 }
@@ -16948,7 +16955,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-  return F->n_nulls > 0 || F->checks || F->is_centered ? 8 : SLI_BLOCK_MOST;
+  return F->checks || F->is_centered || F->n_nulls > 0 ? 8 : SLI_BLOCK_MOST;
 }
 
 typedef struct sli_vectors {
@@ -17591,7 +17598,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   }
   workers = entries < workers ? (sl_int)entries : workers;
   if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-    q->x_index != S->iperm || q->region != NULL || F->n_nulls > 0 || F->checks) {
+    q->x_index != S->iperm || F->checks || F->n_nulls > 0) {
     return;
   }
   t->F = F;
@@ -17599,24 +17606,25 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   t->nrhs = nrhs;
   if (nrhs > 8) {
     t->share = 8;
-    while (2 * t->share * workers <= nrhs && t->share < sli_block_most(F)) {
+    while (2 * t->share * workers <= nrhs && t->share < SLI_BLOCK_MOST) {
       t->share *= 2;
     }
-    t->bytes = sli_vectors_bytes(q, t->share, sli_block_most(F));
-    t->total = t->bytes > SIZE_MAX / (size_t)workers ? SIZE_MAX : t->bytes * (size_t)workers;
+    t->bytes = sli_vectors_bytes(q, t->share, SLI_BLOCK_MOST);
+    (void)sli_take(&b, (uint64_t)workers, t->bytes);
+    t->total = b.used;
     t->workers = workers;
     return;
   }
-  if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers] ||
-    t->n_tasks < 2) {
+  if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers]) {
     return;
   }
   sli_sweep_tasks_finish(t);
-  if (t->n_slots <= SLI_ROWS_MAX - S->n) {
-    t->workers = workers;
-    sli_sweep_tasks_layout(t, &b);
-    t->total = b.used;
+  if (t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
+    return;                             /* untested: the same */
   }
+  t->workers = workers;
+  sli_sweep_tasks_layout(t, &b);
+  t->total = b.used;
 }
 
 static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {

@@ -375,6 +375,25 @@ static void blocks_must_be_complete(void **state) {
     }
 }
 
+/* A block of which one column is empty, or has only the 0 beside its diagonal entry. */
+static void a_column_without_a_diagonal_is_refused(void **state) {
+    (void)state;
+    static const struct {
+        sl_int p[3], i[2];
+    } blocks[] = {{{0, 0, 2}, {0, 1}}, {{0, 2, 2}, {0, 1}}, {{0, 1, 2}, {0, 0}}};
+    static const double x[2] = {2.0, 0.0};
+    sl_options opt = options_none();
+    opt.block_size = 2;
+    for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) {
+        const sl_csc A = {2, 2, blocks[k].p, blocks[k].i, x};
+        sl_symbolic *S = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        assert_int_equal(sl_symbolic_view(S).n_supers, 1);
+        assert_int_equal(create(S, &A, options_none()), SL_ERR_UNSUPPORTED);
+        sl_symbolic_free(S);
+    }
+}
+
 static void failing_allocations(void **state) {
     (void)state;
     pair_t y = pair_make(GEN_GRID2, 49, 0, SL_ISA_AUTO);
@@ -402,6 +421,7 @@ int main(void) {
         cmocka_unit_test(memory_is_halved),
         cmocka_unit_test(what_is_not_complex_is_refused),
         cmocka_unit_test(blocks_must_be_complete),
+        cmocka_unit_test(a_column_without_a_diagonal_is_refused),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -30,7 +30,9 @@ static void other_patterns_do_not_refill(void **state) {
     static const sl_int small_p[3] = {0, 1, 2}, small_i[2] = {0, 1};
     static const double x[14] = {9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0, 9, 0};
     static const sl_int late_p[N + 1] = {0, 2, 4, 7}, late_i[7] = {0, 1, 1, 2, 2, 1, 0};
-    const sl_hermitian others[5] = {{N, less_p, less_i, x, NULL},
+    static const sl_int end_i[6] = {0, 2, 1, 1, 2, 2}; /* the entry more ends its column */
+    const sl_hermitian others[6] = {{N, less_p, less_i, x, NULL},
+                                    {N, more_p, end_i, x, NULL},
                                     {N, last_p, last_i, x, NULL},
                                     {N, more_p, more_i, x, NULL},
                                     {N, late_p, late_i, x, NULL},
@@ -42,7 +44,7 @@ static void other_patterns_do_not_refill(void **state) {
     double before[20];
     assert_true(A.p[2 * N] <= 20);
     memcpy(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < 6; k++) {
         SL_EXPECT(SL_ERR_PATTERN, sl_matrix_refill_hermitian(M, &others[k], &stats));
         assert_memory_equal(before, A.x, (size_t)A.p[2 * N] * sizeof *before);
     }

@@ -240,12 +240,30 @@ static void the_determinant_of_a_laplacian_follows_the_matrix_tree_theorem(void 
     }
 }
 
+/* The solves of the estimate overflow, inf - inf included: 0 and not NaN. */
+static void an_estimate_that_overflows_is_zero(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double x[3] = {1e-320, 5e-321, 1e-320};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_symbolic *S;
+    sl_factor *F;
+    double estimate = -1.0;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_rcond(F, &A, &estimate, NULL));
+    assert_true(estimate == 0.0);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(condition_estimates_are_within_a_factor_of_3),
         cmocka_unit_test(singular_empty_and_invalid_inputs),
         cmocka_unit_test(inertia_and_determinant_agree_with_eigenvalues),
         cmocka_unit_test(the_determinant_of_a_laplacian_follows_the_matrix_tree_theorem),
+        cmocka_unit_test(an_estimate_that_overflows_is_zero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

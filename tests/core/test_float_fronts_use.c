@@ -102,6 +102,28 @@ static void several_null_vectors_are_given(void **state) {
     }
 }
 
+/* A semidefinite matrix whose L and second pivot overflow in float. */
+static void a_pivot_that_overflows_is_refused(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double x[3] = {1e-30, 1e18, 1.0};
+    const sl_csc A = {2, 2, p, i, x};
+    const isa_list_t isas = isas_present();
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    for (int k = 0; k < isas.count; k++) {
+        sl_factor *F = NULL;
+        sl_stats stats;
+        opt = options_float(isas.isa[k]);
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, S, &A, &opt, &stats));
+        assert_int_equal(stats.error.row, 1);
+    }
+    sl_symbolic_free(S);
+}
+
 /* A region keeps the inverse of L D L', in double: plans in it agree with plans to the roots to the
  * rounding of double, although L is far from that of A. */
 static void regions_agree_with_plans_to_the_roots(void **state) {
@@ -235,6 +257,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_null_vector_is_given),
         cmocka_unit_test(several_null_vectors_are_given),
+        cmocka_unit_test(a_pivot_that_overflows_is_refused),
         cmocka_unit_test(regions_agree_with_plans_to_the_roots),
         cmocka_unit_test(batches_have_the_bits_of_single_calls),
         cmocka_unit_test(the_condition_of_larger_systems),

@@ -301,6 +301,35 @@ static void a_regular_component_is_not_suspected(void **state) {
     assert_true(rounded > 0);
 }
 
+/* Nor is a component whose rows add up to no more than rounding, but all of its rows to more. */
+static void rounding_of_many_rows_is_not_suspected(void **state) {
+    (void)state;
+    enum { N = 200 };
+    gen_list_t t = gen_list(N + 2);
+    gen_add(&t, 0, 0, 1.0); /* its last pivot is small beside the first */
+    gen_add(&t, 1, 0, 1e-8);
+    gen_add(&t, 1, 1, 2e-16);
+    for (sl_int k = 2; k < N + 2; k++) {
+        gen_add(&t, k, k, (N - 1) * (1.0 + 2000.0 * DBL_EPSILON));
+        for (sl_int i = k + 1; i < N + 2; i++) {
+            gen_add(&t, i, k, -1.0);
+        }
+    }
+    gen_matrix_t M = matrix_of(&t, 0);
+    sl_options opt = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    const double *D = sl_factor_view(F).D;
+    assert_true(D[1] > 0.5e-16 && D[1] < 2e-16);
+    assert_true(D[N + 1] > 1e-8 && D[N + 1] < 1e-7);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_of_zeros_in_several_trees),
@@ -312,6 +341,7 @@ int main(void) {
         cmocka_unit_test(sizes_that_overflow),
         cmocka_unit_test(pivots_that_overflow),
         cmocka_unit_test(a_regular_component_is_not_suspected),
+        cmocka_unit_test(rounding_of_many_rows_is_not_suspected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

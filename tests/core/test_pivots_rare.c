@@ -44,6 +44,29 @@ static void pairs_that_overflow_are_refused(void **state) {
     sl_symbolic_free(t.S);
 }
 
+/* A diagonal entry of the pivot cancels, and the sum of what it was computed from overflows. */
+static void magnitudes_of_pairs_may_overflow(void **state) {
+    (void)state;
+    static const double values[2][6] = {{1e308, 1e308, 0.0, 1e308, 1e300, 1.0},
+                                        {1e308, 0.0, 1e308, 1.0, 1e300, 1e308}};
+    static const double b[2][3] = {{3e300, 3e300 + 3e292, 2e292 + 3e-8},
+                                   {4e300, 3e292 + 2e-8, 4e300 + 2e292}};
+    three_t t;
+    three_make(&t);
+    for (int k = 0; k < 2; k++) {
+        sl_factor *F;
+        double x[3];
+        memcpy(t.x, values[k], sizeof t.x);
+        SL_CHECK(sl_factor_create(&F, t.S, &t.A, NULL, NULL));
+        SL_CHECK(sl_factor_solve(F, x, 3, b[k], 3, 1, NULL));
+        for (int i = 0; i < 3; i++) {
+            assert_true(fabs(x[i] - (i + 1) * 1e-8) <= 1e-15);
+        }
+        sl_factor_free(F);
+    }
+    sl_symbolic_free(t.S);
+}
+
 /* Entries of L that float cannot hold become 0 below a 2x2 pivot, where they do no harm. */
 static void small_entries_below_pairs_are_dropped_in_float(void **state) {
     (void)state;
@@ -142,6 +165,7 @@ static void pairs_need_no_relaxation(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_that_overflow_are_refused),
+        cmocka_unit_test(magnitudes_of_pairs_may_overflow),
         cmocka_unit_test(small_entries_below_pairs_are_dropped_in_float),
         cmocka_unit_test(the_smallest_numbers_are_a_pair),
         cmocka_unit_test(a_search_that_overflows_ends),

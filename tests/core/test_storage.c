@@ -387,6 +387,32 @@ static void entries_beyond_float_are_refused(void **state) {
     SL_CHECK(factor_of_two(1e-9, 1.0, 1.0, -1.0, &stats));
 }
 
+/* An entry of L that float cannot hold, in a regular component beside one with two null vectors. */
+static void entries_beyond_float_are_refused_beside_null_vectors(void **state) {
+    (void)state;
+    static const sl_int p[6] = {0, 3, 5, 6, 8, 9}, i[9] = {0, 1, 2, 1, 2, 2, 3, 4, 4};
+    static const double x[9] = {1.0, -2.0, 1.0, 4.0, -2.0, 1.0, 1.0, 1e-40, 3e-80};
+    static const double Z[10] = {1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 2.0, 1.0, 1.0};
+    const sl_csc A = {5, 5, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    opt.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    opt.null_vector = Z;
+    opt.null_vector_count = 2;
+    SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.null, 2);
+    sl_factor_free(F);
+    opt.storage = SL_STORAGE_FLOAT;
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, S, &A, &opt, &stats));
+    assert_int_equal(stats.error.row, 3);
+    sl_symbolic_free(S);
+}
+
 /* A Laplacian whose null pivot is hidden by a heavier row. The check for constants works in L, or
  * where L is too short, as here, in scratch. */
 static void a_hidden_null_pivot_is_refused(void **state) {
@@ -470,6 +496,7 @@ int main(void) {
         cmocka_unit_test(refinement_says_how_far_it_came),
         cmocka_unit_test(singular_systems_are_solved),
         cmocka_unit_test(entries_beyond_float_are_refused),
+        cmocka_unit_test(entries_beyond_float_are_refused_beside_null_vectors),
         cmocka_unit_test(a_hidden_null_pivot_is_refused),
         cmocka_unit_test(changes_are_factorizations),
         cmocka_unit_test(a_factor_takes_less_memory),

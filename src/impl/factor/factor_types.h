@@ -253,19 +253,19 @@ SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
 #define SLI_MARK_BEGIN SLI_HASH_4
 
 /* Adds the entries first .. last-1 of the scatter map to the panel of supernode s, in double or, if
- * that is NULL, in float, and records the largest magnitude; marks what it adds in double. is_half:
- * the panel has the first columns of pairs only. With scatter_from, x is the value array of A and
- * scatter_from[m] the position of entry m; without, x[0] is the value of entry `first`. */
+ * that is NULL, in float, and records the largest magnitude, which may not exceed `most`. is_half:
+ * the panel has the first columns of pairs only. marks: gets the mark of what is added, or NULL.
+ * With scatter_from, x is the value array of A and scatter_from[m] the position of entry m;
+ * without, x[0] is the value of entry `first`. */
 SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                                                   float *single, int is_half, sl_off first,
-                                                   sl_off last, const double *x,
-                                                   const sl_int *scatter_from,
+                                                   float *single, int is_half, double most,
+                                                   uint64_t *marks, sl_off first, sl_off last,
+                                                   const double *x, const sl_int *scatter_from,
                                                    sli_failure *failure) {
     const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
-    const double most = panel == NULL ? SLI_SINGLE_MOST : DBL_MAX; /* untested: constant */
     const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
     double largest = F->extents[s].entry;
-    uint64_t *marks = panel == NULL ? NULL : F->marks, mark = 0; /* untested: constant */
+    uint64_t mark = 0;
     sl_off m;
     for (m = first; m < last; m++) {
         if (scatter_from != NULL && m < ahead) { /* untested: constant */
@@ -329,20 +329,28 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
     if (F->marks != NULL) {
         F->marks[s] = SLI_MARK_BEGIN;
     }
+    if (from->A != NULL && panel == NULL) {
+        return sli_panel_load_entries(F, s, NULL, single, 0, SLI_SINGLE_MOST, NULL, m, end,
+                                      from->A->x, S->scatter_from, failure);
+    }
+    if (from->A != NULL && sli_is_complex(F)) {
+        return sli_panel_load_entries(F, s, panel, NULL, 1, DBL_MAX, F->marks, m, end, from->A->x,
+                                      S->scatter_from, failure);
+    }
     if (from->A != NULL) {
-        return panel == NULL ? sli_panel_load_entries(F, s, NULL, single, 0, m, end, from->A->x,
-                                                      S->scatter_from, failure)
-               : sli_is_complex(F) ? sli_panel_load_entries(F, s, panel, NULL, 1, m, end,
-                                                            from->A->x, S->scatter_from, failure)
-                                   : sli_panel_load_entries(F, s, panel, NULL, 0, m, end,
-                                                            from->A->x, S->scatter_from, failure);
+        return sli_panel_load_entries(F, s, panel, NULL, 0, DBL_MAX, F->marks, m, end, from->A->x,
+                                      S->scatter_from, failure);
     }
     for (; m < end && status == SL_OK; m = last) {
         last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
         sli_source_sum(from, m, (sl_int)(last - m), sums);
-        status = panel == NULL
-                     ? sli_panel_load_entries(F, s, NULL, single, 0, m, last, sums, NULL, failure)
-                     : sli_panel_load_entries(F, s, panel, NULL, 0, m, last, sums, NULL, failure);
+        if (panel == NULL) {
+            status = sli_panel_load_entries(F, s, NULL, single, 0, SLI_SINGLE_MOST, NULL, m, last,
+                                            sums, NULL, failure);
+        } else {
+            status = sli_panel_load_entries(F, s, panel, NULL, 0, DBL_MAX, F->marks, m, last, sums,
+                                            NULL, failure);
+        }
     }
     return status;
 }

@@ -200,7 +200,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     }
     workers = entries < workers ? (sl_int)entries : workers;
     if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-        q->x_index != S->iperm || q->region != NULL || F->n_nulls > 0 || F->checks) {
+        q->x_index != S->iperm || F->checks || F->n_nulls > 0) {
         return;
     }
     t->F = F;
@@ -208,24 +208,25 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     t->nrhs = nrhs;
     if (nrhs > 8) {
         t->share = 8;
-        while (2 * t->share * workers <= nrhs && t->share < sli_block_most(F)) {
+        while (2 * t->share * workers <= nrhs && t->share < SLI_BLOCK_MOST) {
             t->share *= 2;
         }
-        t->bytes = sli_vectors_bytes(q, t->share, sli_block_most(F));
-        t->total = t->bytes > SIZE_MAX / (size_t)workers ? SIZE_MAX : t->bytes * (size_t)workers;
+        t->bytes = sli_vectors_bytes(q, t->share, SLI_BLOCK_MOST);
+        (void)sli_take(&b, (uint64_t)workers, t->bytes);
+        t->total = b.used;
         t->workers = workers;
         return;
     }
-    if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers] ||
-        t->n_tasks < 2) {
-        return;
+    if (1.25 * sli_sweep_tasks_divide(t, workers) > (double)S->panel_begin[S->n_supers]) {
+        return; /* with a single task, too */
     }
     sli_sweep_tasks_finish(t);
-    if (t->n_slots <= SLI_ROWS_MAX - S->n) {
-        t->workers = workers;
-        sli_sweep_tasks_layout(t, &b);
-        t->total = b.used;
+    if (t->n_slots > SLI_ROWS_MAX - S->n) { /* untested: 2^31 rows */
+        return;                             /* untested: the same */
     }
+    t->workers = workers;
+    sli_sweep_tasks_layout(t, &b);
+    t->total = b.used;
 }
 
 /* y := P b in the columns of supernodes first .. last. */
