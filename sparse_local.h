@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0570d1cb856dafed
+ * FNV-1a of the lines after this comment, without the license: b8d4321fa76861dc
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,44 +48,44 @@
  *  11014 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11365 symbolic_types.h  11402 etree.h  11475 counts.h  11532 supernodes.h  11754 structure.h
- *  11875 schedule.h  12155 symbolic.h  12596 reach.h
+ *  11875 schedule.h  12155 symbolic.h  12604 reach.h
  * (factor: the numbers of L and D)
- *  12867 factor_types.h  13285 storage.h  13425 pivot_search.h  13771 pivoted.h  13839 scatter.h
- *  13997 uplooking.h  14069 null_product.h  14273 null_dense.h  14350 null_basis.h
- *  14658 null_vectors.h  14800 multifrontal.h  14990 gather.h  15038 kept.h  15208 front_tasks.h
- *  15551 nullspace.h  15754 growth.h  15830 factor_setup.h  16152 factor.h  16362 leftlooking.h
- *  16508 factor_query.h  16643 combination.h
+ *  12875 factor_types.h  13293 storage.h  13433 pivot_search.h  13779 pivoted.h  13847 scatter.h
+ *  14005 uplooking.h  14077 null_product.h  14281 null_dense.h  14358 null_basis.h
+ *  14666 null_vectors.h  14808 multifrontal.h  14998 gather.h  15046 kept.h  15216 front_tasks.h
+ *  15559 nullspace.h  15762 growth.h  15838 factor_setup.h  16160 factor.h  16370 leftlooking.h
+ *  16516 factor_query.h  16651 combination.h
  * (solve: full and local solves)
- *  16704 region_types.h  16808 work.h  16908 query.h  17124 singular.h  17394 backward.h
- *  17424 sweep_tasks.h  17755 sweep.h  17966 compile.h  18159 plan.h  18266 local.h  18418 parts.h
- *  18707 refine.h  18886 refine_local.h  19102 rcond.h  19261 defects.h
+ *  16712 region_types.h  16816 work.h  16916 query.h  17132 singular.h  17402 backward.h
+ *  17432 sweep_tasks.h  17763 sweep.h  17974 compile.h  18167 plan.h  18274 local.h  18426 parts.h
+ *  18715 refine.h  18894 refine_local.h  19110 rcond.h  19269 defects.h
  * (inverse: entries of the inverse, regions)
- *  19339 traversal.h  19588 traversal_run.h  19781 row_sets.h  19808 unit_vectors.h
- *  20035 bilinear.h  20212 entries.h  20494 block.h  20734 reserve.h  20926 selected.h
- *  21136 selected_query.h  21238 region_choose.h  21465 region.h
+ *  19347 traversal.h  19596 traversal_run.h  19789 row_sets.h  19816 unit_vectors.h
+ *  20043 bilinear.h  20220 entries.h  20502 block.h  20742 reserve.h  20934 selected.h
+ *  21144 selected_query.h  21246 region_choose.h  21473 region.h
  * (change: a factor that follows changes of its matrix)
- *  21713 update.h  22063 rank.h  22401 edges.h  22555 choose.h  22753 pins_types.h
- *  22831 pins_nulls.h  23009 pins_capacitance.h  23260 pins_held.h  23471 pins_choose.h
- *  23541 pins_rebuild.h  23756 pins_matrix.h  23907 pins.h  24167 pins_solve.h  24542 subset.h
- *  24655 restrict_analysis.h  24984 restrict_symbolic.h  25165 restrict.h  25382 edit_match.h
- *  25581 edit_place.h  25830 edit_separate.h  26143 edit_order.h  26298 edit_graph.h
- *  26393 edit_join.h  26669 edit.h  26832 edit_factor.h
+ *  21721 update.h  22071 rank.h  22409 edges.h  22563 choose.h  22761 pins_types.h
+ *  22839 pins_nulls.h  23017 pins_capacitance.h  23268 pins_held.h  23479 pins_choose.h
+ *  23549 pins_rebuild.h  23764 pins_matrix.h  23915 pins.h  24175 pins_solve.h  24550 subset.h
+ *  24671 restrict_analysis.h  25025 restrict_symbolic.h  25222 restrict.h  25444 edit_match.h
+ *  25643 edit_place.h  25892 edit_separate.h  26205 edit_order.h  26360 edit_graph.h
+ *  26455 edit_join.h  26731 edit.h  26894 edit_factor.h
  * (save: factors in files)
- *  27131 format.h  27427 decode.h  27575 check.h  27905 write.h  28210 load.h  28478 load_inverse.h
- *  28808 load_calls.h
+ *  27193 format.h  27489 decode.h  27637 check.h  27967 write.h  28272 load.h  28540 load_inverse.h
+ *  28870 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29007 batch_solve.h  29216 batch_factor.h  29417 batch_diagonal.h
+ *  29069 batch_solve.h  29278 batch_factor.h  29479 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29557 hermitian.h  29719 complex_rows.h
+ *  29619 hermitian.h  29781 complex_rows.h
  * (last: undefine every internal macro)
- *  29887 undef.h
+ *  29949 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30149 front.inl.h  30151 product.inl.h  30648 words_undef.inl.h  30725 copy_rows.inl.h
- *  30763 multi_rhs.inl.h  30782 complex_groups.inl.h  30921 multi_rhs_small.inl.h
- *  31093 multi_rhs_tiles.inl.h  31362 sweeps.inl.h  31364 unit_triangle.inl.h  31401 two_rhs.inl.h
- *  31570 small_supernode.inl.h  31751 single_rhs.inl.h  31995 kernel_set.inl.h
- *  31997 complex_small.inl.h  32167 complex_rows.inl.h  32382 inverse_front.inl.h  32667 row.inl.h
- *  32697 change.inl.h  32761 interleave.inl.h  32892 lanes_undef.inl.h
+ *  30211 front.inl.h  30213 product.inl.h  30710 words_undef.inl.h  30787 copy_rows.inl.h
+ *  30825 multi_rhs.inl.h  30844 complex_groups.inl.h  30983 multi_rhs_small.inl.h
+ *  31155 multi_rhs_tiles.inl.h  31424 sweeps.inl.h  31426 unit_triangle.inl.h  31463 two_rhs.inl.h
+ *  31632 small_supernode.inl.h  31813 single_rhs.inl.h  32057 kernel_set.inl.h
+ *  32059 complex_small.inl.h  32229 complex_rows.inl.h  32444 inverse_front.inl.h  32729 row.inl.h
+ *  32759 change.inl.h  32823 interleave.inl.h  32954 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12414,15 +12414,49 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
   sli_analyze_stats(S, w->scratch, stats);
 }
 
+static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, const sli_analysis *w,
+                  sl_stats *stats) {
+  const double started = sli_seconds();
+  sli_block b = {NULL, 0, 0};
+  sl_off rows = 0;
+  sl_int s;
+  int pass;
+  sl_status status = SL_OK;
+  draft->n = w->n;
+  draft->n_supers = w->amalgamation.count;
+  draft->n_nodes = w->septree.count;
+  for (s = 0; w->pairs != NULL && s < w->n; s++) {
+    draft->n_pairs += w->pairs[s];
+  }
+  stats->symbolic.pairs = draft->n_pairs;
+  stats->symbolic.nnz_a = w->rows.begin[w->n];
+  for (s = 0; s < w->amalgamation.count; s++) {
+    rows += w->amalgamation.below[s];
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    (void)sli_take(&b, 1, sizeof(sl_symbolic));
+    sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+    stats->symbolic.bytes = b.used;
+    status = pass == 0 ? sli_block_alloc(&b, &draft->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  stats->symbolic.seconds_structure = -sli_seconds();
+  sli_symbolic_fill(draft, w, stats);
+  stats->symbolic.seconds_structure += sli_seconds();
+  stats->symbolic.seconds_analyze += sli_seconds() - started;
+  draft->stats = *stats;
+  *out = (sl_symbolic *)(void *)b.base;
+  **out = *draft;
+  return SL_OK;
+}
+
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
                    sli_analysis *w, sli_team *team, const sl_allocator *a,
                    const sl_allocator *for_order, sl_stats *stats) {
   double started;
   sl_symbolic draft;
-  sli_block b = {NULL, 0, 0};
-  sl_off rows = 0;
-  sl_int s;
-  int pass;
   sl_status status;
   started = sli_seconds();
   sli_csc_columns(A, w->column);
@@ -12434,41 +12468,15 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   }
   started = sli_seconds();
   sli_analyze_order(w, A, opt, stats);
-  stats->symbolic.nnz_a = w->rows.begin[w->n];
   if (w->choice.is_there) {
     sli_analyze_choice(w, A, opt, stats);
   }
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;
-  draft.n = A->n_cols;
-  draft.n_supers = w->amalgamation.count;
-  draft.n_nodes = w->septree.count;
-  for (s = 0; w->pairs != NULL && s < w->n; s++) {
-    draft.n_pairs += w->pairs[s];
-  }
-  stats->symbolic.pairs = draft.n_pairs;
   draft.nnz_input = sli_nnz(A);
   (void)sli_pattern_hash(A, &draft.pattern);
-  for (s = 0; s < w->amalgamation.count; s++) {
-    rows += w->amalgamation.below[s];
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    (void)sli_take(&b, 1, sizeof(sl_symbolic));
-    sli_symbolic_layout(&draft, &b, rows, stats->symbolic.nnz_a);
-    stats->symbolic.bytes = b.used;
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  stats->symbolic.seconds_structure = -sli_seconds();
-  sli_symbolic_fill(&draft, w, stats);
-  stats->symbolic.seconds_structure += sli_seconds();
   stats->symbolic.seconds_analyze += sli_seconds() - started;
-  draft.stats = *stats;
-  *out = (sl_symbolic *)(void *)b.base;
-  **out = draft;
-  return SL_OK;
+  return sli_symbolic_build(out, &draft, w, stats);
 }
 
 typedef struct sli_symbolic_job {
@@ -24541,9 +24549,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
 
 /* src/impl/change/subset.h: a set of rows of A as a sorted list of columns of L, and a map from columns to ranks */
 
-#define SLI_PAGE_BITS 4
-#define SLI_PAGE_COLUMNS (1 << SLI_PAGE_BITS)
-#define SLI_PAGES_PER_COLUMN 8
+#define SLI_SUBSET_BITS 64
+#define SLI_SUBSET_WORDS 2
 
 #define SLI_SUBSET_AHEAD 16
 
@@ -24551,102 +24558,111 @@ typedef struct sli_subset {
   sl_int count;
   sl_int *columns;
   sl_int *row_of;
-  sl_int n_pages, most_pages;
+  sl_int n_words;
+  uint64_t *words;
+  sl_int *before;
   int is_hashed;
   int shift;
   uint32_t mask;
   sl_int *slots;
   sl_int *numbers;
-  sl_int *ranks;
 } sli_subset;
 
 static void sli_subset_layout(sli_subset *R, sli_block *b, sl_int n) {
-  const sl_int pages = n / SLI_PAGE_COLUMNS + 1;
+  const sl_int words = n / SLI_SUBSET_BITS + 1;
   const sl_off count = R->count;
   int bits = 1;
-  R->most_pages = sli_min(R->count, pages);
-  R->is_hashed = pages > SLI_PAGES_PER_COLUMN * count;
-  while (((sl_off)1 << bits) < (R->is_hashed ? 2 * count : pages)) {
+  R->is_hashed = words > SLI_SUBSET_WORDS * count;
+  while (R->is_hashed && ((sl_off)1 << bits) < 2 * count) {
     bits++;
   }
   R->mask = ((uint32_t)1 << bits) - 1;
   R->shift = 32 - bits;
+  R->n_words = R->is_hashed ? R->count : words;
   R->columns = SLI_TAKE(b, sl_int, R->count);
   R->row_of = SLI_TAKE(b, sl_int, R->count);
-  R->slots = SLI_TAKE(b, sl_int, R->is_hashed ? (uint64_t)R->mask + 1 : (uint64_t)pages);
-  R->numbers = SLI_TAKE(b, sl_int, R->most_pages);
-  R->ranks = SLI_TAKE(b, sl_int, (uint64_t)R->most_pages * SLI_PAGE_COLUMNS);
+  R->words = SLI_TAKE(b, uint64_t, R->n_words);
+  R->before = SLI_TAKE(b, sl_int, R->n_words);
+  R->slots = SLI_TAKE(b, sl_int, R->is_hashed ? (uint64_t)R->mask + 1 : 0);
+  R->numbers = SLI_TAKE(b, sl_int, R->is_hashed ? R->count : 0);
 }
 
-SLI_INLINE sl_int *sli_subset_slot(const sli_subset *R, sl_int page) {
-  uint32_t k;
-  if (!R->is_hashed) {
-    return &R->slots[page];
-  }
-  k = ((uint32_t)page * 2654435769u) >> R->shift;
-  while (R->slots[k] != -1 && R->numbers[R->slots[k]] != page) {
+SLI_INLINE sl_int *sli_subset_slot(const sli_subset *R, sl_int number) {
+  uint32_t k = ((uint32_t)number * 2654435769u) >> R->shift;
+  while (R->slots[k] != -1 && R->numbers[R->slots[k]] != number) {
     k = (k + 1) & R->mask;
   }
   return &R->slots[k];
 }
 
 SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
-  const sl_int at = *sli_subset_slot(R, column >> SLI_PAGE_BITS);
-  return at == -1 ? -1 : R->ranks[(ptrdiff_t)at * SLI_PAGE_COLUMNS + column % SLI_PAGE_COLUMNS];
-}
-
-static sl_int *sli_subset_place(sli_subset *R, sl_int column) {
-  sl_int *slot = sli_subset_slot(R, column >> SLI_PAGE_BITS);
-  if (*slot == -1) {
-    sl_int *page = R->ranks + (ptrdiff_t)R->n_pages * SLI_PAGE_COLUMNS;
-    sl_int m;
-    *slot = R->n_pages;
-    R->numbers[R->n_pages++] = column >> SLI_PAGE_BITS;
-    for (m = 0; m < SLI_PAGE_COLUMNS; m++) {
-      page[m] = -1;
-    }
+  const sl_int number = column / SLI_SUBSET_BITS;
+  const sl_int w = R->is_hashed ? *sli_subset_slot(R, number) : number;
+  const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);
+  if (w == -1 || (R->words[w] & bit) == 0) {
+    return -1;
   }
-  return &R->ranks[(ptrdiff_t)*slot * SLI_PAGE_COLUMNS + column % SLI_PAGE_COLUMNS];
+  return R->before[w] + (sl_int)sli_popcount(R->words[w] & (bit - 1));
 }
 
-SLI_INLINE void sli_subset_append(sli_subset *R, sl_int rank, sl_int column, sl_int *place) {
-  R->columns[rank] = column;
-  R->row_of[rank] = *place;
-  *place = rank;
+static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
+  sl_int k, w = -1;
+  memset(R->slots, 0xff, ((size_t)R->mask + 1) * sizeof(sl_int));
+  for (k = 0; k < R->count; k++) {
+    const sl_int column = sli_key(list[k]), number = column / SLI_SUBSET_BITS;
+    if (w == -1 || R->numbers[w] != number) {
+      *sli_subset_slot(R, number) = ++w;
+      R->numbers[w] = number;
+      R->words[w] = 0;
+      R->before[w] = k;
+    }
+    R->words[w] |= (uint64_t)1 << (column % SLI_SUBSET_BITS);
+    R->columns[k] = column;
+    R->row_of[k] = sli_value(list[k]);
+  }
 }
 
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
                  uint64_t *list, uint64_t *scratch, sl_stats *stats) {
-  const sl_int pages = S->n / SLI_PAGE_COLUMNS + 1;
-  sl_int k, m, rank = 0;
-  R->n_pages = 0;
-  memset(R->slots, 0xff,
-       (R->is_hashed ? (size_t)R->mask + 1 : (size_t)pages) * sizeof(sl_int));
+  sl_int k, rank = 0;
+  if (!R->is_hashed) {
+    memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
+  }
   for (k = 0; k < R->count; k++) {
     const sl_int row = rows[k];
     const sl_int ahead = rows[sli_min(k + SLI_SUBSET_AHEAD, R->count - 1)];
-    sl_int *place = row < 0 || row >= S->n ? NULL : sli_subset_place(R, S->iperm[row]);
+    if (row < 0 || row >= S->n) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+    }
     if (ahead >= 0 && ahead < S->n) {
       SLI_PREFETCH(S->iperm + ahead, 0);
     }
-    if (place == NULL || *place != -1) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
-    }
-    *place = k;
     list[k] = sli_keyed(S->iperm[row], k);
+    if (!R->is_hashed) {
+      R->words[sli_key(list[k]) / SLI_SUBSET_BITS] |=
+        (uint64_t)1 << (sli_key(list[k]) % SLI_SUBSET_BITS);
+    }
   }
   if (R->is_hashed) {
     sli_sort(list, R->count, scratch);
+    sli_subset_hash(R, list);
   }
-  for (k = 0; k < R->count && R->is_hashed; k++) {
-    sli_subset_append(R, rank++, sli_key(list[k]), sli_subset_place(R, sli_key(list[k])));
+  for (k = 0; k < R->n_words && !R->is_hashed; k++) {
+    R->before[k] = rank;
+    rank += (sl_int)sli_popcount(R->words[k]);
   }
-  for (k = 0; k < pages && !R->is_hashed; k++) {
-    for (m = 0; m < SLI_PAGE_COLUMNS && R->slots[k] != -1; m++) {
-      sl_int *place = R->ranks + (ptrdiff_t)R->slots[k] * SLI_PAGE_COLUMNS + m;
-      if (*place != -1) {
-        sli_subset_append(R, rank++, k * SLI_PAGE_COLUMNS + m, place);
-      }
+  for (k = 0; k < R->count && !R->is_hashed; k++) {
+    R->columns[k] = -1;
+  }
+  for (k = 0; k < R->count; k++) {
+    const sl_int column = sli_key(list[k]);
+    const sl_int at = R->is_hashed ? k - 1 : sli_subset_find(R, column);
+    if (at >= 0 && R->columns[at] == column) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[column], -1, 0.0);
+    }
+    if (!R->is_hashed) {
+      R->columns[at] = column;
+      R->row_of[at] = k;
     }
   }
   return SL_OK;
@@ -24677,6 +24693,10 @@ typedef struct sli_restriction {
   sl_int *number_of;
   uint32_t *bits;
   uint32_t bits_mask;
+
+  sl_csc B;
+  sl_int *B_begin, *B_rows;
+  double *B_values;
 
   sl_off *below_begin;
   sl_int *below;
@@ -24777,7 +24797,7 @@ SLI_INLINE uint32_t *sli_restriction_bits(const sli_restriction *r, sl_int row) 
 static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
   const sl_csc *A = r->A;
   const sl_triangle triangle = r->S->stats.symbolic.triangle;
-  sl_int q, k, p;
+  sl_int q, k, p, count = 0;
   sl_off at;
   for (q = 0; q < r->n_kept; q++) {
     if (sli_restriction_is_root(r, q)) {
@@ -24794,30 +24814,34 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
       SLI_PREFETCH(A->i + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
       SLI_PREFETCH(A->x + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
     }
+    r->B_begin[k] = count;
     for (p = A->p[j]; p < end; p++) {
       const sl_int i = A->i[p];
-      sl_int rank;
+      sl_int other = own;
       if (i < 0 || i >= A->n_rows) {
         return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
       }
-      if (i == j) {
-        sli_restriction_enter(r, own, own, p);
-      } else if ((*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
-             sli_is_read(triangle, i, j)) {
-        rank = sli_subset_find(&r->R, r->S->iperm[i]);
-        if (rank != -1 && r->fresh_of[rank] != -1) {
-          sli_restriction_enter(r, r->fresh_of[rank], own, p);
-        }
+      if (i != j) {
+        const int may_be = (*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
+                   sli_is_read(triangle, i, j);
+        other = may_be ? sli_subset_find(&r->R, r->S->iperm[i]) : -1;
+        other = other == -1 ? -1 : r->fresh_of[other];
+      }
+      if (other != -1) {
+        r->B_rows[count] = i;
+        r->B_values[count] = A->x[p];
+        sli_restriction_enter(r, other, own, count++);
       }
     }
   }
+  r->B_begin[k] = count;
   return SL_OK;
 }
 
 static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
   const sl_symbolic *S = r->S;
   const sl_int *p = r->A->p;
-  uint64_t rows = 0, entries = 0;
+  uint64_t rows = 0, entries = 0, own = 0;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int q, k;
@@ -24839,9 +24863,10 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
       return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
     }
-    entries += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+    own += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
     *sli_restriction_bits(r, j) |= (uint32_t)1 << (j % 32);
   }
+  entries += own;
   if (entries > INT32_MAX) {   /* untested: 2^31 entries */
     return SL_ERR_TOO_LARGE; /* untested: the same */
   }
@@ -24851,9 +24876,17 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     r->entry_row = SLI_TAKE(&b, sl_int, entries);
     r->entry_column = SLI_TAKE(&b, sl_int, entries);
     r->entry_from = SLI_TAKE(&b, sl_int, entries);
+    r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
+    r->B_rows = SLI_TAKE(&b, sl_int, own);
+    r->B_values = SLI_TAKE(&b, double, own);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   r->blocks[1] = b.base;
+  r->B.n_rows = r->A->n_rows;
+  r->B.n_cols = r->R.count;
+  r->B.p = r->B_begin;
+  r->B.i = r->B_rows;
+  r->B.x = r->B_values;
   return status;
 }
 
@@ -24880,28 +24913,37 @@ static void sli_restriction_sort(sli_restriction *r) {
   rows->begin[0] = columns->begin[0] = 0;
 }
 
+static sl_status sli_restriction_tree(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+  sl_options given = sli_options_with(a);
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_analysis_layout(&r->w, &b, r->n_fresh, r->n_entries);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[2] = b.base;
+  if (status == SL_OK) {
+    sli_restriction_sort(r);
+    given.ordering = SL_ORDERING_GIVEN;
+    given.relaxation = r->relaxation;
+    sli_analyze_tree(&r->w, &given, stats);
+  }
+  return status;
+}
+
 static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator *a,
                      sl_stats *stats) {
   sli_analysis *w = &r->w;
   sl_symbolic *T = &r->T;
-  sl_options given = sli_options_with(a);
   sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
+  sl_status status = sli_restriction_tree(r, a, stats);
   uint64_t rows = 0;
   sl_int t;
   int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_analysis_layout(w, &b, r->n_fresh, r->n_entries);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  r->blocks[2] = b.base;
   if (status != SL_OK) {
     return status;
   }
-  sli_restriction_sort(r);
-  given.ordering = SL_ORDERING_GIVEN;
-  given.relaxation = r->relaxation;
-  sli_analyze_tree(w, &given, stats);
   T->n = r->n_fresh;
   T->n_supers = w->amalgamation.count;
   T->super_of = w->super_of;
@@ -24943,7 +24985,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
-  while (r->bits_mask < count / 4) {
+  while (r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
     r->bits_mask = 2 * r->bits_mask + 1;
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -24971,14 +25013,13 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   return status;
 }
 
-static sl_status sli_restriction_run(sli_restriction *r, const sl_allocator *a, sl_stats *found,
-                   sl_stats *stats) {
-  sl_status status = sli_restriction_room(r, a, stats);
-  if (status == SL_OK) {
-    sli_restriction_filter(r);
-    status = sli_restriction_graph(r, stats);
+static sl_status sli_restriction_list(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+  const sl_status status = sli_restriction_room(r, a, stats);
+  if (status != SL_OK) {
+    return status;
   }
-  return status == SL_OK ? sli_restriction_analyze(r, a, found) : status;
+  sli_restriction_filter(r);
+  return sli_restriction_graph(r, stats);
 }
 
 /* src/impl/change/restrict_symbolic.h: joins kept subtrees and new supernodes to the analysis of A[R, R] */
@@ -25127,21 +25168,37 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
   sli_analyze_stats(S, scratch, stats);
 }
 
-static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
-                sl_stats *stats) {
+static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allocator *a) {
   sl_symbolic draft;
-  sli_block b = {NULL, 0, 0};
-  sli_joint j;
-  sl_status status = SL_OK;
-  int pass;
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;
   draft.n = r->R.count;
-  draft.n_supers = r->n_kept + r->T.n_supers;
   draft.nnz_input = -1;
   draft.pattern = sli_hash_ints(r->S->identity, r->rows, r->R.count);
   draft.is_pivoted = r->S->is_pivoted;
   draft.is_partial = 1;
+  return draft;
+}
+
+static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
+                    sl_stats *stats) {
+  sl_symbolic draft = sli_restriction_draft(r, a);
+  const sl_status status = sli_restriction_tree(r, a, stats);
+  if (status != SL_OK) {
+    return status;
+  }
+  memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
+  return sli_symbolic_build(out, &draft, &r->w, stats);
+}
+
+static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
+                sl_stats *stats) {
+  sl_symbolic draft = sli_restriction_draft(r, a);
+  sli_block b = {NULL, 0, 0};
+  sli_joint j;
+  sl_status status = sli_restriction_analyze(r, a, stats);
+  int pass;
+  draft.n_supers = r->n_kept + r->T.n_supers;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
@@ -25198,20 +25255,20 @@ static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *fr
 static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
                     sl_stats *stats) {
   const double started = sli_seconds();
-  const sli_source source = sli_source_matrix(r->A);
+  const sli_source source = sli_source_matrix(&r->B);
   sli_kept kept;
   sli_failure failure;
   sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
   sl_int *from = NULL, *columns = NULL;
   sl_status status = SL_OK;
   int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  for (pass = 0; pass < 2 && status == SL_OK && r->n_kept > 0; pass++) {
     from = SLI_TAKE(&b, sl_int, G->S->n_supers);
     columns = SLI_TAKE(&b, sl_int, G->S->n);
     status = pass == 0 ? sli_block_alloc(&b, &G->allocator) : SL_OK;
   }
   memset(&kept, 0, sizeof kept);
-  if (status == SL_OK) {
+  if (status == SL_OK && r->n_kept > 0) {
     sli_restrict_keep(G, r, from, columns);
     kept.F = F;
     kept.from = from;
@@ -25286,8 +25343,10 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
 }
 
 static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-  if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-    (status == SL_ERR_NOT_FINITE && stats->error.column == -1)) {
+  if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) {
+    stats->error.column = r->rows[stats->error.column];
+  } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
+         status == SL_ERR_NOT_FINITE) {
     stats->error.row = r->rows[stats->error.row];
   }
 }
@@ -25300,8 +25359,11 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
   sl_status status;
   memset(&found, 0, sizeof found);
   found.symbolic.triangle = F->S->stats.symbolic.triangle;
-  status = sli_restriction_run(r, a, &found, stats);
-  status = status == SL_OK ? sli_joint_make(S, r, a, &found) : status;
+  status = sli_restriction_list(r, a, stats);
+  if (status == SL_OK) {
+    status = r->n_kept > 0 ? sli_joint_make(S, r, a, &found)
+                 : sli_restriction_make(S, r, a, &found);
+  }
   if (status == SL_OK) {
     (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
     status = sli_restrict_factor(G, *S, F, r, &rules, stats);

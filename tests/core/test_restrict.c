@@ -97,6 +97,38 @@ static void rows_may_be_in_any_order(void **state) {
     restricted_free(&t);
 }
 
+/* A small set is found by hashing: a few rows of many, near each other and far apart. */
+static void few_rows_of_many(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 6400, 1, 0, NULL);
+    const sl_int n = y.M.view.n_cols;
+    for (sl_int count = 0; count <= 48; count += 12) {
+        sl_int rows[49];
+        for (sl_int k = 0; k < count; k++) {
+            rows[k] = k % 2 == 0 ? n / 2 + k : (k * 130 + 7) % (n / 2);
+        }
+        restricted_t t;
+        memset(&t, 0, sizeof t);
+        t.count = count;
+        t.B = subset_matrix(&y.M.view, rows, count);
+        SL_CHECK(sl_factor_restrict(&t.S, &t.G, y.F, &y.M.view, rows, count, NULL, &t.stats));
+        restricted_check(&t);
+        sl_factor_free(t.G);
+        sl_symbolic_free(t.S);
+        gen_matrix_free(&t.B);
+        if (count > 0) {
+            sl_stats stats;
+            rows[count] = rows[count / 2];
+            assert_int_equal(sl_factor_restrict(&t.S, &t.G, y.F, &y.M.view, rows, count + 1, NULL,
+                                                &stats),
+                             SL_ERR_ARGUMENT);
+            assert_int_equal(stats.error.row, rows[count]);
+            assert_true(t.S == NULL && t.G == NULL);
+        }
+    }
+    factored_free(&y);
+}
+
 /* F may be released; inverse, selected inverse, region, pins work on what remains. */
 static void restrictions_are_independent_and_complete(void **state) {
     (void)state;
@@ -148,6 +180,7 @@ int main(void) {
         cmocka_unit_test(all_rows_give_the_same_factor),
         cmocka_unit_test(kept_pivots_have_the_same_bits),
         cmocka_unit_test(rows_may_be_in_any_order),
+        cmocka_unit_test(few_rows_of_many),
         cmocka_unit_test(restrictions_are_independent_and_complete),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -289,15 +289,50 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
     sli_analyze_stats(S, w->scratch, stats);
 }
 
+/* Creates the analysis from the tree. draft has its allocator and its pattern. */
+static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, const sli_analysis *w,
+                                    sl_stats *stats) {
+    const double started = sli_seconds();
+    sli_block b = {NULL, 0, 0};
+    sl_off rows = 0;
+    sl_int s;
+    int pass;
+    sl_status status = SL_OK;
+    draft->n = w->n;
+    draft->n_supers = w->amalgamation.count;
+    draft->n_nodes = w->septree.count;
+    for (s = 0; w->pairs != NULL && s < w->n; s++) {
+        draft->n_pairs += w->pairs[s];
+    }
+    stats->symbolic.pairs = draft->n_pairs;
+    stats->symbolic.nnz_a = w->rows.begin[w->n];
+    for (s = 0; s < w->amalgamation.count; s++) {
+        rows += w->amalgamation.below[s];
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        (void)sli_take(&b, 1, sizeof(sl_symbolic));
+        sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
+        stats->symbolic.bytes = b.used;
+        status = pass == 0 ? sli_block_alloc(&b, &draft->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    stats->symbolic.seconds_structure = -sli_seconds();
+    sli_symbolic_fill(draft, w, stats);
+    stats->symbolic.seconds_structure += sli_seconds();
+    stats->symbolic.seconds_analyze += sli_seconds() - started;
+    draft->stats = *stats;
+    *out = (sl_symbolic *)(void *)b.base;
+    **out = *draft;
+    return SL_OK;
+}
+
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
                                    sli_analysis *w, sli_team *team, const sl_allocator *a,
                                    const sl_allocator *for_order, sl_stats *stats) {
     double started;
     sl_symbolic draft;
-    sli_block b = {NULL, 0, 0};
-    sl_off rows = 0;
-    sl_int s;
-    int pass;
     sl_status status;
     started = sli_seconds();
     sli_csc_columns(A, w->column);
@@ -309,41 +344,15 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     }
     started = sli_seconds();
     sli_analyze_order(w, A, opt, stats);
-    stats->symbolic.nnz_a = w->rows.begin[w->n];
     if (w->choice.is_there) {
         sli_analyze_choice(w, A, opt, stats);
     }
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
-    draft.n = A->n_cols;
-    draft.n_supers = w->amalgamation.count;
-    draft.n_nodes = w->septree.count;
-    for (s = 0; w->pairs != NULL && s < w->n; s++) {
-        draft.n_pairs += w->pairs[s];
-    }
-    stats->symbolic.pairs = draft.n_pairs;
     draft.nnz_input = sli_nnz(A);
     (void)sli_pattern_hash(A, &draft.pattern);
-    for (s = 0; s < w->amalgamation.count; s++) {
-        rows += w->amalgamation.below[s];
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        (void)sli_take(&b, 1, sizeof(sl_symbolic));
-        sli_symbolic_layout(&draft, &b, rows, stats->symbolic.nnz_a);
-        stats->symbolic.bytes = b.used;
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    if (status != SL_OK) {
-        return status;
-    }
-    stats->symbolic.seconds_structure = -sli_seconds();
-    sli_symbolic_fill(&draft, w, stats);
-    stats->symbolic.seconds_structure += sli_seconds();
     stats->symbolic.seconds_analyze += sli_seconds() - started;
-    draft.stats = *stats;
-    *out = (sl_symbolic *)(void *)b.base;
-    **out = draft;
-    return SL_OK;
+    return sli_symbolic_build(out, &draft, w, stats);
 }
 
 /* The arguments of an analysis by a team. */

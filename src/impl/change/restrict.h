@@ -42,20 +42,20 @@ static void sli_restrict_keep(const sl_factor *G, sli_restriction *r, sl_int *fr
 static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_restriction *r,
                                       sl_stats *stats) {
     const double started = sli_seconds();
-    const sli_source source = sli_source_matrix(r->A);
+    const sli_source source = sli_source_matrix(&r->B);
     sli_kept kept;
     sli_failure failure;
     sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
     sl_int *from = NULL, *columns = NULL;
     sl_status status = SL_OK;
     int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    for (pass = 0; pass < 2 && status == SL_OK && r->n_kept > 0; pass++) {
         from = SLI_TAKE(&b, sl_int, G->S->n_supers);
         columns = SLI_TAKE(&b, sl_int, G->S->n);
         status = pass == 0 ? sli_block_alloc(&b, &G->allocator) : SL_OK;
     }
     memset(&kept, 0, sizeof kept);
-    if (status == SL_OK) {
+    if (status == SL_OK && r->n_kept > 0) {
         sli_restrict_keep(G, r, from, columns);
         kept.F = F;
         kept.from = from;
@@ -133,10 +133,12 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     memset(S->scatter_begin, 0, ((size_t)S->n_supers + 1) * sizeof(sl_off));
 }
 
-/* Reports an error in rows of A, unless it is an entry of A. */
+/* Reports an error in rows and columns of A. */
 static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-    if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
-        (status == SL_ERR_NOT_FINITE && stats->error.column == -1)) {
+    if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) { /* an entry of B */
+        stats->error.column = r->rows[stats->error.column];
+    } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
+               status == SL_ERR_NOT_FINITE) {
         stats->error.row = r->rows[stats->error.row];
     }
 }
@@ -149,8 +151,11 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
     sl_status status;
     memset(&found, 0, sizeof found);
     found.symbolic.triangle = F->S->stats.symbolic.triangle;
-    status = sli_restriction_run(r, a, &found, stats);
-    status = status == SL_OK ? sli_joint_make(S, r, a, &found) : status;
+    status = sli_restriction_list(r, a, stats);
+    if (status == SL_OK) {
+        status = r->n_kept > 0 ? sli_joint_make(S, r, a, &found)
+                               : sli_restriction_make(S, r, a, &found);
+    }
     if (status == SL_OK) {
         (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
         status = sli_restrict_factor(G, *S, F, r, &rules, stats);

@@ -40,12 +40,16 @@ typedef struct sli_restriction {
     uint32_t *bits;    /* bits_mask + 1: a filter of R by rows of A */
     uint32_t bits_mask;
 
+    sl_csc B; /* the entries of A in new columns; columns are those of the caller's order */
+    sl_int *B_begin, *B_rows;
+    double *B_values;
+
     sl_off *below_begin; /* n_kept + 1 */
     sl_int *below;       /* below_begin[n_kept]: the rows of R below each supernode, as ranks */
     sl_relaxation relaxation;
     sl_int n_entries; /* of the graph of new columns: one triangle */
     sl_int *entry_row, *entry_column;
-    sl_int *entry_from; /* position in A; -1: of a clique */
+    sl_int *entry_from; /* position in B; -1: of a clique */
 
     sli_analysis w;       /* of the new columns */
     sl_symbolic T;        /* the same, not renumbered yet; only its structure is filled */
@@ -148,7 +152,7 @@ SLI_INLINE uint32_t *sli_restriction_bits(const sli_restriction *r, sl_int row) 
 static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     const sl_csc *A = r->A;
     const sl_triangle triangle = r->S->stats.symbolic.triangle;
-    sl_int q, k, p;
+    sl_int q, k, p, count = 0;
     sl_off at;
     for (q = 0; q < r->n_kept; q++) {
         if (sli_restriction_is_root(r, q)) {
@@ -163,25 +167,29 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
         const sl_int end = own == -1 ? A->p[j] : A->p[j + 1];
         if (k + SLI_RESTRICT_AHEAD < r->R.count) {
             SLI_PREFETCH(A->i + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
-            SLI_PREFETCH(A->x + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0); /* read by fronts */
+            SLI_PREFETCH(A->x + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
         }
+        r->B_begin[k] = count;
         for (p = A->p[j]; p < end; p++) {
             const sl_int i = A->i[p];
-            sl_int rank;
+            sl_int other = own;
             if (i < 0 || i >= A->n_rows) {
                 return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
             }
-            if (i == j) {
-                sli_restriction_enter(r, own, own, p);
-            } else if ((*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
-                       sli_is_read(triangle, i, j)) {
-                rank = sli_subset_find(&r->R, r->S->iperm[i]);
-                if (rank != -1 && r->fresh_of[rank] != -1) {
-                    sli_restriction_enter(r, r->fresh_of[rank], own, p);
-                }
+            if (i != j) {
+                const int may_be = (*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
+                                   sli_is_read(triangle, i, j);
+                other = may_be ? sli_subset_find(&r->R, r->S->iperm[i]) : -1;
+                other = other == -1 ? -1 : r->fresh_of[other];
+            }
+            if (other != -1) {
+                r->B_rows[count] = i;
+                r->B_values[count] = A->x[p];
+                sli_restriction_enter(r, other, own, count++);
             }
         }
     }
+    r->B_begin[k] = count;
     return SL_OK;
 }
 
@@ -189,7 +197,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
 static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
     const sl_symbolic *S = r->S;
     const sl_int *p = r->A->p;
-    uint64_t rows = 0, entries = 0;
+    uint64_t rows = 0, entries = 0, own = 0;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int q, k;
@@ -211,9 +219,10 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
         if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
             return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
         }
-        entries += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+        own += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
         *sli_restriction_bits(r, j) |= (uint32_t)1 << (j % 32);
     }
+    entries += own;
     if (entries > INT32_MAX) {   /* untested: 2^31 entries */
         return SL_ERR_TOO_LARGE; /* untested: the same */
     }
@@ -223,9 +232,17 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
         r->entry_row = SLI_TAKE(&b, sl_int, entries);
         r->entry_column = SLI_TAKE(&b, sl_int, entries);
         r->entry_from = SLI_TAKE(&b, sl_int, entries);
+        r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
+        r->B_rows = SLI_TAKE(&b, sl_int, own);
+        r->B_values = SLI_TAKE(&b, double, own);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     r->blocks[1] = b.base;
+    r->B.n_rows = r->A->n_rows;
+    r->B.n_cols = r->R.count;
+    r->B.p = r->B_begin;
+    r->B.i = r->B_rows;
+    r->B.x = r->B_values;
     return status;
 }
 
@@ -253,29 +270,39 @@ static void sli_restriction_sort(sli_restriction *r) {
     rows->begin[0] = columns->begin[0] = 0;
 }
 
+/* Finds the supernodes of the new columns. */
+static sl_status sli_restriction_tree(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+    sl_options given = sli_options_with(a);
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        sli_analysis_layout(&r->w, &b, r->n_fresh, r->n_entries);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    r->blocks[2] = b.base;
+    if (status == SL_OK) {
+        sli_restriction_sort(r);
+        given.ordering = SL_ORDERING_GIVEN;
+        given.relaxation = r->relaxation;
+        sli_analyze_tree(&r->w, &given, stats);
+    }
+    return status;
+}
+
 /* Finds the supernodes of the new columns and their structure. */
 static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator *a,
                                          sl_stats *stats) {
     sli_analysis *w = &r->w;
     sl_symbolic *T = &r->T;
-    sl_options given = sli_options_with(a);
     sli_block b = {NULL, 0, 0};
-    sl_status status = SL_OK;
+    sl_status status = sli_restriction_tree(r, a, stats);
     uint64_t rows = 0;
     sl_int t;
     int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        sli_analysis_layout(w, &b, r->n_fresh, r->n_entries);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    r->blocks[2] = b.base;
     if (status != SL_OK) {
         return status;
     }
-    sli_restriction_sort(r);
-    given.ordering = SL_ORDERING_GIVEN;
-    given.relaxation = r->relaxation;
-    sli_analyze_tree(w, &given, stats);
     T->n = r->n_fresh;
     T->n_supers = w->amalgamation.count;
     T->super_of = w->super_of;
@@ -318,7 +345,8 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
-    while (r->bits_mask < count / 4) { /* from 8 bits a row on */
+    /* a bit for each row of A, where R is not small: then from 128 bits for a row of R on */
+    while (r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
         r->bits_mask = 2 * r->bits_mask + 1;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -346,15 +374,14 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     return status;
 }
 
-/* Analyzes the new columns; found: what that counts. */
-static sl_status sli_restriction_run(sli_restriction *r, const sl_allocator *a, sl_stats *found,
-                                     sl_stats *stats) {
-    sl_status status = sli_restriction_room(r, a, stats);
-    if (status == SL_OK) {
-        sli_restriction_filter(r);
-        status = sli_restriction_graph(r, stats);
+/* Lists the entries of the new columns and what is left of the kept ones. */
+static sl_status sli_restriction_list(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+    const sl_status status = sli_restriction_room(r, a, stats);
+    if (status != SL_OK) {
+        return status;
     }
-    return status == SL_OK ? sli_restriction_analyze(r, a, found) : status;
+    sli_restriction_filter(r);
+    return sli_restriction_graph(r, stats);
 }
 
 #endif

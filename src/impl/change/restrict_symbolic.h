@@ -157,22 +157,40 @@ static void sli_joint_fill(sl_symbolic *S, sli_restriction *r, sl_stats *stats) 
     sli_analyze_stats(S, scratch, stats);
 }
 
-/* Creates the analysis of A[R, R]. */
-static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
-                                sl_stats *stats) {
+/* An analysis of A[R, R] without arrays. */
+static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allocator *a) {
     sl_symbolic draft;
-    sli_block b = {NULL, 0, 0};
-    sli_joint j;
-    sl_status status = SL_OK;
-    int pass;
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.n = r->R.count;
-    draft.n_supers = r->n_kept + r->T.n_supers;
     draft.nnz_input = -1; /* no matrix has this pattern */
     draft.pattern = sli_hash_ints(r->S->identity, r->rows, r->R.count);
     draft.is_pivoted = r->S->is_pivoted;
     draft.is_partial = 1; /* it cannot be saved */
+    return draft;
+}
+
+/* Creates the analysis of A[R, R] of which nothing is kept. */
+static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
+                                      sl_stats *stats) {
+    sl_symbolic draft = sli_restriction_draft(r, a);
+    const sl_status status = sli_restriction_tree(r, a, stats);
+    if (status != SL_OK) {
+        return status;
+    }
+    memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
+    return sli_symbolic_build(out, &draft, &r->w, stats);
+}
+
+/* Creates the analysis of A[R, R] from the kept columns and the new ones. */
+static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
+                                sl_stats *stats) {
+    sl_symbolic draft = sli_restriction_draft(r, a);
+    sli_block b = {NULL, 0, 0};
+    sli_joint j;
+    sl_status status = sli_restriction_analyze(r, a, stats);
+    int pass;
+    draft.n_supers = r->n_kept + r->T.n_supers;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
