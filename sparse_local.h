@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b8d4321fa76861dc
+ * FNV-1a of the lines after this comment, without the license: d44574d15ec68c68
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,59 +33,59 @@
  *   3131 base.h   3425 status.h   3486 options.h   3544 alloc.h   3700 hash.h   3830 file_map.h
  *   3927 sort.h   3991 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4187 panel.h   4213 step.h   4291 pivot_rule.h   4365 front.h   4425 pairs.h
- *   4632 inverse_front.h   4704 table.h   4732 simd.h   4827 simd_scalar_single.h
- *   4873 simd_scalar.h   5011 simd_avx2_single.h   5065 simd_avx2.h   5306 simd_avx512_single.h
- *   5361 simd_avx512.h   5537 simd_neon_single.h   5579 simd_neon.h   5814 dispatch.h
+ *   4187 panel.h   4213 step.h   4291 pivot_rule.h   4365 front.h   4426 pairs.h
+ *   4633 inverse_front.h   4705 table.h   4733 simd.h   4828 simd_scalar_single.h
+ *   4874 simd_scalar.h   5012 simd_avx2_single.h   5066 simd_avx2.h   5307 simd_avx512_single.h
+ *   5362 simd_avx512.h   5538 simd_neon_single.h   5580 simd_neon.h   5815 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5895 csc.h   6028 csc_build.h   6162 csc64.h   6233 csc_triangle.h   6299 csc_products.h
- *   6416 permute.h   6482 sum.h   6564 output_file.h   6773 matrix_market.h
+ *   5896 csc.h   6029 csc_build.h   6163 csc64.h   6234 csc_triangle.h   6300 csc_products.h
+ *   6417 permute.h   6483 sum.h   6565 output_file.h   6774 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7219 graph.h   7361 contract.h   7615 coarsen.h   7778 labels.h   7999 subgraph.h   8194 heap.h
- *   8254 bisect.h   8481 separator.h   8743 mindeg.h   8926 dissect.h   9250 tree_cost.h
- *   9302 levelset.h   9408 geometric.h   9583 cells.h   9763 septree.h   9839 metis.h
- *   9988 metis_refined.h  10102 nd.h  10302 compress.h  10423 peel.h  10601 quotient.h
- *  11014 order.h
+ *   7220 graph.h   7362 contract.h   7616 coarsen.h   7779 labels.h   8000 subgraph.h   8195 heap.h
+ *   8255 bisect.h   8482 separator.h   8744 mindeg.h   8927 dissect.h   9251 tree_cost.h
+ *   9303 levelset.h   9409 geometric.h   9584 cells.h   9764 septree.h   9840 metis.h
+ *   9989 metis_refined.h  10103 nd.h  10303 compress.h  10424 peel.h  10602 quotient.h
+ *  11015 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11365 symbolic_types.h  11402 etree.h  11475 counts.h  11532 supernodes.h  11754 structure.h
- *  11875 schedule.h  12155 symbolic.h  12604 reach.h
+ *  11366 symbolic_types.h  11403 etree.h  11476 counts.h  11533 supernodes.h  11755 structure.h
+ *  11876 schedule.h  12156 symbolic.h  12605 reach.h
  * (factor: the numbers of L and D)
- *  12875 factor_types.h  13293 storage.h  13433 pivot_search.h  13779 pivoted.h  13847 scatter.h
- *  14005 uplooking.h  14077 null_product.h  14281 null_dense.h  14358 null_basis.h
- *  14666 null_vectors.h  14808 multifrontal.h  14998 gather.h  15046 kept.h  15216 front_tasks.h
- *  15559 nullspace.h  15762 growth.h  15838 factor_setup.h  16160 factor.h  16370 leftlooking.h
- *  16516 factor_query.h  16651 combination.h
+ *  12876 factor_types.h  13294 storage.h  13434 pivot_search.h  13780 pivoted.h  13848 scatter.h
+ *  14006 uplooking.h  14078 null_product.h  14282 null_dense.h  14359 null_basis.h
+ *  14667 null_vectors.h  14809 multifrontal.h  15003 gather.h  15051 kept.h  15221 front_tasks.h
+ *  15564 nullspace.h  15767 growth.h  15843 factor_setup.h  16165 factor.h  16375 leftlooking.h
+ *  16521 factor_query.h  16656 combination.h
  * (solve: full and local solves)
- *  16712 region_types.h  16816 work.h  16916 query.h  17132 singular.h  17402 backward.h
- *  17432 sweep_tasks.h  17763 sweep.h  17974 compile.h  18167 plan.h  18274 local.h  18426 parts.h
- *  18715 refine.h  18894 refine_local.h  19110 rcond.h  19269 defects.h
+ *  16717 region_types.h  16821 work.h  16921 query.h  17137 singular.h  17407 backward.h
+ *  17437 sweep_tasks.h  17768 sweep.h  17979 compile.h  18172 plan.h  18279 local.h  18431 parts.h
+ *  18720 refine.h  18899 refine_local.h  19115 rcond.h  19274 defects.h
  * (inverse: entries of the inverse, regions)
- *  19347 traversal.h  19596 traversal_run.h  19789 row_sets.h  19816 unit_vectors.h
- *  20043 bilinear.h  20220 entries.h  20502 block.h  20742 reserve.h  20934 selected.h
- *  21144 selected_query.h  21246 region_choose.h  21473 region.h
+ *  19352 traversal.h  19601 traversal_run.h  19794 row_sets.h  19821 unit_vectors.h
+ *  20048 bilinear.h  20225 entries.h  20507 block.h  20747 reserve.h  20939 selected.h
+ *  21149 selected_query.h  21251 region_choose.h  21478 region.h
  * (change: a factor that follows changes of its matrix)
- *  21721 update.h  22071 rank.h  22409 edges.h  22563 choose.h  22761 pins_types.h
- *  22839 pins_nulls.h  23017 pins_capacitance.h  23268 pins_held.h  23479 pins_choose.h
- *  23549 pins_rebuild.h  23764 pins_matrix.h  23915 pins.h  24175 pins_solve.h  24550 subset.h
- *  24671 restrict_analysis.h  25025 restrict_symbolic.h  25222 restrict.h  25444 edit_match.h
- *  25643 edit_place.h  25892 edit_separate.h  26205 edit_order.h  26360 edit_graph.h
- *  26455 edit_join.h  26731 edit.h  26894 edit_factor.h
+ *  21726 update.h  22076 rank.h  22414 edges.h  22568 choose.h  22766 pins_types.h
+ *  22844 pins_nulls.h  23022 pins_capacitance.h  23273 pins_held.h  23484 pins_choose.h
+ *  23554 pins_rebuild.h  23769 pins_matrix.h  23920 pins.h  24180 pins_solve.h  24555 subset.h
+ *  24676 restrict_analysis.h  25030 restrict_symbolic.h  25227 restrict.h  25449 edit_match.h
+ *  25648 edit_place.h  25897 edit_separate.h  26210 edit_order.h  26365 edit_graph.h
+ *  26460 edit_join.h  26736 edit.h  26899 edit_factor.h
  * (save: factors in files)
- *  27193 format.h  27489 decode.h  27637 check.h  27967 write.h  28272 load.h  28540 load_inverse.h
- *  28870 load_calls.h
+ *  27198 format.h  27494 decode.h  27642 check.h  27972 write.h  28277 load.h  28545 load_inverse.h
+ *  28875 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29069 batch_solve.h  29278 batch_factor.h  29479 batch_diagonal.h
+ *  29074 batch_solve.h  29283 batch_factor.h  29484 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29619 hermitian.h  29781 complex_rows.h
+ *  29624 hermitian.h  29786 complex_rows.h
  * (last: undefine every internal macro)
- *  29949 undef.h
+ *  29954 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30211 front.inl.h  30213 product.inl.h  30710 words_undef.inl.h  30787 copy_rows.inl.h
- *  30825 multi_rhs.inl.h  30844 complex_groups.inl.h  30983 multi_rhs_small.inl.h
- *  31155 multi_rhs_tiles.inl.h  31424 sweeps.inl.h  31426 unit_triangle.inl.h  31463 two_rhs.inl.h
- *  31632 small_supernode.inl.h  31813 single_rhs.inl.h  32057 kernel_set.inl.h
- *  32059 complex_small.inl.h  32229 complex_rows.inl.h  32444 inverse_front.inl.h  32729 row.inl.h
- *  32759 change.inl.h  32823 interleave.inl.h  32954 lanes_undef.inl.h
+ *  30216 front.inl.h  30218 product.inl.h  30729 words_undef.inl.h  30806 copy_rows.inl.h
+ *  30844 multi_rhs.inl.h  30863 complex_groups.inl.h  31002 multi_rhs_small.inl.h
+ *  31174 multi_rhs_tiles.inl.h  31443 sweeps.inl.h  31445 unit_triangle.inl.h  31482 two_rhs.inl.h
+ *  31651 small_supernode.inl.h  31832 single_rhs.inl.h  32076 kernel_set.inl.h
+ *  32078 complex_small.inl.h  32248 complex_rows.inl.h  32463 inverse_front.inl.h  32748 row.inl.h
+ *  32778 change.inl.h  32842 interleave.inl.h  32973 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4400,6 +4400,7 @@ typedef struct sli_front {
   double *reciprocals;
   sli_front_single single;
   int is_complex;
+  int is_small;
   const sli_pivot_rule *rule;
   sl_int column;
 } sli_front;
@@ -14898,6 +14899,7 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
 static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int worker,
                  sl_int t0, sl_int t1) {
   const sl_symbolic *S = F->S;
+  const sl_int tiles = sli_front_tiles(f);
   sl_int c, k;
   for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
     const sli_step *child = &S->steps[c];
@@ -14905,8 +14907,10 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
     const void *from = sli_update_matrix(F, c, worker);
     const sl_off magnitudes = child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
-    const sl_int last = sli_lower_bound(relative, child->below, SLI_TILE * t1);
+    const sl_int first =
+      t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+    const sl_int last = t1 == tiles ? child->below
+                    : sli_lower_bound(relative, child->below, SLI_TILE * t1);
     sli_front_kernels_of(F)->assemble(f, from, child->width % SLI_TILE, relative, child->below,
                       first, last);
     if (f->panel == NULL) {
@@ -14972,17 +14976,18 @@ static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_fron
 static void sli_front_update(const sli_front_kernels *kernels, const sli_front *f,
                double *scratch) {
   const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
-  if (f->below > 0) {
+  if (f->below > 0 && !f->is_small) {
     kernels->update(f, whole, tiles, whole, tiles, scratch);
   }
 }
 
 static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                   sli_failure *failure) {
-  const sli_front f = sli_front_of(F, s, worker);
+  sli_front f = sli_front_of(F, s, worker);
   const sl_int tiles = sli_front_tiles(&f);
   double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
+  f.is_small = tiles == 1 && f.pairs == NULL && !f.is_complex;
   sli_front_clear(&f, 0, tiles);
   status = sli_front_load(F, from, &f, s, failure);
   if (status != SL_OK) {
@@ -30519,16 +30524,28 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLV_STORE_TILES(p + SLI_TILE * (k), q + SLI_TILE * (k), l) \
   }
 
+#define SLI_LOAD_FRONT(k, unused) \
+  if (SLI_IS_IN(k, all)) { \
+    SLV_LOAD(a##k, ((k) < columns ? p : update) + SLI_TILE * (k)) \
+  } else { \
+    SLV_ZERO(a##k) \
+  }
+#define SLI_STORE_UPDATE(k, unused) \
+  if ((k) >= columns && (k) < all) { \
+    SLV_STORE(update + SLI_TILE * (k), a##k) \
+  }
+
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
                         SLV_VALUE *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
+  const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
   const sl_int column = f->column + first;
   const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
   SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
            SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-  const SLV_VALUE *q = p;
+  SLV_VALUE *update = SLV_OF(f, update);
   SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
   SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
   SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
@@ -30541,8 +30558,9 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
   SLI_EACH(SLI_DECLARE, 0)
   SLI_DECLARE_TURNED(0, 0)
   SLV_LOAD(m, magnitude)
-  SLI_EACH(SLI_LOAD, p)
+  SLI_EACH(SLI_LOAD_FRONT, 0)
   SLI_EACH(SLI_PIVOT, p)
+  SLI_EACH(SLI_STORE_UPDATE, 0)
   SLV_STORE(sums, m)
   for (t = SLV_PARTS * columns; t < SLI_TILE; t++) {
     magnitude[t] = sums[t];
@@ -30550,7 +30568,6 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
   if (!safe) {
     reciprocal[0] = 0;
   }
-  (void)q;
 }
 
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
@@ -30592,6 +30609,8 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_GAIN
 #undef SLI_DECLARE
 #undef SLI_LOAD
+#undef SLI_LOAD_FRONT
+#undef SLI_STORE_UPDATE
 #undef SLI_AFTER
 #undef SLI_PIVOT
 #undef SLI_BEFORE

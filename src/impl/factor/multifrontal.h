@@ -102,6 +102,7 @@ static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_
 static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int worker,
                                sl_int t0, sl_int t1) {
     const sl_symbolic *S = F->S;
+    const sl_int tiles = sli_front_tiles(f);
     sl_int c, k;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
         const sli_step *child = &S->steps[c];
@@ -109,8 +110,10 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
         const void *from = sli_update_matrix(F, c, worker);
         const sl_off magnitudes = child->width % SLI_TILE +
                                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-        const sl_int first = sli_lower_bound(relative, child->below, SLI_TILE * t0);
-        const sl_int last = sli_lower_bound(relative, child->below, SLI_TILE * t1);
+        const sl_int first =
+            t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+        const sl_int last = t1 == tiles ? child->below
+                                        : sli_lower_bound(relative, child->below, SLI_TILE * t1);
         sli_front_kernels_of(F)->assemble(f, from, child->width % SLI_TILE, relative, child->below,
                                           first, last);
         if (f->panel == NULL) {
@@ -182,7 +185,7 @@ static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_fron
 static void sli_front_update(const sli_front_kernels *kernels, const sli_front *f,
                              double *scratch) {
     const sl_int whole = f->width / SLI_TILE, tiles = sli_front_tiles(f);
-    if (f->below > 0) {
+    if (f->below > 0 && !f->is_small) {
         kernels->update(f, whole, tiles, whole, tiles, scratch);
     }
 }
@@ -190,10 +193,11 @@ static void sli_front_update(const sli_front_kernels *kernels, const sli_front *
 /* Factors the front of supernode s on one worker. */
 static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
                                   sli_failure *failure) {
-    const sli_front f = sli_front_of(F, s, worker);
+    sli_front f = sli_front_of(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
+    f.is_small = tiles == 1 && f.pairs == NULL && !f.is_complex;
     sli_front_clear(&f, 0, tiles);
     status = sli_front_load(F, from, &f, s, failure);
     if (status != SL_OK) {

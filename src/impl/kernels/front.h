@@ -57,6 +57,7 @@ typedef struct sli_front {
     double *reciprocals;
     sli_front_single single; /* of a front in float, which has no arrays in double */
     int is_complex;          /* panel and update have the first columns of pairs only */
+    int is_small; /* one row tile: its pivots are eliminated from the update matrix at once */
     const sli_pivot_rule *rule;
     sl_int column; /* first column of the supernode */
 } sli_front;

@@ -122,17 +122,32 @@
         SLV_STORE_TILES(p + SLI_TILE * (k), q + SLI_TILE * (k), l) \
     }
 
-/* The pivots of column tile c, 8 or fewer. The columns before it are already applied. */
+/* Columns of the front of one row tile that is computed as a whole: those after the pivots are of
+ * the update matrix. */
+#define SLI_LOAD_FRONT(k, unused) \
+    if (SLI_IS_IN(k, all)) { \
+        SLV_LOAD(a##k, ((k) < columns ? p : update) + SLI_TILE * (k)) \
+    } else { \
+        SLV_ZERO(a##k) \
+    }
+#define SLI_STORE_UPDATE(k, unused) \
+    if ((k) >= columns && (k) < all) { \
+        SLV_STORE(update + SLI_TILE * (k), a##k) \
+    }
+
+/* The pivots of column tile c, 8 or fewer, and the update matrix of a small front. The columns
+ * before it are already applied. */
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
                                                 SLV_VALUE *reciprocals) {
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
+    const sl_int all = columns + (f->is_small ? f->below : 0);
 #if !SLV_COMPLEX
     const sl_int column = f->column + first;
     const sli_pivot_rule *rule = f->rule->replaces ? f->rule : NULL;
 #endif
     SLV_VALUE *p = SLV_OF(f, panel) + sli_tile_offset(f->width, c) / SLV_PARTS +
                    SLI_TILE / SLV_PARTS * (ptrdiff_t)first;
-    const SLV_VALUE *q = p;
+    SLV_VALUE *update = SLV_OF(f, update);
     SLV_VALUE *D = SLV_OF(f, D) + first, *magnitude = SLV_OF(f, magnitude) + first;
     SLV_VALUE *reciprocal = reciprocals, *minus_sign = reciprocals + SLI_TILE;
     SLI_ALIGNED(SLV_VALUE x[SLI_TILE * SLI_TILE + SLI_TILE]);
@@ -145,8 +160,9 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
     SLI_EACH(SLI_DECLARE, 0)
     SLI_DECLARE_TURNED(0, 0)
     SLV_LOAD(m, magnitude)
-    SLI_EACH(SLI_LOAD, p)
+    SLI_EACH(SLI_LOAD_FRONT, 0)
     SLI_EACH(SLI_PIVOT, p)
+    SLI_EACH(SLI_STORE_UPDATE, 0)
     SLV_STORE(sums, m)
     /* rows below that are in the last tile of pivots */
     for (t = SLV_PARTS * columns; t < SLI_TILE; t++) {
@@ -155,7 +171,6 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
     if (!safe) {
         reciprocal[0] = 0;
     }
-    (void)q;
 }
 
 /* L in column tile c of row tiles t0 .. t1-1, all below its pivots. */
@@ -198,6 +213,8 @@ SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_i
 #undef SLI_GAIN
 #undef SLI_DECLARE
 #undef SLI_LOAD
+#undef SLI_LOAD_FRONT
+#undef SLI_STORE_UPDATE
 #undef SLI_AFTER
 #undef SLI_PIVOT
 #undef SLI_BEFORE
