@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d44574d15ec68c68
+ * FNV-1a of the lines after this comment, without the license: f21fe9005347b8f2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,48 +44,48 @@
  *   7220 graph.h   7362 contract.h   7616 coarsen.h   7779 labels.h   8000 subgraph.h   8195 heap.h
  *   8255 bisect.h   8482 separator.h   8744 mindeg.h   8927 dissect.h   9251 tree_cost.h
  *   9303 levelset.h   9409 geometric.h   9584 cells.h   9764 septree.h   9840 metis.h
- *   9989 metis_refined.h  10103 nd.h  10303 compress.h  10424 peel.h  10602 quotient.h
- *  11015 order.h
+ *   9989 metis_refined.h  10103 nd.h  10303 compress.h  10424 peel.h  10630 quotient.h
+ *  11043 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11366 symbolic_types.h  11403 etree.h  11476 counts.h  11533 supernodes.h  11755 structure.h
- *  11876 schedule.h  12156 symbolic.h  12605 reach.h
+ *  11394 symbolic_types.h  11431 etree.h  11504 counts.h  11561 supernodes.h  11783 structure.h
+ *  11904 schedule.h  12184 symbolic.h  12633 reach.h
  * (factor: the numbers of L and D)
- *  12876 factor_types.h  13294 storage.h  13434 pivot_search.h  13780 pivoted.h  13848 scatter.h
- *  14006 uplooking.h  14078 null_product.h  14282 null_dense.h  14359 null_basis.h
- *  14667 null_vectors.h  14809 multifrontal.h  15003 gather.h  15051 kept.h  15221 front_tasks.h
- *  15564 nullspace.h  15767 growth.h  15843 factor_setup.h  16165 factor.h  16375 leftlooking.h
- *  16521 factor_query.h  16656 combination.h
+ *  12904 factor_types.h  13322 storage.h  13462 pivot_search.h  13808 pivoted.h  13876 scatter.h
+ *  14034 uplooking.h  14106 null_product.h  14310 null_dense.h  14387 null_basis.h
+ *  14695 null_vectors.h  14837 multifrontal.h  15031 gather.h  15079 kept.h  15249 front_tasks.h
+ *  15592 nullspace.h  15795 growth.h  15871 factor_setup.h  16193 factor.h  16403 leftlooking.h
+ *  16549 factor_query.h  16684 combination.h
  * (solve: full and local solves)
- *  16717 region_types.h  16821 work.h  16921 query.h  17137 singular.h  17407 backward.h
- *  17437 sweep_tasks.h  17768 sweep.h  17979 compile.h  18172 plan.h  18279 local.h  18431 parts.h
- *  18720 refine.h  18899 refine_local.h  19115 rcond.h  19274 defects.h
+ *  16745 region_types.h  16849 work.h  16949 query.h  17165 singular.h  17435 backward.h
+ *  17465 sweep_tasks.h  17796 sweep.h  18007 compile.h  18200 plan.h  18307 local.h  18459 parts.h
+ *  18748 refine.h  18927 refine_local.h  19143 rcond.h  19302 defects.h
  * (inverse: entries of the inverse, regions)
- *  19352 traversal.h  19601 traversal_run.h  19794 row_sets.h  19821 unit_vectors.h
- *  20048 bilinear.h  20225 entries.h  20507 block.h  20747 reserve.h  20939 selected.h
- *  21149 selected_query.h  21251 region_choose.h  21478 region.h
+ *  19380 traversal.h  19629 traversal_run.h  19822 row_sets.h  19849 unit_vectors.h
+ *  20076 bilinear.h  20253 entries.h  20535 block.h  20775 reserve.h  20967 selected.h
+ *  21177 selected_query.h  21279 region_choose.h  21506 region.h
  * (change: a factor that follows changes of its matrix)
- *  21726 update.h  22076 rank.h  22414 edges.h  22568 choose.h  22766 pins_types.h
- *  22844 pins_nulls.h  23022 pins_capacitance.h  23273 pins_held.h  23484 pins_choose.h
- *  23554 pins_rebuild.h  23769 pins_matrix.h  23920 pins.h  24180 pins_solve.h  24555 subset.h
- *  24676 restrict_analysis.h  25030 restrict_symbolic.h  25227 restrict.h  25449 edit_match.h
- *  25648 edit_place.h  25897 edit_separate.h  26210 edit_order.h  26365 edit_graph.h
- *  26460 edit_join.h  26736 edit.h  26899 edit_factor.h
+ *  21754 update.h  22104 rank.h  22442 edges.h  22596 choose.h  22794 pins_types.h
+ *  22872 pins_nulls.h  23050 pins_capacitance.h  23301 pins_held.h  23512 pins_choose.h
+ *  23582 pins_rebuild.h  23797 pins_matrix.h  23948 pins.h  24208 pins_solve.h  24583 subset.h
+ *  24704 restrict_analysis.h  25058 restrict_symbolic.h  25255 restrict.h  25477 edit_match.h
+ *  25676 edit_place.h  25925 edit_separate.h  26238 edit_order.h  26393 edit_graph.h
+ *  26488 edit_join.h  26764 edit.h  26927 edit_factor.h
  * (save: factors in files)
- *  27198 format.h  27494 decode.h  27642 check.h  27972 write.h  28277 load.h  28545 load_inverse.h
- *  28875 load_calls.h
+ *  27226 format.h  27522 decode.h  27670 check.h  28000 write.h  28305 load.h  28573 load_inverse.h
+ *  28903 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29074 batch_solve.h  29283 batch_factor.h  29484 batch_diagonal.h
+ *  29102 batch_solve.h  29311 batch_factor.h  29512 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29624 hermitian.h  29786 complex_rows.h
+ *  29652 hermitian.h  29814 complex_rows.h
  * (last: undefine every internal macro)
- *  29954 undef.h
+ *  29982 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30216 front.inl.h  30218 product.inl.h  30729 words_undef.inl.h  30806 copy_rows.inl.h
- *  30844 multi_rhs.inl.h  30863 complex_groups.inl.h  31002 multi_rhs_small.inl.h
- *  31174 multi_rhs_tiles.inl.h  31443 sweeps.inl.h  31445 unit_triangle.inl.h  31482 two_rhs.inl.h
- *  31651 small_supernode.inl.h  31832 single_rhs.inl.h  32076 kernel_set.inl.h
- *  32078 complex_small.inl.h  32248 complex_rows.inl.h  32463 inverse_front.inl.h  32748 row.inl.h
- *  32778 change.inl.h  32842 interleave.inl.h  32973 lanes_undef.inl.h
+ *  30244 front.inl.h  30246 product.inl.h  30757 words_undef.inl.h  30834 copy_rows.inl.h
+ *  30872 multi_rhs.inl.h  30891 complex_groups.inl.h  31030 multi_rhs_small.inl.h
+ *  31202 multi_rhs_tiles.inl.h  31471 sweeps.inl.h  31473 unit_triangle.inl.h  31510 two_rhs.inl.h
+ *  31679 small_supernode.inl.h  31860 single_rhs.inl.h  32104 kernel_set.inl.h
+ *  32106 complex_small.inl.h  32276 complex_rows.inl.h  32491 inverse_front.inl.h  32776 row.inl.h
+ *  32806 change.inl.h  32870 interleave.inl.h  33001 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10544,19 +10544,47 @@ static void sli_peel_round(sli_peel *p) {
   }
 }
 
+static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
+  sl_int *only = p->now, v, u;
+  sl_off e;
+  for (v = 0; v < G->n; v++) {
+    only[v] = 0;
+    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+      only[v] ^= G->to[e];
+    }
+  }
+  for (v = 0; v < G->n; v++) {
+    for (u = v; p->degree[u] == 0 || p->degree[u] == 1; u = only[u]) {
+      const sl_int is_joined = p->degree[u];
+      p->ends[2 * (size_t)u] = p->ends[2 * (size_t)u + 1] = -1;
+      p->sequence[p->count++] = u;
+      p->degree[u] = -1;
+      if (is_joined) {
+        p->degree[only[u]]--;
+        only[only[u]] ^= u;
+      }
+    }
+  }
+}
+
 static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
   const sl_int n = G->n;
   sl_int v;
-  memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
-  memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
   p->count = p->round = 0;
   for (v = 0; v < n; v++) {
     p->length[v] = p->degree[v] = (sl_int)(G->begin[v + 1] - G->begin[v]);
     p->stamp[v] = 0;
   }
+  if (for_little_fill) {
+    sli_peel_leaves(p, G);
+  }
+  if (p->count == n) {
+    return;
+  }
+  memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
+  memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
   sli_peel_list_rows(p, n, 1);
-  while (for_little_fill ? p->n_later > 0
-               : p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
+  while (!for_little_fill && p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
     sli_peel_round(p);
   }
   sli_peel_list_rows(p, n, 2);

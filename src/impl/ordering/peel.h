@@ -142,20 +142,50 @@ static void sli_peel_round(sli_peel *p) {
     }
 }
 
+/* Eliminates rows with at most one neighbor until there are none, each followed by that neighbor if
+ * it can be next. The XOR of the neighbors that are left is the only one. */
+static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
+    sl_int *only = p->now, v, u;
+    sl_off e;
+    for (v = 0; v < G->n; v++) {
+        only[v] = 0;
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            only[v] ^= G->to[e];
+        }
+    }
+    for (v = 0; v < G->n; v++) {
+        for (u = v; p->degree[u] == 0 || p->degree[u] == 1; u = only[u]) {
+            const sl_int is_joined = p->degree[u];
+            p->ends[2 * (size_t)u] = p->ends[2 * (size_t)u + 1] = -1;
+            p->sequence[p->count++] = u;
+            p->degree[u] = -1;
+            if (is_joined) {
+                p->degree[only[u]]--;
+                only[only[u]] ^= u;
+            }
+        }
+    }
+}
+
 /* Eliminates all rows that can be. */
 static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
     const sl_int n = G->n;
     sl_int v;
-    memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
-    memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
     p->count = p->round = 0;
     for (v = 0; v < n; v++) {
         p->length[v] = p->degree[v] = (sl_int)(G->begin[v + 1] - G->begin[v]);
         p->stamp[v] = 0;
     }
+    if (for_little_fill) {
+        sli_peel_leaves(p, G);
+    }
+    if (p->count == n) {
+        return;
+    }
+    memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
+    memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
     sli_peel_list_rows(p, n, 1);
-    while (for_little_fill ? p->n_later > 0
-                           : p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
+    while (!for_little_fill && p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
         sli_peel_round(p);
     }
     sli_peel_list_rows(p, n, 2);
