@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f21fe9005347b8f2
+ * FNV-1a of the lines after this comment, without the license: f8e6b87f9add0245
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,84 +8,84 @@
  *    163 config.h     macros that a user may define before the include, the version, and the integer types
  *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    412 options.h    options of all calls, threads, and the allocator
- *    552 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    747 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    919 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1060 factor.h     the numerical factorization P A P' = L D L'
- *   1341 solve.h      full solves, and the workspace of all solves
- *   1454 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1548 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1661 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1774 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1910 batch.h      many independent solves by one call, distributed over threads
- *   1960 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2138 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2258 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2362 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2501 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2619 change.h     a factor that follows small changes of its matrix
- *   2706 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2856 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2987 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3039 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *    553 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    748 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    920 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1061 factor.h     the numerical factorization P A P' = L D L'
+ *   1342 solve.h      full solves, and the workspace of all solves
+ *   1455 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1549 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1662 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1775 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1911 batch.h      many independent solves by one call, distributed over threads
+ *   1961 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2139 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2259 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2363 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2502 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2620 change.h     a factor that follows small changes of its matrix
+ *   2707 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2857 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2988 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3040 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3131 base.h   3425 status.h   3486 options.h   3544 alloc.h   3700 hash.h   3830 file_map.h
- *   3927 sort.h   3991 parallel.h
+ *   3132 base.h   3426 status.h   3487 options.h   3545 alloc.h   3701 hash.h   3831 file_map.h
+ *   3928 sort.h   3992 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4187 panel.h   4213 step.h   4291 pivot_rule.h   4365 front.h   4426 pairs.h
- *   4633 inverse_front.h   4705 table.h   4733 simd.h   4828 simd_scalar_single.h
- *   4874 simd_scalar.h   5012 simd_avx2_single.h   5066 simd_avx2.h   5307 simd_avx512_single.h
- *   5362 simd_avx512.h   5538 simd_neon_single.h   5580 simd_neon.h   5815 dispatch.h
+ *   4188 panel.h   4214 step.h   4292 pivot_rule.h   4366 front.h   4427 pairs.h
+ *   4634 inverse_front.h   4706 table.h   4734 simd.h   4829 simd_scalar_single.h
+ *   4875 simd_scalar.h   5013 simd_avx2_single.h   5067 simd_avx2.h   5308 simd_avx512_single.h
+ *   5363 simd_avx512.h   5539 simd_neon_single.h   5581 simd_neon.h   5816 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5896 csc.h   6029 csc_build.h   6163 csc64.h   6234 csc_triangle.h   6300 csc_products.h
- *   6417 permute.h   6483 sum.h   6565 output_file.h   6774 matrix_market.h
+ *   5897 csc.h   6030 csc_build.h   6164 csc64.h   6235 csc_triangle.h   6301 csc_products.h
+ *   6418 permute.h   6484 sum.h   6566 output_file.h   6775 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7220 graph.h   7362 contract.h   7616 coarsen.h   7779 labels.h   8000 subgraph.h   8195 heap.h
- *   8255 bisect.h   8482 separator.h   8744 mindeg.h   8927 dissect.h   9251 tree_cost.h
- *   9303 levelset.h   9409 geometric.h   9584 cells.h   9764 septree.h   9840 metis.h
- *   9989 metis_refined.h  10103 nd.h  10303 compress.h  10424 peel.h  10630 quotient.h
- *  11043 order.h
+ *   7221 graph.h   7363 contract.h   7617 coarsen.h   7780 labels.h   8001 subgraph.h   8196 heap.h
+ *   8256 bisect.h   8483 separator.h   8745 mindeg.h   8928 dissect.h   9252 tree_cost.h
+ *   9304 levelset.h   9410 geometric.h   9585 cells.h   9765 septree.h   9841 metis.h
+ *   9990 metis_refined.h  10104 nd.h  10304 compress.h  10425 levels.h  10477 peel.h
+ *  10683 quotient.h  11096 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11394 symbolic_types.h  11431 etree.h  11504 counts.h  11561 supernodes.h  11783 structure.h
- *  11904 schedule.h  12184 symbolic.h  12633 reach.h
+ *  11450 symbolic_types.h  11487 etree.h  11560 counts.h  11617 supernodes.h  11839 structure.h
+ *  11960 schedule.h  12240 symbolic.h  12689 reach.h
  * (factor: the numbers of L and D)
- *  12904 factor_types.h  13322 storage.h  13462 pivot_search.h  13808 pivoted.h  13876 scatter.h
- *  14034 uplooking.h  14106 null_product.h  14310 null_dense.h  14387 null_basis.h
- *  14695 null_vectors.h  14837 multifrontal.h  15031 gather.h  15079 kept.h  15249 front_tasks.h
- *  15592 nullspace.h  15795 growth.h  15871 factor_setup.h  16193 factor.h  16403 leftlooking.h
- *  16549 factor_query.h  16684 combination.h
+ *  12960 factor_types.h  13378 storage.h  13518 pivot_search.h  13864 pivoted.h  13932 scatter.h
+ *  14090 uplooking.h  14162 null_product.h  14366 null_dense.h  14443 null_basis.h
+ *  14751 null_vectors.h  14893 multifrontal.h  15087 gather.h  15135 kept.h  15305 front_tasks.h
+ *  15648 nullspace.h  15851 growth.h  15927 factor_setup.h  16249 factor.h  16459 leftlooking.h
+ *  16605 factor_query.h  16740 combination.h
  * (solve: full and local solves)
- *  16745 region_types.h  16849 work.h  16949 query.h  17165 singular.h  17435 backward.h
- *  17465 sweep_tasks.h  17796 sweep.h  18007 compile.h  18200 plan.h  18307 local.h  18459 parts.h
- *  18748 refine.h  18927 refine_local.h  19143 rcond.h  19302 defects.h
+ *  16801 region_types.h  16905 work.h  17005 query.h  17221 singular.h  17491 backward.h
+ *  17521 sweep_tasks.h  17852 sweep.h  18063 compile.h  18256 plan.h  18363 local.h  18515 parts.h
+ *  18804 refine.h  18983 refine_local.h  19199 rcond.h  19358 defects.h
  * (inverse: entries of the inverse, regions)
- *  19380 traversal.h  19629 traversal_run.h  19822 row_sets.h  19849 unit_vectors.h
- *  20076 bilinear.h  20253 entries.h  20535 block.h  20775 reserve.h  20967 selected.h
- *  21177 selected_query.h  21279 region_choose.h  21506 region.h
+ *  19436 traversal.h  19685 traversal_run.h  19878 row_sets.h  19905 unit_vectors.h
+ *  20132 bilinear.h  20309 entries.h  20591 block.h  20831 reserve.h  21023 selected.h
+ *  21233 selected_query.h  21335 region_choose.h  21562 region.h
  * (change: a factor that follows changes of its matrix)
- *  21754 update.h  22104 rank.h  22442 edges.h  22596 choose.h  22794 pins_types.h
- *  22872 pins_nulls.h  23050 pins_capacitance.h  23301 pins_held.h  23512 pins_choose.h
- *  23582 pins_rebuild.h  23797 pins_matrix.h  23948 pins.h  24208 pins_solve.h  24583 subset.h
- *  24704 restrict_analysis.h  25058 restrict_symbolic.h  25255 restrict.h  25477 edit_match.h
- *  25676 edit_place.h  25925 edit_separate.h  26238 edit_order.h  26393 edit_graph.h
- *  26488 edit_join.h  26764 edit.h  26927 edit_factor.h
+ *  21810 update.h  22160 rank.h  22498 edges.h  22652 choose.h  22850 pins_types.h
+ *  22928 pins_nulls.h  23106 pins_capacitance.h  23357 pins_held.h  23568 pins_choose.h
+ *  23638 pins_rebuild.h  23853 pins_matrix.h  24004 pins.h  24264 pins_solve.h  24639 subset.h
+ *  24760 restrict_analysis.h  25114 restrict_symbolic.h  25311 restrict.h  25533 edit_match.h
+ *  25732 edit_place.h  25981 edit_separate.h  26294 edit_order.h  26449 edit_graph.h
+ *  26544 edit_join.h  26820 edit.h  26983 edit_factor.h
  * (save: factors in files)
- *  27226 format.h  27522 decode.h  27670 check.h  28000 write.h  28305 load.h  28573 load_inverse.h
- *  28903 load_calls.h
+ *  27282 format.h  27578 decode.h  27726 check.h  28056 write.h  28361 load.h  28629 load_inverse.h
+ *  28959 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29102 batch_solve.h  29311 batch_factor.h  29512 batch_diagonal.h
+ *  29158 batch_solve.h  29367 batch_factor.h  29568 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29652 hermitian.h  29814 complex_rows.h
+ *  29708 hermitian.h  29870 complex_rows.h
  * (last: undefine every internal macro)
- *  29982 undef.h
+ *  30038 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30244 front.inl.h  30246 product.inl.h  30757 words_undef.inl.h  30834 copy_rows.inl.h
- *  30872 multi_rhs.inl.h  30891 complex_groups.inl.h  31030 multi_rhs_small.inl.h
- *  31202 multi_rhs_tiles.inl.h  31471 sweeps.inl.h  31473 unit_triangle.inl.h  31510 two_rhs.inl.h
- *  31679 small_supernode.inl.h  31860 single_rhs.inl.h  32104 kernel_set.inl.h
- *  32106 complex_small.inl.h  32276 complex_rows.inl.h  32491 inverse_front.inl.h  32776 row.inl.h
- *  32806 change.inl.h  32870 interleave.inl.h  33001 lanes_undef.inl.h
+ *  30300 front.inl.h  30302 product.inl.h  30813 words_undef.inl.h  30890 copy_rows.inl.h
+ *  30928 multi_rhs.inl.h  30947 complex_groups.inl.h  31086 multi_rhs_small.inl.h
+ *  31258 multi_rhs_tiles.inl.h  31527 sweeps.inl.h  31529 unit_triangle.inl.h  31566 two_rhs.inl.h
+ *  31735 small_supernode.inl.h  31916 single_rhs.inl.h  32160 kernel_set.inl.h
+ *  32162 complex_small.inl.h  32332 complex_rows.inl.h  32547 inverse_front.inl.h  32832 row.inl.h
+ *  32862 change.inl.h  32926 interleave.inl.h  33057 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -481,7 +481,8 @@ typedef struct sl_options {
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
     /* with SL_ORDERING_ND: SL_PURPOSE_ONE_FACTOR orders by minimum degree where dissection would
-     * take longer than it saves */
+     * take longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
+     * entries of L */
     sl_purpose purpose;
 
     /* ---- factorization ---- */
@@ -10421,6 +10422,58 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
   return status;
 }
 
+/* src/impl/ordering/levels.h: orders thin graphs by the levels of a breadth-first search, the last level first */
+
+#define SLI_LEVELS_MOST 32
+#define SLI_LEVELS_TRY 4
+
+static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, sl_int start,
+                sl_int *seen, sl_int mark, int64_t most, int64_t *entries) {
+  sl_int first = start, last, tail = start, before = 0, k;
+  sl_off e;
+  queue[tail++] = root;
+  seen[root] = mark;
+  for (; first < tail && *entries <= most; first = last) {
+    last = tail;
+    for (k = first; k < last; k++) {
+      for (e = G->begin[queue[k]]; e < G->begin[queue[k] + 1]; e++) {
+        const sl_int u = G->to[e];
+        if (seen[u] < mark) {
+          seen[u] = mark;
+          queue[tail++] = u;
+        }
+      }
+    }
+    *entries += (int64_t)(last - first) * (last - first + before) / 2;
+    before = last - first;
+  }
+  return tail;
+}
+
+static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen) {
+  const int64_t most = SLI_LEVELS_MOST * (int64_t)G->n;
+  int64_t entries = 0, tried;
+  sl_int v, end, start = 0;
+  memset(seen, 0, (size_t)G->n * sizeof(sl_int));
+  for (v = 0; v < G->n && entries <= most; v++) {
+    if (seen[v] != 0) {
+      continue;
+    }
+    tried = 0;
+    end = sli_levels_search(G, v, perm, start, seen, 1, SLI_LEVELS_TRY * most, &tried);
+    if (tried > SLI_LEVELS_TRY * most) {
+      return 0;
+    }
+    start = sli_levels_search(G, perm[end - 1], perm, start, seen, 2, most, &entries);
+  }
+  for (v = 0; v < G->n / 2; v++) {
+    const sl_int other = perm[v];
+    perm[v] = perm[G->n - 1 - v];
+    perm[G->n - 1 - v] = other;
+  }
+  return entries <= most;
+}
+
 /* src/impl/ordering/peel.h: rows with at most two neighbors are eliminated before anything else is ordered */
 
 #define SLI_PEEL_SHARE 8
@@ -11168,6 +11221,9 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
     return sli_order_metis(G, opt->metis_options, perm, scratch, a);
   }
 #endif
+  if (is_hurried && ordering == SL_ORDERING_ND && sli_order_levels(G, perm, scratch)) {
+    return SL_OK;
+  }
   if (is_hurried) {
     double flops = 0.0;
     const sl_status status = sli_order_mindeg(G, perm, &flops, a);

@@ -95,6 +95,7 @@ extern "C" {
 #include "impl/ordering/metis_refined.h"
 #include "impl/ordering/nd.h"
 #include "impl/ordering/compress.h"
+#include "impl/ordering/levels.h"
 #include "impl/ordering/peel.h"
 #include "impl/ordering/quotient.h"
 #include "impl/ordering/order.h"

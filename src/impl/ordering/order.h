@@ -3,6 +3,7 @@
 #define SLI_ORDERING_ORDER_H
 
 #include "compress.h"
+#include "levels.h"
 #include "peel.h"
 #include "quotient.h"
 #include "../matrix/permute.h"
@@ -150,6 +151,9 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
         return sli_order_metis(G, opt->metis_options, perm, scratch, a);
     }
 #endif
+    if (is_hurried && ordering == SL_ORDERING_ND && sli_order_levels(G, perm, scratch)) {
+        return SL_OK;
+    }
     if (is_hurried) {
         double flops = 0.0;
         const sl_status status = sli_order_mindeg(G, perm, &flops, a);
