@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f8e6b87f9add0245
+ * FNV-1a of the lines after this comment, without the license: 5686478c90e44a60
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,54 +38,54 @@
  *   4875 simd_scalar.h   5013 simd_avx2_single.h   5067 simd_avx2.h   5308 simd_avx512_single.h
  *   5363 simd_avx512.h   5539 simd_neon_single.h   5581 simd_neon.h   5816 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5897 csc.h   6030 csc_build.h   6164 csc64.h   6235 csc_triangle.h   6301 csc_products.h
- *   6418 permute.h   6484 sum.h   6566 output_file.h   6775 matrix_market.h
+ *   5897 csc.h   6040 csc_build.h   6174 csc64.h   6245 csc_triangle.h   6310 csc_products.h
+ *   6427 permute.h   6493 sum.h   6575 output_file.h   6784 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7221 graph.h   7363 contract.h   7617 coarsen.h   7780 labels.h   8001 subgraph.h   8196 heap.h
- *   8256 bisect.h   8483 separator.h   8745 mindeg.h   8928 dissect.h   9252 tree_cost.h
- *   9304 levelset.h   9410 geometric.h   9585 cells.h   9765 septree.h   9841 metis.h
- *   9990 metis_refined.h  10104 nd.h  10304 compress.h  10425 levels.h  10477 peel.h
- *  10683 quotient.h  11096 order.h
+ *   7230 graph.h   7374 contract.h   7628 coarsen.h   7791 labels.h   8012 subgraph.h   8207 heap.h
+ *   8267 bisect.h   8494 separator.h   8756 mindeg.h   8939 dissect.h   9263 tree_cost.h
+ *   9315 levelset.h   9421 geometric.h   9596 cells.h   9776 septree.h   9852 metis.h
+ *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 levels.h  10488 peel.h
+ *  10694 quotient.h  11107 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11450 symbolic_types.h  11487 etree.h  11560 counts.h  11617 supernodes.h  11839 structure.h
- *  11960 schedule.h  12240 symbolic.h  12689 reach.h
+ *  11461 symbolic_types.h  11498 etree.h  11572 counts.h  11618 supernodes.h  11840 structure.h
+ *  11993 schedule.h  12273 symbolic.h  12728 reach.h
  * (factor: the numbers of L and D)
- *  12960 factor_types.h  13378 storage.h  13518 pivot_search.h  13864 pivoted.h  13932 scatter.h
- *  14090 uplooking.h  14162 null_product.h  14366 null_dense.h  14443 null_basis.h
- *  14751 null_vectors.h  14893 multifrontal.h  15087 gather.h  15135 kept.h  15305 front_tasks.h
- *  15648 nullspace.h  15851 growth.h  15927 factor_setup.h  16249 factor.h  16459 leftlooking.h
- *  16605 factor_query.h  16740 combination.h
+ *  12999 factor_types.h  13417 storage.h  13557 pivot_search.h  13903 pivoted.h  13971 scatter.h
+ *  14129 uplooking.h  14201 null_product.h  14405 null_dense.h  14482 null_basis.h
+ *  14790 null_vectors.h  14932 multifrontal.h  15126 gather.h  15174 kept.h  15344 front_tasks.h
+ *  15687 nullspace.h  15890 growth.h  15966 factor_setup.h  16288 factor.h  16498 leftlooking.h
+ *  16644 factor_query.h  16779 combination.h
  * (solve: full and local solves)
- *  16801 region_types.h  16905 work.h  17005 query.h  17221 singular.h  17491 backward.h
- *  17521 sweep_tasks.h  17852 sweep.h  18063 compile.h  18256 plan.h  18363 local.h  18515 parts.h
- *  18804 refine.h  18983 refine_local.h  19199 rcond.h  19358 defects.h
+ *  16840 region_types.h  16944 work.h  17044 query.h  17260 singular.h  17530 backward.h
+ *  17560 sweep_tasks.h  17891 sweep.h  18102 compile.h  18295 plan.h  18402 local.h  18554 parts.h
+ *  18843 refine.h  19022 refine_local.h  19238 rcond.h  19397 defects.h
  * (inverse: entries of the inverse, regions)
- *  19436 traversal.h  19685 traversal_run.h  19878 row_sets.h  19905 unit_vectors.h
- *  20132 bilinear.h  20309 entries.h  20591 block.h  20831 reserve.h  21023 selected.h
- *  21233 selected_query.h  21335 region_choose.h  21562 region.h
+ *  19475 traversal.h  19724 traversal_run.h  19917 row_sets.h  19944 unit_vectors.h
+ *  20171 bilinear.h  20348 entries.h  20630 block.h  20870 reserve.h  21062 selected.h
+ *  21272 selected_query.h  21374 region_choose.h  21601 region.h
  * (change: a factor that follows changes of its matrix)
- *  21810 update.h  22160 rank.h  22498 edges.h  22652 choose.h  22850 pins_types.h
- *  22928 pins_nulls.h  23106 pins_capacitance.h  23357 pins_held.h  23568 pins_choose.h
- *  23638 pins_rebuild.h  23853 pins_matrix.h  24004 pins.h  24264 pins_solve.h  24639 subset.h
- *  24760 restrict_analysis.h  25114 restrict_symbolic.h  25311 restrict.h  25533 edit_match.h
- *  25732 edit_place.h  25981 edit_separate.h  26294 edit_order.h  26449 edit_graph.h
- *  26544 edit_join.h  26820 edit.h  26983 edit_factor.h
+ *  21849 update.h  22199 rank.h  22537 edges.h  22691 choose.h  22889 pins_types.h
+ *  22967 pins_nulls.h  23145 pins_capacitance.h  23396 pins_held.h  23607 pins_choose.h
+ *  23677 pins_rebuild.h  23892 pins_matrix.h  24043 pins.h  24303 pins_solve.h  24678 subset.h
+ *  24799 restrict_analysis.h  25153 restrict_symbolic.h  25350 restrict.h  25572 edit_match.h
+ *  25771 edit_place.h  26020 edit_separate.h  26333 edit_order.h  26488 edit_graph.h
+ *  26583 edit_join.h  26859 edit.h  27022 edit_factor.h
  * (save: factors in files)
- *  27282 format.h  27578 decode.h  27726 check.h  28056 write.h  28361 load.h  28629 load_inverse.h
- *  28959 load_calls.h
+ *  27321 format.h  27617 decode.h  27765 check.h  28095 write.h  28400 load.h  28668 load_inverse.h
+ *  28998 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29158 batch_solve.h  29367 batch_factor.h  29568 batch_diagonal.h
+ *  29197 batch_solve.h  29406 batch_factor.h  29607 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29708 hermitian.h  29870 complex_rows.h
+ *  29747 hermitian.h  29909 complex_rows.h
  * (last: undefine every internal macro)
- *  30038 undef.h
+ *  30077 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30300 front.inl.h  30302 product.inl.h  30813 words_undef.inl.h  30890 copy_rows.inl.h
- *  30928 multi_rhs.inl.h  30947 complex_groups.inl.h  31086 multi_rhs_small.inl.h
- *  31258 multi_rhs_tiles.inl.h  31527 sweeps.inl.h  31529 unit_triangle.inl.h  31566 two_rhs.inl.h
- *  31735 small_supernode.inl.h  31916 single_rhs.inl.h  32160 kernel_set.inl.h
- *  32162 complex_small.inl.h  32332 complex_rows.inl.h  32547 inverse_front.inl.h  32832 row.inl.h
- *  32862 change.inl.h  32926 interleave.inl.h  33057 lanes_undef.inl.h
+ *  30339 front.inl.h  30341 product.inl.h  30852 words_undef.inl.h  30929 copy_rows.inl.h
+ *  30967 multi_rhs.inl.h  30986 complex_groups.inl.h  31125 multi_rhs_small.inl.h
+ *  31297 multi_rhs_tiles.inl.h  31566 sweeps.inl.h  31568 unit_triangle.inl.h  31605 two_rhs.inl.h
+ *  31774 small_supernode.inl.h  31955 single_rhs.inl.h  32199 kernel_set.inl.h
+ *  32201 complex_small.inl.h  32371 complex_rows.inl.h  32586 inverse_front.inl.h  32871 row.inl.h
+ *  32901 change.inl.h  32965 interleave.inl.h  33096 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5915,6 +5915,11 @@ static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void 
   return n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX ? SL_ERR_TOO_LARGE : SL_OK;
 }
 
+static int sli_csc_has_pattern(const sl_csc *A) {
+  return A != NULL && sli_csc_check_sizes(A->n_rows, A->n_cols, A->p) == SL_OK &&
+       (sli_nnz(A) == 0 || A->i != NULL);
+}
+
 SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   sl_status status;
   sl_int j, p;
@@ -5948,9 +5953,26 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   return SL_OK;
 }
 
-static void sli_csc_columns(const sl_csc *A, sl_int *column) {
-  const sl_int nnz = sli_nnz(A);
-  sl_int j, p, here = 0;
+SLI_INLINE sl_triangle sli_triangle_of(sl_int below, sl_int above) {
+  return below >= 0   ? above >= 0 ? SL_TRIANGLE_NONE : SL_TRIANGLE_UPPER
+       : above >= 0 ? SL_TRIANGLE_LOWER
+            : SL_TRIANGLE_BOTH;
+}
+
+static sl_triangle sli_triangle_scan(const sl_csc *A) {
+  sl_int j, p, below = 0, above = 0;
+  for (j = 0; j < A->n_cols && (below & above) >= 0; j++) {
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      below |= j - A->i[p];
+      above |= A->i[p] - j;
+    }
+  }
+  return sli_triangle_of(below, above);
+}
+
+static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
+  const sl_int nnz = sli_nnz(A), *row = A->i;
+  sl_int j, p, here = 0, below = 0, above = 0;
   for (p = 0; p < nnz; p++) {
     column[p] = 0;
   }
@@ -5960,22 +5982,10 @@ static void sli_csc_columns(const sl_csc *A, sl_int *column) {
   for (p = 0; p < nnz; p++) {
     here += column[p];
     column[p] = here;
+    below |= here - row[p];
+    above |= row[p] - here;
   }
-}
-
-static sl_triangle sli_triangle_scan(const sl_csc *A) {
-  sl_int j, p;
-  int lower = 0, upper = 0;
-  for (j = 0; j < A->n_cols && !(lower && upper); j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      lower |= A->i[p] > j;
-      upper |= A->i[p] < j;
-    }
-  }
-  return lower && upper ? SL_TRIANGLE_BOTH
-       : lower        ? SL_TRIANGLE_LOWER
-       : upper        ? SL_TRIANGLE_UPPER
-              : SL_TRIANGLE_NONE;
+  return sli_triangle_of(below, above);
 }
 
 SLI_INLINE int sli_is_read(sl_triangle triangle, sl_int row, sl_int column) {
@@ -6251,11 +6261,10 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
   return SL_OK;
 }
 
-static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
-                  sl_stats *stats) {
+static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangle *out,
+                  const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
-  const sl_triangle found = sli_triangle_scan(A);
   sl_csc pattern = *A, T;
   sl_matrix *transpose;
   sl_int *mark;
@@ -6295,7 +6304,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
   if (out == NULL || A->n_rows != A->n_cols || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
     return SL_ERR_ARGUMENT;
   }
-  return sli_csc_triangle(A, out, opt, stats);
+  return sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
 }
 
 /* src/impl/matrix/csc_products.h: products with a matrix in compressed columns, its norm, residuals */
@@ -6550,7 +6559,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
   }
   for (t = 0; t < count && status == SL_OK; t++) {
     sl_triangle triangle = SL_TRIANGLE_NONE;
-    status = sli_csc_triangle(&terms[t], &triangle, opt, stats);
+    status = sli_csc_triangle(&terms[t], sli_triangle_scan(&terms[t]), &triangle, opt, stats);
     if (status == SL_OK) {
       sli_sum_append(&all, &terms[t], triangle, coefficients != NULL ? coefficients[t] : 0.0);
     }
@@ -7316,31 +7325,33 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n) {
 
 static void sli_pattern_fill(const sl_csc *A, const sl_int *column, sl_triangle triangle,
                const sl_int *iperm, sli_pattern *rows, sli_pattern *columns) {
-  const sl_int n = A->n_cols, nnz = sli_nnz(A);
+  const sl_int n = A->n_cols, nnz = sli_nnz(A), *row = A->i;
+  sl_int *row_at = rows->begin, *column_at = columns->begin, *to = rows->to, *from = rows->from;
+  const sl_int side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
   sl_int p;
-  memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
-  memset(columns->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
+  memset(row_at, 0, ((size_t)n + 1) * sizeof(sl_int));
+  memset(column_at, 0, ((size_t)n + 1) * sizeof(sl_int));
   for (p = 0; p < nnz; p++) {
-    const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
-    const int is_read = sli_is_read(triangle, A->i[p], column[p]);
-    rows->begin[sli_max(a, b)] += is_read;
-    columns->begin[sli_min(a, b)] += is_read;
+    const sl_int a = iperm[row[p]], b = iperm[column[p]];
+    const sl_int is_read = side * (row[p] - column[p]) >= 0;
+    const sl_int k = sli_max(a, b);
+    row_at[k] += is_read;
+    column_at[a + b - k] += is_read;
   }
   sli_pattern_starts(rows, n);
   sli_pattern_starts(columns, n);
   for (p = 0; p < nnz; p++) {
-    if (sli_is_read(triangle, A->i[p], column[p])) {
-      const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
-      const sl_int k = sli_max(a, b), i = sli_min(a, b);
-      const sl_int at = rows->begin[k]++;
-      rows->to[at] = i;
-      rows->from[at] = p;
-      columns->to[columns->begin[i]++] = k;
+    if (side * (row[p] - column[p]) >= 0) {
+      const sl_int a = iperm[row[p]], b = iperm[column[p]];
+      const sl_int k = sli_max(a, b), i = a + b - k, at = row_at[k]++;
+      to[at] = i;
+      from[at] = p;
+      columns->to[column_at[i]++] = k;
     }
   }
-  memmove(rows->begin + 1, rows->begin, (size_t)n * sizeof(sl_int));
-  memmove(columns->begin + 1, columns->begin, (size_t)n * sizeof(sl_int));
-  rows->begin[0] = columns->begin[0] = 0;
+  memmove(row_at + 1, row_at, (size_t)n * sizeof(sl_int));
+  memmove(column_at + 1, column_at, (size_t)n * sizeof(sl_int));
+  row_at[0] = column_at[0] = 0;
 }
 
 static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
@@ -11487,20 +11498,21 @@ struct sl_symbolic {
 /* src/impl/analysis/etree.h: elimination tree, postorder, and renumbering of the columns */
 
 static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
-  sl_int k, p;
+  const sl_int *to = rows->to;
+  sl_int k, p = 0;
   for (k = 0; k < n; k++) {
+    const sl_int end = rows->begin[k + 1];
     parent[k] = -1;
-    ancestor[k] = -1;
-    for (p = rows->begin[k]; p < rows->begin[k + 1]; p++) {
-      sl_int i = rows->to[p];
-      while (i != -1 && i < k) {
+    ancestor[k] = n;
+    for (; p < end; p++) {
+      sl_int i = to[p], last = i;
+      while (i < k) {
         const sl_int next = ancestor[i];
         ancestor[i] = k;
-        if (next == -1) {
-          parent[i] = k;
-        }
+        last = i;
         i = next;
       }
+      parent[last] = i == n ? k : parent[last];
     }
   }
 }
@@ -11562,49 +11574,38 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
 static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_of,
              const sl_int *new_of, const sl_int *parent, sl_int *counts,
              sl_int *scratch) {
-  sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n,
-       *set = scratch + 3 * (size_t)n;
-  sl_int i, j, p;
+  sl_int *first = scratch, *up = scratch + n, *row = scratch + 2 * (size_t)n;
+  sl_int j, p;
   for (j = 0; j < n; j++) {
     first[j] = j;
-    seen[j] = -1;
-    leaf[j] = -1;
-    set[j] = j;
+    up[j] = parent[j] == -1 ? n : parent[j];
+    row[2 * (size_t)j] = -1;
+    row[2 * (size_t)j + 1] = j;
+    counts[j] = 1;
   }
   for (j = 0; j < n; j++) {
-    counts[j] = first[j] == j;
-    if (parent[j] != -1) {
-      first[parent[j]] = sli_min(first[parent[j]], first[j]);
-    }
-  }
-  for (j = 0; j < n; j++) {
-    const sl_int end = columns->begin[old_of[j] + 1];
-    if (parent[j] != -1) {
-      counts[parent[j]]--;
-    }
+    const sl_int from = first[j], end = columns->begin[old_of[j] + 1];
+    sl_int leaves = 0;
     for (p = columns->begin[old_of[j]]; p < end; p++) {
-      i = new_of[columns->to[p]];
-      if (i <= j || first[j] <= seen[i]) {
+      const sl_int i = new_of[columns->to[p]];
+      sl_int *seen = row + 2 * (size_t)i, at = seen[1];
+      if (from <= seen[0]) {
         continue;
       }
-      counts[j]++;
-      seen[i] = first[j];
-      if (leaf[i] != -1) {
-        sl_int root = leaf[i], q = leaf[i];
-        while (root != set[root]) {
-          root = set[root];
-        }
-        while (q != root) {
-          const sl_int up = set[q];
-          set[q] = root;
-          q = up;
-        }
-        counts[root]--;
+      while (at < j) {
+        const sl_int next = up[at];
+        up[at] = next < j ? up[next] : next;
+        at = up[at];
       }
-      leaf[i] = j;
+      counts[at]--;
+      leaves++;
+      seen[0] = from;
+      seen[1] = j;
     }
+    counts[j] += leaves;
     if (parent[j] != -1) {
-      set[j] = parent[j];
+      first[parent[j]] = sli_min(first[parent[j]], from);
+      counts[parent[j]]--;
     }
   }
   for (j = 0; j < n; j++) {
@@ -11851,42 +11852,74 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
   S->scatter_begin[S->n_supers] = total;
 }
 
+typedef struct sli_growing {
+  sl_off base;
+  sl_off panel;
+  sl_off to;
+  sl_int width;
+  sl_int local;
+  sl_int mark;
+  sl_int parent;
+} sli_growing;
+
+SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *queue,
+                  sl_int length) {
+  const int is_new = g[s].mark != k;
+  g[s].mark = k;
+  g[s].local += is_new;
+  queue[length] = s;
+  return length + is_new;
+}
+
 static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
-                 const sl_int *new_of, const sl_int *earlier, sl_off *end,
-                 sl_int *mark) {
-  sl_int k, p, s, t;
+                 const sl_int *new_of, const sl_int *earlier, sli_growing *g,
+                 sl_int *queue) {
+  const sl_int *super_of = S->super_of, *super_first = S->super_first;
+  sl_int *scatter_from = S->scatter_from, k, p, s;
+  sl_off *scatter_to = S->scatter_to;
   for (s = 0; s < S->n_supers; s++) {
-    end[s] = S->rows_begin[s];
-    mark[s] = -1;
+    const sl_int width = super_first[s + 1] - super_first[s];
+    g[s].base = S->rows_begin[s] - width;
+    g[s].panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
+           (sl_off)width / SLI_TILE * SLI_TILE * width;
+    g[s].to = S->scatter_begin[s];
+    g[s].width = width;
+    g[s].local = 0;
+    g[s].mark = -1;
+    g[s].parent = S->super_parent[s];
   }
   for (k = 0; k < S->n; k++) {
-    const sl_int own = S->super_of[k];
-    for (t = earlier == NULL ? -1 : earlier[own]; t != -1; t = earlier[t]) {
-      mark[t] = k;
-      S->rows[end[t]++] = k;
+    const sl_int own = super_of[k], end = rows->begin[old_of[k] + 1];
+    const sl_off at = S->panel_begin[own] + sli_panel_at(g[own].width, g[own].local, 0);
+    sl_int length = sli_grow(g, own, k, queue, 0), c;
+    for (p = rows->begin[old_of[k]]; p < end; p++) {
+      const sl_int i = new_of[rows->to[p]];
+      sli_growing *home = &g[super_of[i]];
+      sl_off row;
+      length = sli_grow(g, super_of[i], k, queue, length);
+      row = home->local - 1;
+      row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
+      scatter_from[home->to] = rows->from[p];
+      scatter_to[home->to++] =
+        (super_of[i] == own ? at : row) + SLI_TILE * (i - super_first[super_of[i]]);
     }
-    for (p = rows->begin[old_of[k]]; p < rows->begin[old_of[k] + 1]; p++) {
-      const sl_int i = new_of[rows->to[p]], home = S->super_of[i];
-      const sl_int first = S->super_first[home], width = S->super_first[home + 1] - first;
-      sl_int local;
-      sl_off at;
-      for (s = home; s != own && mark[s] != k; s = S->super_parent[s]) {
-        for (t = s; t != -1 && mark[t] != k; t = earlier == NULL ? -1 : earlier[t]) {
-          mark[t] = k;
-          S->rows[end[t]++] = k;
-        }
+    if (earlier != NULL && earlier[own] != -1) {
+      length = sli_grow(g, earlier[own], k, queue, length);
+    }
+    for (c = 1; c < length; c++) {
+      const sl_int up = g[queue[c]].parent;
+      const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
+      if (earlier != NULL && earlier[queue[c]] != -1) {
+        length = sli_grow(g, earlier[queue[c]], k, queue, length);
       }
-      local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
-      at = S->scatter_begin[home]++;
-      S->scatter_from[at] = rows->from[p];
-      S->scatter_to[at] = S->panel_begin[home] + sli_panel_at(width, local, i - first);
+      length = sli_grow(g, up, k, queue, length);
+      S->rows[row] = k;
+      S->relative[row] = g[up].local - 1;
     }
   }
   for (s = 0; s < S->n_supers; s++) {
-    SLI_ASSERT(end[s] == S->rows_begin[s + 1]);
+    SLI_ASSERT(g[s].base + g[s].local == S->rows_begin[s + 1]);
   }
-  memmove(S->scatter_begin + 1, S->scatter_begin, (size_t)S->n_supers * sizeof(sl_off));
-  S->scatter_begin[0] = 0;
 }
 
 static void sli_fill_steps(sl_symbolic *S) {
@@ -12241,6 +12274,7 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 
 typedef struct sli_analysis {
   sl_int n;
+  sli_hash pattern;
   sl_int *column;
   sli_pattern rows, columns;
   sli_amalgamation amalgamation;
@@ -12250,6 +12284,7 @@ typedef struct sli_analysis {
   sl_int *parent, *counts, *super_of;
   sl_int *scratch;
   uint64_t *list;
+  sli_growing *growing;
   const unsigned char *pairs;
   unsigned char *is_first;
   sl_int *earlier;
@@ -12281,9 +12316,12 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
   w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->amalgamation.zeros = SLI_TAKE(b, sl_off, n);
-  w->amalgamation.merged_into = SLI_TAKE(b, sl_int, n);
-  w->list = SLI_TAKE(b, uint64_t, 2 * n);
+  w->growing = SLI_TAKE(b, sli_growing, n);
+  if (w->growing != NULL) {
+    w->list = (uint64_t *)(void *)w->growing;
+    w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
+    w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.zeros + n);
+  }
   if (w->pairs != NULL) {
     w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
     w->is_first = SLI_TAKE(b, unsigned char, n);
@@ -12489,11 +12527,9 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
                           : SLI_PAIR_NONE;
   }
   sli_scatter_map_count(S, &w->columns, w->old_of);
-  sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, (sl_off *)(void *)w->list,
-             (sl_int *)(void *)(w->list + S->n));
+  sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, w->growing, w->scratch);
   sli_fill_steps(S);
   sli_fill_descendants(S);
-  sli_fill_relative(S, w->scratch);
   sli_fill_septree(S, &w->septree);
   sli_fill_identity(S, stats->symbolic.triangle);
   sli_analyze_stats(S, w->scratch, stats);
@@ -12544,7 +12580,6 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   sl_symbolic draft;
   sl_status status;
   started = sli_seconds();
-  sli_csc_columns(A, w->column);
   status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
              &w->septree, &w->choice, team, for_order, stats);
   stats->symbolic.seconds_order = sli_seconds() - started;
@@ -12559,7 +12594,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;
   draft.nnz_input = sli_nnz(A);
-  (void)sli_pattern_hash(A, &draft.pattern);
+  draft.pattern = w->pattern;
   stats->symbolic.seconds_analyze += sli_seconds() - started;
   return sli_symbolic_build(out, &draft, w, stats);
 }
@@ -12576,8 +12611,7 @@ typedef struct sli_symbolic_job {
 
 static void sli_symbolic_lead(sli_team *team, void *data) {
   sli_symbolic_job *j = (sli_symbolic_job *)data;
-  j->status =
-    sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
+  j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
 }
 
 static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
@@ -12599,28 +12633,33 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   sli_lender lender;
   sl_allocator lent;
   sl_stats found;
-  sl_status status;
+  sl_status status = SL_OK;
   int pass;
   sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
   }
   *out = NULL;
-  status = sl_csc_check(A, stats);
+  memset(&w, 0, sizeof w);
+  if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, &w.pattern)) {
+    status = sl_csc_check(A, stats);
+  }
   if (status != SL_OK) {
     return status;
   }
   if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
     return SL_ERR_ARGUMENT;
   }
-  memset(&w, 0, sizeof w);
   w.pairs = pairs;
   memset(&found, 0, sizeof found);
   sli_stats_clear_error(&found);
-  status = sli_csc_triangle(A, &found.symbolic.triangle, opt, stats);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_analysis_layout(&w, &b, A->n_cols, sli_nnz(A));
     status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+  }
+  if (status == SL_OK) {
+    status =
+      sli_csc_triangle(A, sli_csc_columns(A, w.column), &found.symbolic.triangle, opt, stats);
   }
   if (status == SL_OK) {
     lent = sli_lender_start(&lender, &b, w.ordered, &a);
@@ -12636,8 +12675,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     } else if (stats != NULL) {
       stats->error.row = found.error.row;
     }
-    sli_free(&a, b.base);
   }
+  sli_free(&a, b.base);
   return status;
 }
 
@@ -14062,7 +14101,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   }
   memset(&w, 0, sizeof w);
   opt = sli_options_with(&S->allocator);
-  status = sli_csc_triangle(K, &triangle, &opt, stats);
+  status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_scatter_layout(&w, &b, S, sli_nnz(K));
     status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
@@ -25045,6 +25084,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->rows = SLI_TAKE(&b, sl_int, rows);
+    T->relative = SLI_TAKE(&b, sl_int, rows);
     T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
@@ -25064,8 +25104,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
   }
   sli_scatter_map_count(T, &w->columns, w->old_of);
-  sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, (sl_off *)(void *)w->list,
-             (sl_int *)(void *)(w->list + T->n));
+  sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, w->growing, w->scratch);
   return SL_OK;
 }
 
@@ -26961,7 +27000,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
     e.B = B;
     e.new_of = new_of;
     e.n = B->n_cols;
-    status = sli_csc_triangle(B, &e.triangle, opt, stats);
+    status = sli_csc_triangle(B, sli_triangle_scan(B), &e.triangle, opt, stats);
   }
   status = status == SL_OK ? sli_edit_find(&e, &is_local, &a, stats) : status;
   if (status == SL_OK) {

@@ -17,52 +17,44 @@
 static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_of,
                        const sl_int *new_of, const sl_int *parent, sl_int *counts,
                        sl_int *scratch) {
-    sl_int *first = scratch, *seen = scratch + n, *leaf = scratch + 2 * (size_t)n,
-           *set = scratch + 3 * (size_t)n;
-    sl_int i, j, p;
-    /* first: the first descendant; seen: the largest `first` of a leaf of row i; leaf: that leaf */
+    /* first: the first descendant; up: an ancestor. Of each row, leaf: the last leaf so far, or
+     * itself; seen: the first descendant of that leaf, or -1 */
+    sl_int *first = scratch, *up = scratch + n, *row = scratch + 2 * (size_t)n;
+    sl_int j, p;
     for (j = 0; j < n; j++) {
         first[j] = j;
-        seen[j] = -1;
-        leaf[j] = -1;
-        set[j] = j;
+        up[j] = parent[j] == -1 ? n : parent[j];
+        row[2 * (size_t)j] = -1;
+        row[2 * (size_t)j + 1] = j;
+        /* A leaf of the tree is also a leaf of its own row subtree. Any other row has a first leaf,
+         * for which the loop below subtracts one at the row. */
+        counts[j] = 1;
     }
     for (j = 0; j < n; j++) {
-        counts[j] = first[j] == j; /* a leaf of the tree is also a leaf of its own row subtree */
-        if (parent[j] != -1) {
-            first[parent[j]] = sli_min(first[parent[j]], first[j]);
-        }
-    }
-    for (j = 0; j < n; j++) {
-        const sl_int end = columns->begin[old_of[j] + 1];
-        if (parent[j] != -1) {
-            counts[parent[j]]--; /* the row subtree of j ends at j */
-        }
+        const sl_int from = first[j], end = columns->begin[old_of[j] + 1];
+        sl_int leaves = 0;
         for (p = columns->begin[old_of[j]]; p < end; p++) {
-            i = new_of[columns->to[p]];
-            if (i <= j || first[j] <= seen[i]) {
+            const sl_int i = new_of[columns->to[p]];
+            sl_int *seen = row + 2 * (size_t)i, at = seen[1];
+            if (from <= seen[0]) {
                 continue;
             }
-            counts[j]++;
-            seen[i] = first[j];
-            /* The lowest common ancestor of two successive leaves is the root of the earlier leaf's
-             * set. */
-            if (leaf[i] != -1) {
-                sl_int root = leaf[i], q = leaf[i];
-                while (root != set[root]) {
-                    root = set[root];
-                }
-                while (q != root) {
-                    const sl_int up = set[q];
-                    set[q] = root;
-                    q = up;
-                }
-                counts[root]--;
+            /* The lowest common ancestor of two successive leaves is the first ancestor of the
+             * earlier one from j on. Links are shortened: later searches end above j, too. */
+            while (at < j) {
+                const sl_int next = up[at];
+                up[at] = next < j ? up[next] : next;
+                at = up[at];
             }
-            leaf[i] = j;
+            counts[at]--;
+            leaves++;
+            seen[0] = from;
+            seen[1] = j;
         }
+        counts[j] += leaves;
         if (parent[j] != -1) {
-            set[j] = parent[j];
+            first[parent[j]] = sli_min(first[parent[j]], from);
+            counts[parent[j]]--; /* the row subtree of j ends at j */
         }
     }
     for (j = 0; j < n; j++) {

@@ -5,22 +5,23 @@
 #include "symbolic_types.h"
 
 /* parent[k] := the first row below the diagonal of column k of L, or -1. ancestor: n of scratch,
- * path-compressed links towards the roots found so far. [Liu90] */
+ * path-compressed links towards the roots found so far; n at a root. [Liu90] */
 static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
-    sl_int k, p;
+    const sl_int *to = rows->to;
+    sl_int k, p = 0;
     for (k = 0; k < n; k++) {
+        const sl_int end = rows->begin[k + 1];
         parent[k] = -1;
-        ancestor[k] = -1;
-        for (p = rows->begin[k]; p < rows->begin[k + 1]; p++) {
-            sl_int i = rows->to[p];
-            while (i != -1 && i < k) {
+        ancestor[k] = n;
+        for (; p < end; p++) {
+            sl_int i = to[p], last = i;
+            while (i < k) {
                 const sl_int next = ancestor[i];
                 ancestor[i] = k;
-                if (next == -1) {
-                    parent[i] = k;
-                }
+                last = i;
                 i = next;
             }
+            parent[last] = i == n ? k : parent[last]; /* without a branch: about half are roots */
         }
     }
 }

@@ -18,51 +18,86 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
     S->scatter_begin[S->n_supers] = total;
 }
 
-/* Fills the rows of all supernodes and the scatter map in one pass over the rows of L.
+/* A supernode while rows of L are added to it. */
+typedef struct sli_growing {
+    sl_off base;  /* rows and relative have local row r at base + r */
+    sl_off panel; /* where tile 0 would be in L if all tiles had all columns */
+    sl_off to;    /* the next position in the scatter map */
+    sl_int width;
+    sl_int local;  /* local rows so far: the columns, then the rows below */
+    sl_int mark;   /* the last row that was added */
+    sl_int parent; /* -1 at a root */
+} sli_growing;
+
+/* Adds row k to supernode s unless it is there, and s to a queue if not. Without a branch, which
+ * nothing would predict. Returns the length of the queue. */
+SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *queue,
+                                  sl_int length) {
+    const int is_new = g[s].mark != k;
+    g[s].mark = k;
+    g[s].local += is_new;
+    queue[length] = s;
+    return length + is_new;
+}
+
+/* Fills the rows of all supernodes, their relative indices and the scatter map in one pass over the
+ * rows of L.
  *
  * Row k of L occupies the part of the supernode tree between row k's entries of A and k's own
  * supernode. k is appended to the row list of each of these supernodes; as k ascends, so do the
- * lists. The position in the list is the local row of k's entries. end: n_supers, the end of each
- * list so far; mark: n_supers. earlier: the part before each supernode if one was split, or NULL:
- * a row of one part is also a row of the parts before it.
+ * lists. The position in the list is the local row of k's entries. g: n_supers; queue: n + 1.
+ * earlier: the part before each supernode if one was split, or NULL: a row of one part is also a
+ * row of the parts before it.
  */
 static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
-                               const sl_int *new_of, const sl_int *earlier, sl_off *end,
-                               sl_int *mark) {
-    sl_int k, p, s, t;
+                               const sl_int *new_of, const sl_int *earlier, sli_growing *g,
+                               sl_int *queue) {
+    const sl_int *super_of = S->super_of, *super_first = S->super_first;
+    sl_int *scatter_from = S->scatter_from, k, p, s;
+    sl_off *scatter_to = S->scatter_to;
     for (s = 0; s < S->n_supers; s++) {
-        end[s] = S->rows_begin[s];
-        mark[s] = -1;
+        const sl_int width = super_first[s + 1] - super_first[s];
+        g[s].base = S->rows_begin[s] - width;
+        g[s].panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
+                     (sl_off)width / SLI_TILE * SLI_TILE * width;
+        g[s].to = S->scatter_begin[s];
+        g[s].width = width;
+        g[s].local = 0;
+        g[s].mark = -1;
+        g[s].parent = S->super_parent[s];
     }
     for (k = 0; k < S->n; k++) {
-        const sl_int own = S->super_of[k];
-        for (t = earlier == NULL ? -1 : earlier[own]; t != -1; t = earlier[t]) {
-            mark[t] = k;
-            S->rows[end[t]++] = k;
+        const sl_int own = super_of[k], end = rows->begin[old_of[k] + 1];
+        const sl_off at = S->panel_begin[own] + sli_panel_at(g[own].width, g[own].local, 0);
+        sl_int length = sli_grow(g, own, k, queue, 0), c;
+        for (p = rows->begin[old_of[k]]; p < end; p++) {
+            const sl_int i = new_of[rows->to[p]];
+            sli_growing *home = &g[super_of[i]];
+            sl_off row;
+            length = sli_grow(g, super_of[i], k, queue, length);
+            row = home->local - 1;
+            row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
+            scatter_from[home->to] = rows->from[p];
+            scatter_to[home->to++] =
+                (super_of[i] == own ? at : row) + SLI_TILE * (i - super_first[super_of[i]]);
         }
-        for (p = rows->begin[old_of[k]]; p < rows->begin[old_of[k] + 1]; p++) {
-            const sl_int i = new_of[rows->to[p]], home = S->super_of[i];
-            const sl_int first = S->super_first[home], width = S->super_first[home + 1] - first;
-            sl_int local;
-            sl_off at;
-            for (s = home; s != own && mark[s] != k; s = S->super_parent[s]) {
-                for (t = s; t != -1 && mark[t] != k; t = earlier == NULL ? -1 : earlier[t]) {
-                    mark[t] = k;
-                    S->rows[end[t]++] = k;
-                }
+        if (earlier != NULL && earlier[own] != -1) {
+            length = sli_grow(g, earlier[own], k, queue, length);
+        }
+        for (c = 1; c < length; c++) {
+            const sl_int up = g[queue[c]].parent;
+            const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
+            if (earlier != NULL && earlier[queue[c]] != -1) {
+                length = sli_grow(g, earlier[queue[c]], k, queue, length);
             }
-            local = home == own ? k - first : width + (sl_int)(end[home] - S->rows_begin[home]) - 1;
-            /* each begin advances to its group's end; shifted back below */
-            at = S->scatter_begin[home]++;
-            S->scatter_from[at] = rows->from[p];
-            S->scatter_to[at] = S->panel_begin[home] + sli_panel_at(width, local, i - first);
+            length = sli_grow(g, up, k, queue, length);
+            S->rows[row] = k;
+            S->relative[row] = g[up].local - 1;
         }
     }
     for (s = 0; s < S->n_supers; s++) {
-        SLI_ASSERT(end[s] == S->rows_begin[s + 1]);
+        SLI_ASSERT(g[s].base + g[s].local == S->rows_begin[s + 1]);
     }
-    memmove(S->scatter_begin + 1, S->scatter_begin, (size_t)S->n_supers * sizeof(sl_off));
-    S->scatter_begin[0] = 0;
 }
 
 /* Fills the steps of a sweep over all supernodes: the vector has all n columns, so that `base` is

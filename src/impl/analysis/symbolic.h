@@ -13,7 +13,8 @@
  * by rows, columns and perm; and the final postorder of supernodes, used by everything else. */
 typedef struct sli_analysis {
     sl_int n;
-    sl_int *column; /* nnz: of each entry of A */
+    sli_hash pattern; /* of A */
+    sl_int *column;   /* nnz: of each entry of A */
     sli_pattern rows, columns;
     sli_amalgamation amalgamation;
     sl_int *perm;                       /* n: the order found or given */
@@ -22,6 +23,7 @@ typedef struct sli_analysis {
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
     uint64_t *list;                     /* 2n */
+    sli_growing *growing;               /* n, later, in the memory of list and others */
     /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
     const unsigned char *pairs;
     unsigned char *is_first; /* n: the same, by column */
@@ -56,9 +58,12 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    w->amalgamation.zeros = SLI_TAKE(b, sl_off, n);
-    w->amalgamation.merged_into = SLI_TAKE(b, sl_int, n);
-    w->list = SLI_TAKE(b, uint64_t, 2 * n);
+    w->growing = SLI_TAKE(b, sli_growing, n);
+    if (w->growing != NULL) { /* the next three are free when it is used, and 28 n bytes long */
+        w->list = (uint64_t *)(void *)w->growing;
+        w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
+        w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.zeros + n);
+    }
     if (w->pairs != NULL) {
         w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
         w->is_first = SLI_TAKE(b, unsigned char, n);
@@ -271,19 +276,15 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
         S->panel_begin[s + 1] =
             S->panel_begin[s] + sli_panel_size(w->amalgamation.width[s], w->amalgamation.below[s]);
     }
-    /* list has 2n words of 8 bytes: one half for the ends of the row lists, the other for the
-     * marks. */
     for (k = 0; k < S->n && S->n_pairs > 0; k++) {
         S->pairs[k] = w->is_first[k]                ? SLI_PAIR_FIRST
                       : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
                                                     : SLI_PAIR_NONE;
     }
     sli_scatter_map_count(S, &w->columns, w->old_of);
-    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, (sl_off *)(void *)w->list,
-                       (sl_int *)(void *)(w->list + S->n));
+    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, w->growing, w->scratch);
     sli_fill_steps(S);
     sli_fill_descendants(S);
-    sli_fill_relative(S, w->scratch);
     sli_fill_septree(S, &w->septree);
     sli_fill_identity(S, stats->symbolic.triangle);
     sli_analyze_stats(S, w->scratch, stats);
@@ -335,7 +336,6 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     sl_symbolic draft;
     sl_status status;
     started = sli_seconds();
-    sli_csc_columns(A, w->column);
     status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
                        &w->septree, &w->choice, team, for_order, stats);
     stats->symbolic.seconds_order = sli_seconds() - started;
@@ -350,7 +350,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.nnz_input = sli_nnz(A);
-    (void)sli_pattern_hash(A, &draft.pattern);
+    draft.pattern = w->pattern;
     stats->symbolic.seconds_analyze += sli_seconds() - started;
     return sli_symbolic_build(out, &draft, w, stats);
 }
@@ -368,8 +368,7 @@ typedef struct sli_symbolic_job {
 
 static void sli_symbolic_lead(sli_team *team, void *data) {
     sli_symbolic_job *j = (sli_symbolic_job *)data;
-    j->status =
-        sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
+    j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
 }
 
 /* Copies the symbolic group. */
@@ -395,28 +394,33 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     sli_lender lender;
     sl_allocator lent;
     sl_stats found;
-    sl_status status;
+    sl_status status = SL_OK;
     int pass;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    status = sl_csc_check(A, stats);
+    memset(&w, 0, sizeof w);
+    if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, &w.pattern)) { /* the hash checks, too */
+        status = sl_csc_check(A, stats);
+    }
     if (status != SL_OK) {
         return status;
     }
     if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
         return SL_ERR_ARGUMENT;
     }
-    memset(&w, 0, sizeof w);
     w.pairs = pairs;
     memset(&found, 0, sizeof found);
     sli_stats_clear_error(&found);
-    status = sli_csc_triangle(A, &found.symbolic.triangle, opt, stats);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_analysis_layout(&w, &b, A->n_cols, sli_nnz(A));
         status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        status =
+            sli_csc_triangle(A, sli_csc_columns(A, w.column), &found.symbolic.triangle, opt, stats);
     }
     if (status == SL_OK) {
         lent = sli_lender_start(&lender, &b, w.ordered, &a);
@@ -432,8 +436,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
         } else if (stats != NULL) {
             stats->error.row = found.error.row;
         }
-        sli_free(&a, b.base);
     }
+    sli_free(&a, b.base);
     return status;
 }
 

@@ -154,7 +154,7 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
         e.B = B;
         e.new_of = new_of;
         e.n = B->n_cols;
-        status = sli_csc_triangle(B, &e.triangle, opt, stats);
+        status = sli_csc_triangle(B, sli_triangle_scan(B), &e.triangle, opt, stats);
     }
     status = status == SL_OK ? sli_edit_find(&e, &is_local, &a, stats) : status;
     if (status == SL_OK) {

@@ -315,6 +315,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->rows = SLI_TAKE(&b, sl_int, rows);
+        T->relative = SLI_TAKE(&b, sl_int, rows);
         T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
@@ -334,8 +335,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
     }
     sli_scatter_map_count(T, &w->columns, w->old_of);
-    sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, (sl_off *)(void *)w->list,
-                       (sl_int *)(void *)(w->list + T->n));
+    sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, w->growing, w->scratch);
     return SL_OK;
 }
 

@@ -153,7 +153,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     }
     memset(&w, 0, sizeof w);
     opt = sli_options_with(&S->allocator);
-    status = sli_csc_triangle(K, &triangle, &opt, stats);
+    status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_scatter_layout(&w, &b, S, sli_nnz(K));
         status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;

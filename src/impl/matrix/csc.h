@@ -26,6 +26,12 @@ static sl_status sli_csc_check_sizes(int64_t n_rows, int64_t n_cols, const void 
     return n_rows > SLI_ROWS_MAX || n_cols > SLI_ROWS_MAX ? SL_ERR_TOO_LARGE : SL_OK;
 }
 
+/* Has A sizes and arrays, so that its positions and rows can be checked? */
+static int sli_csc_has_pattern(const sl_csc *A) {
+    return A != NULL && sli_csc_check_sizes(A->n_rows, A->n_cols, A->p) == SL_OK &&
+           (sli_nnz(A) == 0 || A->i != NULL);
+}
+
 SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     sl_status status;
     sl_int j, p;
@@ -59,11 +65,32 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     return SL_OK;
 }
 
+/* Which triangles have entries: below and above are negative if some are below or above the
+ * diagonal. */
+SLI_INLINE sl_triangle sli_triangle_of(sl_int below, sl_int above) {
+    return below >= 0   ? above >= 0 ? SL_TRIANGLE_NONE : SL_TRIANGLE_UPPER
+           : above >= 0 ? SL_TRIANGLE_LOWER
+                        : SL_TRIANGLE_BOTH;
+}
+
+/* The triangles that have entries. The two patterns are not compared. */
+static sl_triangle sli_triangle_scan(const sl_csc *A) {
+    sl_int j, p, below = 0, above = 0;
+    for (j = 0; j < A->n_cols && (below & above) >= 0; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            below |= j - A->i[p];
+            above |= A->i[p] - j;
+        }
+    }
+    return sli_triangle_of(below, above);
+}
+
 /* column[p] := the column of entry p of a checked matrix. Passes over all entries that know it need
- * no loop over columns: where these are short, each of them costs a mispredicted branch. */
-static void sli_csc_columns(const sl_csc *A, sl_int *column) {
-    const sl_int nnz = sli_nnz(A);
-    sl_int j, p, here = 0;
+ * no loop over columns: where these are short, each of them costs a mispredicted branch. Returns
+ * the triangles that have entries. */
+static sl_triangle sli_csc_columns(const sl_csc *A, sl_int *column) {
+    const sl_int nnz = sli_nnz(A), *row = A->i;
+    sl_int j, p, here = 0, below = 0, above = 0;
     for (p = 0; p < nnz; p++) {
         column[p] = 0;
     }
@@ -73,23 +100,10 @@ static void sli_csc_columns(const sl_csc *A, sl_int *column) {
     for (p = 0; p < nnz; p++) {
         here += column[p];
         column[p] = here;
+        below |= here - row[p];
+        above |= row[p] - here;
     }
-}
-
-/* The triangles that have entries. The two patterns are not compared. */
-static sl_triangle sli_triangle_scan(const sl_csc *A) {
-    sl_int j, p;
-    int lower = 0, upper = 0;
-    for (j = 0; j < A->n_cols && !(lower && upper); j++) {
-        for (p = A->p[j]; p < A->p[j + 1]; p++) {
-            lower |= A->i[p] > j;
-            upper |= A->i[p] < j;
-        }
-    }
-    return lower && upper ? SL_TRIANGLE_BOTH
-           : lower        ? SL_TRIANGLE_LOWER
-           : upper        ? SL_TRIANGLE_UPPER
-                          : SL_TRIANGLE_NONE;
+    return sli_triangle_of(below, above);
 }
 
 /* Is this entry read? Of a matrix that stores both triangles only the lower one is. */

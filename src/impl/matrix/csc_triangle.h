@@ -24,13 +24,12 @@ static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int
 }
 
 /* The triangle of a checked square matrix that a factorization reads: the one in the options, or
- * else the stored one. If both are stored, the pattern must be symmetric. *out is unchanged on
- * error. */
-static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_options *opt,
-                                  sl_stats *stats) {
+ * else the stored one, `found`. If both are stored, the pattern must be symmetric. *out is
+ * unchanged on error. */
+static sl_status sli_csc_triangle(const sl_csc *A, sl_triangle found, sl_triangle *out,
+                                  const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
     const sl_triangle wanted = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
-    const sl_triangle found = sli_triangle_scan(A);
     sl_csc pattern = *A, T;
     sl_matrix *transpose;
     sl_int *mark;
@@ -70,7 +69,7 @@ SL_API sl_status sl_csc_triangle(const sl_csc *A, sl_triangle *out, const sl_opt
     if (out == NULL || A->n_rows != A->n_cols || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
         return SL_ERR_ARGUMENT;
     }
-    return sli_csc_triangle(A, out, opt, stats);
+    return sli_csc_triangle(A, sli_triangle_scan(A), out, opt, stats);
 }
 
 #endif

@@ -75,7 +75,7 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     }
     for (t = 0; t < count && status == SL_OK; t++) {
         sl_triangle triangle = SL_TRIANGLE_NONE;
-        status = sli_csc_triangle(&terms[t], &triangle, opt, stats);
+        status = sli_csc_triangle(&terms[t], sli_triangle_scan(&terms[t]), &triangle, opt, stats);
         if (status == SL_OK) {
             sli_sum_append(&all, &terms[t], triangle, coefficients != NULL ? coefficients[t] : 0.0);
         }

@@ -117,31 +117,34 @@ static void sli_pattern_starts(sli_pattern *h, sl_int n) {
  * each pass reads only the triangle that it needs. */
 static void sli_pattern_fill(const sl_csc *A, const sl_int *column, sl_triangle triangle,
                              const sl_int *iperm, sli_pattern *rows, sli_pattern *columns) {
-    const sl_int n = A->n_cols, nnz = sli_nnz(A);
+    const sl_int n = A->n_cols, nnz = sli_nnz(A), *row = A->i;
+    sl_int *row_at = rows->begin, *column_at = columns->begin, *to = rows->to, *from = rows->from;
+    /* an entry is read if side (row - column) >= 0: one comparison for every triangle */
+    const sl_int side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
     sl_int p;
-    memset(rows->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
-    memset(columns->begin, 0, ((size_t)n + 1) * sizeof(sl_int));
+    memset(row_at, 0, ((size_t)n + 1) * sizeof(sl_int));
+    memset(column_at, 0, ((size_t)n + 1) * sizeof(sl_int));
     for (p = 0; p < nnz; p++) {
-        const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
-        const int is_read = sli_is_read(triangle, A->i[p], column[p]);
-        rows->begin[sli_max(a, b)] += is_read;
-        columns->begin[sli_min(a, b)] += is_read;
+        const sl_int a = iperm[row[p]], b = iperm[column[p]];
+        const sl_int is_read = side * (row[p] - column[p]) >= 0;
+        const sl_int k = sli_max(a, b);
+        row_at[k] += is_read;
+        column_at[a + b - k] += is_read;
     }
     sli_pattern_starts(rows, n);
     sli_pattern_starts(columns, n);
     for (p = 0; p < nnz; p++) {
-        if (sli_is_read(triangle, A->i[p], column[p])) {
-            const sl_int a = iperm[A->i[p]], b = iperm[column[p]];
-            const sl_int k = sli_max(a, b), i = sli_min(a, b);
-            const sl_int at = rows->begin[k]++;
-            rows->to[at] = i;
-            rows->from[at] = p;
-            columns->to[columns->begin[i]++] = k;
+        if (side * (row[p] - column[p]) >= 0) {
+            const sl_int a = iperm[row[p]], b = iperm[column[p]];
+            const sl_int k = sli_max(a, b), i = a + b - k, at = row_at[k]++;
+            to[at] = i;
+            from[at] = p;
+            columns->to[column_at[i]++] = k;
         }
     }
-    memmove(rows->begin + 1, rows->begin, (size_t)n * sizeof(sl_int));
-    memmove(columns->begin + 1, columns->begin, (size_t)n * sizeof(sl_int));
-    rows->begin[0] = columns->begin[0] = 0;
+    memmove(row_at + 1, row_at, (size_t)n * sizeof(sl_int));
+    memmove(column_at + 1, column_at, (size_t)n * sizeof(sl_int));
+    row_at[0] = column_at[0] = 0;
 }
 
 /* Hashes the pattern of A. Returns whether it is a pattern at all: positions ascending from 0 and
