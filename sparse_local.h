@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5686478c90e44a60
+ * FNV-1a of the lines after this comment, without the license: b7c612d5d29cea46
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,58 +34,58 @@
  *   3928 sort.h   3992 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4188 panel.h   4214 step.h   4292 pivot_rule.h   4366 front.h   4427 pairs.h
- *   4634 inverse_front.h   4706 table.h   4734 simd.h   4829 simd_scalar_single.h
- *   4875 simd_scalar.h   5013 simd_avx2_single.h   5067 simd_avx2.h   5308 simd_avx512_single.h
- *   5363 simd_avx512.h   5539 simd_neon_single.h   5581 simd_neon.h   5816 dispatch.h
+ *   4634 inverse_front.h   4706 table.h   4744 simd.h   4839 simd_scalar_single.h
+ *   4885 simd_scalar.h   5023 simd_avx2_single.h   5077 simd_avx2.h   5318 simd_avx512_single.h
+ *   5373 simd_avx512.h   5549 simd_neon_single.h   5591 simd_neon.h   5826 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5897 csc.h   6040 csc_build.h   6174 csc64.h   6245 csc_triangle.h   6310 csc_products.h
- *   6427 permute.h   6493 sum.h   6575 output_file.h   6784 matrix_market.h
+ *   5907 csc.h   6050 csc_build.h   6184 csc64.h   6255 csc_triangle.h   6320 csc_products.h
+ *   6437 permute.h   6503 sum.h   6585 output_file.h   6794 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7230 graph.h   7374 contract.h   7628 coarsen.h   7791 labels.h   8012 subgraph.h   8207 heap.h
- *   8267 bisect.h   8494 separator.h   8756 mindeg.h   8939 dissect.h   9263 tree_cost.h
- *   9315 levelset.h   9421 geometric.h   9596 cells.h   9776 septree.h   9852 metis.h
- *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 levels.h  10488 peel.h
- *  10694 quotient.h  11107 order.h
+ *   7240 graph.h   7384 contract.h   7638 coarsen.h   7801 labels.h   8022 subgraph.h   8217 heap.h
+ *   8277 bisect.h   8504 separator.h   8766 mindeg.h   8949 dissect.h   9273 tree_cost.h
+ *   9325 levelset.h   9431 geometric.h   9606 cells.h   9786 septree.h   9862 metis.h
+ *  10011 metis_refined.h  10125 nd.h  10325 compress.h  10446 levels.h  10498 peel.h
+ *  10704 quotient.h  11117 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11461 symbolic_types.h  11498 etree.h  11572 counts.h  11618 supernodes.h  11840 structure.h
- *  11993 schedule.h  12273 symbolic.h  12728 reach.h
+ *  11471 symbolic_types.h  11508 etree.h  11582 counts.h  11628 supernodes.h  11850 structure.h
+ *  12003 schedule.h  12283 symbolic.h  12738 reach.h
  * (factor: the numbers of L and D)
- *  12999 factor_types.h  13417 storage.h  13557 pivot_search.h  13903 pivoted.h  13971 scatter.h
- *  14129 uplooking.h  14201 null_product.h  14405 null_dense.h  14482 null_basis.h
- *  14790 null_vectors.h  14932 multifrontal.h  15126 gather.h  15174 kept.h  15344 front_tasks.h
- *  15687 nullspace.h  15890 growth.h  15966 factor_setup.h  16288 factor.h  16498 leftlooking.h
- *  16644 factor_query.h  16779 combination.h
+ *  13009 factor_types.h  13427 storage.h  13567 pivot_search.h  13913 pivoted.h  13981 scatter.h
+ *  14139 uplooking.h  14211 null_product.h  14415 null_dense.h  14492 null_basis.h
+ *  14800 null_vectors.h  14942 multifrontal.h  15136 gather.h  15184 kept.h  15354 front_tasks.h
+ *  15697 nullspace.h  15900 growth.h  15976 factor_setup.h  16298 factor.h  16508 leftlooking.h
+ *  16654 factor_query.h  16789 combination.h
  * (solve: full and local solves)
- *  16840 region_types.h  16944 work.h  17044 query.h  17260 singular.h  17530 backward.h
- *  17560 sweep_tasks.h  17891 sweep.h  18102 compile.h  18295 plan.h  18402 local.h  18554 parts.h
- *  18843 refine.h  19022 refine_local.h  19238 rcond.h  19397 defects.h
+ *  16850 region_types.h  16954 work.h  17054 query.h  17270 singular.h  17540 backward.h
+ *  17570 sweep_tasks.h  17901 sweep.h  18112 compile.h  18305 plan.h  18412 local.h  18564 parts.h
+ *  18853 refine.h  19032 refine_local.h  19248 rcond.h  19407 defects.h
  * (inverse: entries of the inverse, regions)
- *  19475 traversal.h  19724 traversal_run.h  19917 row_sets.h  19944 unit_vectors.h
- *  20171 bilinear.h  20348 entries.h  20630 block.h  20870 reserve.h  21062 selected.h
- *  21272 selected_query.h  21374 region_choose.h  21601 region.h
+ *  19485 traversal.h  19734 traversal_run.h  19927 row_sets.h  19954 unit_vectors.h
+ *  20181 bilinear.h  20358 entries.h  20640 block.h  20880 reserve.h  21072 selected.h
+ *  21282 selected_query.h  21384 region_choose.h  21611 region.h
  * (change: a factor that follows changes of its matrix)
- *  21849 update.h  22199 rank.h  22537 edges.h  22691 choose.h  22889 pins_types.h
- *  22967 pins_nulls.h  23145 pins_capacitance.h  23396 pins_held.h  23607 pins_choose.h
- *  23677 pins_rebuild.h  23892 pins_matrix.h  24043 pins.h  24303 pins_solve.h  24678 subset.h
- *  24799 restrict_analysis.h  25153 restrict_symbolic.h  25350 restrict.h  25572 edit_match.h
- *  25771 edit_place.h  26020 edit_separate.h  26333 edit_order.h  26488 edit_graph.h
- *  26583 edit_join.h  26859 edit.h  27022 edit_factor.h
+ *  21859 update.h  22200 path.h  22323 rank.h  22676 edges.h  22830 choose.h  23028 pins_types.h
+ *  23106 pins_nulls.h  23284 pins_capacitance.h  23535 pins_held.h  23746 pins_choose.h
+ *  23816 pins_rebuild.h  24031 pins_matrix.h  24182 pins.h  24442 pins_solve.h  24817 subset.h
+ *  24938 restrict_analysis.h  25292 restrict_symbolic.h  25489 restrict.h  25711 edit_match.h
+ *  25910 edit_place.h  26159 edit_separate.h  26472 edit_order.h  26627 edit_graph.h
+ *  26722 edit_join.h  26998 edit.h  27161 edit_factor.h
  * (save: factors in files)
- *  27321 format.h  27617 decode.h  27765 check.h  28095 write.h  28400 load.h  28668 load_inverse.h
- *  28998 load_calls.h
+ *  27460 format.h  27756 decode.h  27904 check.h  28234 write.h  28539 load.h  28807 load_inverse.h
+ *  29137 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29197 batch_solve.h  29406 batch_factor.h  29607 batch_diagonal.h
+ *  29336 batch_solve.h  29545 batch_factor.h  29746 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29747 hermitian.h  29909 complex_rows.h
+ *  29886 hermitian.h  30048 complex_rows.h
  * (last: undefine every internal macro)
- *  30077 undef.h
+ *  30216 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30339 front.inl.h  30341 product.inl.h  30852 words_undef.inl.h  30929 copy_rows.inl.h
- *  30967 multi_rhs.inl.h  30986 complex_groups.inl.h  31125 multi_rhs_small.inl.h
- *  31297 multi_rhs_tiles.inl.h  31566 sweeps.inl.h  31568 unit_triangle.inl.h  31605 two_rhs.inl.h
- *  31774 small_supernode.inl.h  31955 single_rhs.inl.h  32199 kernel_set.inl.h
- *  32201 complex_small.inl.h  32371 complex_rows.inl.h  32586 inverse_front.inl.h  32871 row.inl.h
- *  32901 change.inl.h  32965 interleave.inl.h  33096 lanes_undef.inl.h
+ *  30478 front.inl.h  30480 product.inl.h  30991 words_undef.inl.h  31068 copy_rows.inl.h
+ *  31106 multi_rhs.inl.h  31125 complex_groups.inl.h  31264 multi_rhs_small.inl.h
+ *  31436 multi_rhs_tiles.inl.h  31705 sweeps.inl.h  31707 unit_triangle.inl.h  31744 two_rhs.inl.h
+ *  31913 small_supernode.inl.h  32094 single_rhs.inl.h  32338 kernel_set.inl.h
+ *  32340 complex_small.inl.h  32510 complex_rows.inl.h  32725 inverse_front.inl.h  33010 row.inl.h
+ *  33040 change.inl.h  33192 interleave.inl.h  33323 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4708,8 +4708,18 @@ typedef void (*sli_inverse_phase_kernel)(const sli_inverse_front *f, sl_int j0,
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
 
 typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
-typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
-                    double *w);
+
+typedef struct sli_rank_one {
+  double *panel;
+  const double *D;
+  sl_int width, below, first_tile;
+  int is_trial;
+  double sum;
+  double *w;
+  double *b;
+  double *e;
+} sli_rank_one;
+typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
 
 typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
                 const double *M, size_t ldm, int is_streamed);
@@ -4727,8 +4737,8 @@ typedef struct sli_kernels {
   sli_gather_kernel gather;
   sli_inverse_phase_kernel inverse_phase;
   sli_takahashi_kernel takahashi;
-  sli_change_kernel change[SLI_NRHS_KINDS];
-  sli_change_tiles_kernel change_tiles;
+  sli_change_kernel change[SLI_NRHS_KINDS - 1];
+  sli_rank_one_kernel change_panel;
 } sli_kernels;
 
 /* src/impl/kernels/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
@@ -21872,8 +21882,13 @@ typedef struct sli_update {
   double *gain;
   double *local;
   double *c;
+  double *other, *b;
   double *trial, *scratch;
 } sli_update;
+
+SLI_INLINE int sli_update_kind(sl_int count) {
+  return count == 1 ? SLI_NRHS_2 : sli_lanes_kind(count);
+}
 
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
                 int has_trial) {
@@ -21883,7 +21898,9 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
   u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
   u->gain = SLI_TAKE(b, double, R->columns);
   u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
-  u->c = SLI_TAKE(b, double, 2 * many * (uint64_t)R->widest);
+  u->c = SLI_TAKE(b, double, 2 * many *SLI_TILE *(uint64_t)sli_tiles(R->widest));
+  u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
+  u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
   u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
   u->scratch =
     SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
@@ -22003,14 +22020,7 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     if (status != SL_OK) {
       return status;
     }
-    if (u->kind == SLI_NRHS_1) {
-      for (i = j + 1; i < SLI_TILE; i++) {
-        w[i] -= l[i] * at[0];
-        l[i] -= w[i] * at[1];
-      }
-      continue;
-    }
-    u->F->kernels->change[u->kind](l, 1, at, w);
+    u->F->kernels->change[u->kind - 1](l, 1, at, w);
     for (i = 0; i <= j; i++) {
       l[i] = 0.0;
     }
@@ -22018,23 +22028,13 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   return SL_OK;
 }
 
-static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0, sl_int t1,
-              sl_int from, sl_int to) {
+static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
+              sl_int to) {
   const sl_int entered = step->first_tile;
-  const double *c = u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered);
-  double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t0 - entered), *tiles[4];
-  sl_int t;
-  for (t = t0; t < t1; t++) {
-    tiles[t - t0] =
-      (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
-  }
-  if (u->kind == SLI_NRHS_1 && t1 - t0 == 4) {
-    u->F->kernels->change_tiles(tiles, to - from, c, w);
-    return;
-  }
-  for (t = t0; t < t1; t++, w += SLI_TILE * (ptrdiff_t)u->lanes) {
-    u->F->kernels->change[u->kind](tiles[t - t0], to - from, c, w);
-  }
+  u->F->kernels->change[u->kind - 1](
+    (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
+    to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+    u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 static void sli_update_gather(const sli_update *u, const sli_step *step, const sl_int *rows) {
@@ -22097,29 +22097,30 @@ static void sli_update_extent(sli_update *u, const sli_step *step) {
   u->growth = fmax(u->growth, extent->magnitude);
 }
 
+#define SLI_UPDATE_COLUMNS 16
+
 static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
   const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
   const sl_int tiles = sli_tiles(step->width + step->below);
-  sl_int t0, t1, t;
+  sl_int c0, c1, t;
   sli_update_gather(u, step, rows);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, -1.0);
   }
-  for (t0 = entered; t0 < tiles; t0 = t1) {
-    t1 = sli_min(t0 + 4, tiles);
-    if (t0 > entered) {
-      sli_update_rows(u, step, t0, t1, SLI_TILE * entered,
-              sli_min(SLI_TILE * t0, step->width));
-    }
-    for (t = t0; t < sli_min(t1, wide); t++) {
-      const sl_status status = sli_update_tile(
-        u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+  for (c0 = entered; c0 < wide; c0 = c1) {
+    c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
+    for (t = c0; t < tiles; t++) {
+      sl_status status = SL_OK;
+      if (t > c0) {
+        sli_update_rows(u, step, t, SLI_TILE * c0,
+                sli_min(SLI_TILE * sli_min(t, c1), step->width));
+      }
+      if (t < c1) {
+        status = sli_update_tile(
+          u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+      }
       if (status != SL_OK) {
         return status;
-      }
-      if (t + 1 < t1) {
-        sli_update_rows(u, step, t + 1, t1, SLI_TILE * t,
-                sli_min(SLI_TILE * (t + 1), step->width));
       }
     }
   }
@@ -22144,7 +22145,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   const sl_csc *V = u->V;
   sl_int r, p;
   u->ranks = count;
-  u->kind = sli_lanes_kind(count);
+  u->kind = sli_update_kind(count);
   u->lanes = (sl_int)1 << u->kind;
   u->most = u->entry = u->growth = 0.0;
   memset(u->U, 0, sizeof u->U);
@@ -22193,6 +22194,129 @@ static sl_status sli_update_run(sli_update *u) {
     status = sli_update_step(u, &u->R.steps[s], rows);
     rows += u->R.steps[s].below;
   }
+  return status;
+}
+
+/* src/impl/change/path.h: rank-one changes, supernode by supernode on one path */
+
+static double sli_path_load(const sli_update *u, sl_int v, sl_int s, double *w) {
+  const sl_symbolic *S = u->F->S;
+  const sl_csc *V = u->V;
+  const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v], scale = sqrt(fabs(sigma));
+  const sli_step *step = &S->steps[s];
+  sl_int p;
+  memset(w, 0, SLI_TILE * (size_t)sli_tiles(step->width + step->below) * sizeof *w);
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    const sl_int k = S->iperm[V->i[p]];
+    if (V->x[p] != 0.0) {
+      const sl_int at =
+        k < step->column + step->width
+          ? k - step->column
+          : step->width + sli_lower_bound(S->rows + S->rows_begin[s], step->below, k);
+      w[at] += scale * V->x[p];
+    }
+  }
+  return sigma < 0.0 ? -1.0 : 1.0;
+}
+
+static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
+  const sl_symbolic *S = u->F->S;
+  const sl_csc *V = u->V;
+  sli_extent *extent = &u->F->extents[s];
+  const double weight = u->sign * (u->sigma == NULL ? 1.0 : u->sigma[v]);
+  double most = 0.0;
+  sl_int p, found = 0;
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    const sl_int k = S->iperm[V->i[p]];
+    if (S->super_of[k] == s) {
+      const double gain = weight * V->x[p] * V->x[p];
+      found++;
+      if (gain > most) {
+        most = gain;
+        extent->pivot = k;
+      }
+    }
+  }
+  extent->magnitude += 2.0 * most;
+  extent->entry += most;
+  return found;
+}
+
+static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s) {
+  sl_factor *F = u->F;
+  sl_factor_info *info = &F->stats.factor;
+  const double known = F->extents[s].magnitude, tolerance = F->rule.null_tolerance;
+  double *D = F->D + F->S->super_first[s], least = info->pivot_min, most = info->pivot_max;
+  sl_status status = SL_OK;
+  sl_int j;
+  for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
+    const double d = D[j], e = one->e[j], size = fabs(e);
+    const double magnitude = fabs(d) + fabs(e - d);
+    if (e * u->sign >= DBL_MIN && size <= DBL_MAX &&
+      (size >= fabs(d) || u->is_tried || !sli_is_null(e, magnitude + known, tolerance))) {
+      if (!u->is_trial) {
+        u->most = magnitude > u->most ? magnitude : u->most;
+        least = size < least ? size : least;
+        most = size > most ? size : most;
+        D[j] = e;
+      }
+    } else {
+      status = sli_update_take(u, F->S->super_first[s] + j, e, magnitude);
+    }
+  }
+  info->pivot_min = fmin(least, info->pivot_min);
+  info->pivot_max = fmax(most, info->pivot_max);
+  return status;
+}
+
+static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
+  sl_factor *F = u->F;
+  const sl_symbolic *S = F->S;
+  sl_int s = S->super_of[sli_key(seed)], i, rest;
+  const sl_int v = sli_value(seed);
+  double *w = u->local, *next = u->other, *last;
+  sl_status status = SL_OK;
+  sli_rank_one one;
+  one.is_trial = u->is_trial = is_trial;
+  one.sum = -sli_path_load(u, v, s, w);
+  one.e = u->c;
+  one.b = u->b;
+  one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
+  u->most = u->entry = u->growth = 0.0;
+  for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
+    const sli_step *step = &S->steps[s];
+    const sl_int *to = S->relative + S->rows_begin[s];
+    one.panel = (double *)F->values + step->panel;
+    one.D = F->D + step->column;
+    one.width = step->width;
+    one.below = step->below;
+    one.w = w;
+    F->kernels->change_panel(&one);
+    status = sli_path_take(u, &one, s);
+    if (!is_trial) {
+      rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
+      u->entry = fmax(u->entry, F->extents[s].entry);
+      u->growth = fmax(u->growth, F->extents[s].magnitude);
+      if (F->marks != NULL) {
+        F->marks[s] = 0;
+      }
+    }
+    if (S->super_parent[s] != -1) {
+      const sli_step *up = &S->steps[S->super_parent[s]];
+      one.first_tile = to[0] / SLI_TILE;
+      memset(next + SLI_TILE * one.first_tile, 0,
+           SLI_TILE * (size_t)(sli_tiles(up->width + up->below) - one.first_tile) *
+             sizeof *next);
+      for (i = 0; i < step->below; i++) {
+        next[to[i]] = w[step->width + i];
+      }
+      last = w;
+      w = next;
+      next = last;
+    }
+  }
+  u->is_trial = 0;
+  u->is_tried = is_trial && status == SL_OK;
   return status;
 }
 
@@ -22271,6 +22395,10 @@ static void sli_rank_layout_seeds(void *data, sli_block *b) {
 
 SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
   return sli_min(k + SLI_TILE, q->count);
+}
+
+SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
+  return count == 1 && q->u.sign != 0.0;
 }
 
 static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
@@ -22355,7 +22483,12 @@ static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_
 static void sli_rank_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   const sl_symbolic *S = q->u.F->S;
-  sli_update_layout(&q->u, b, &q->whole, (sl_int)1 << sli_lanes_kind(sli_min(q->count, 8)),
+  sli_reach R = q->whole;
+  if (sli_rank_is_path(q, q->count) && !q->has_log) {
+    R.count = R.columns = 0;
+    R.n_rows = 0;
+  }
+  sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
             q->has_trial);
   if (q->has_log) {
     q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
@@ -22414,12 +22547,18 @@ static sl_status sli_rank_passes(sli_rank *q) {
   for (k = 0; k < q->count && status == SL_OK; k = last) {
     last = sli_rank_pass(q, k);
     sli_rank_group(q, k, last, group, seeds);
-    sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
-    sli_update_load(&q->u, group, last - k);
-    sli_rank_unmark(F, q->u.steps, q->u.R.count);
-    status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
-    q->is_changed |= status == SL_OK;
-    status = status == SL_OK ? sli_update_run(&q->u) : status;
+    if (sli_rank_is_path(q, last - k)) {
+      status = q->has_trial ? sli_path_run(&q->u, seeds[0], 1) : SL_OK;
+      q->is_changed |= status == SL_OK;
+      status = status == SL_OK ? sli_path_run(&q->u, seeds[0], 0) : status;
+    } else {
+      sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
+      sli_update_load(&q->u, group, last - k);
+      sli_rank_unmark(F, q->u.steps, q->u.R.count);
+      status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
+      q->is_changed |= status == SL_OK;
+      status = status == SL_OK ? sli_update_run(&q->u) : status;
+    }
     if (status == SL_OK) {
       const double scale = fmax(info->entry_max, q->u.entry);
       const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
@@ -32898,7 +33037,7 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   *magnitude = size;
 }
 /* end of row.inl.h */
-/* src/impl/kernels/change.inl.h: rank-k change of the rows of a panel, for 1, 2, 4 and 8 vectors */
+/* src/impl/kernels/change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
 
 #define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
 #define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
@@ -32918,45 +33057,133 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
     for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
       SLV_LOAD_PINNED(a, l) \
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
       each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) \
       SLV_STORE(l, a) \
     } \
     each(SLI_STORE, 0) \
   }
-#define SLI_EACH1(op, k) op(0, k)
 #define SLI_EACH2(op, k) op(0, k) op(1, k)
 
-SLI_CHANGE_KERNEL(change1, 1, SLI_EACH1)
 SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
 SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
 SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
+#define SLI_POINT(t, unused) double *const l##t = tiles[t];
 #define SLI_CHANGE(t, unused) \
-  SLV_LOAD_PINNED(a, l##t + at) \
-  SLV_FNMA(w##t, a, y) \
-  SLV_FNMA(a, w##t, b) \
-  SLV_STORE(l##t + at, a)
-SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int columns,
-                        const double *c, double *w) {
-  double *const l0 = tiles[0], *const l1 = tiles[1], *const l2 = tiles[2], *const l3 = tiles[3];
-  ptrdiff_t at;
-  SLV_DECLARE(a)
-  SLV_DECLARE(y)
-  SLV_DECLARE(b)
-  SLI_EACH4(SLI_DECLARE, 0)
-  SLI_EACH4(SLI_LOAD, 0)
-  for (at = 0; at < SLI_TILE * (ptrdiff_t)columns; at += SLI_TILE, c += 2) {
-    SLV_BROADCAST(y, c)
-    SLV_BROADCAST(b, c + 1)
-    SLI_EACH4(SLI_CHANGE, 0)
+  SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
+  SLV_FNMA(w##t, a, s) \
+  if (!is_trial) { \
+    SLV_FNMA(a, w##t, r) \
+    SLV_STORE(l##t + SLI_TILE * j, a) \
   }
-  SLI_EACH4(SLI_STORE, 0)
-}
-#undef SLI_CHANGE
-#undef SLI_CHANGE_KERNEL
+#define SLI_TILES_KERNEL(name, each) \
+  SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
+                        ptrdiff_t last, const double *y, const double *b, \
+                        double *w, int is_trial) { \
+    ptrdiff_t j; \
+    SLV_DECLARE(a) \
+    SLV_DECLARE(s) \
+    SLV_DECLARE(r) \
+    each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
+    for (j = first; j < last; j++) { \
+      SLV_BROADCAST(s, y + j) \
+      SLV_BROADCAST(r, b + j) \
+      each(SLI_CHANGE, 0) \
+    } \
+    each(SLI_STORE, 0) \
+  }
+#define SLI_EACH1(op, k) op(0, k)
+SLI_TILES_KERNEL(change_tile, SLI_EACH1)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #undef SLI_EACH1
+#undef SLI_POINT
+#undef SLI_CHANGE
+#undef SLI_TILES_KERNEL
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
+                           double *e, double *b, double *w, double *sum,
+                           int is_trial) {
+  SLI_ALIGNED(double before[SLI_TILE]);
+  SLI_ALIGNED(double after[SLI_TILE]);
+  sl_int k;
+  SLV_DECLARE(x)
+  SLV_DECLARE(y)
+  SLV_DECLARE(q)
+  SLV_DECLARE(s)
+  SLV_LOAD(x, w)
+  if (columns == SLI_TILE) {
+    SLV_SWEEP(tile_forward)(l, w);
+  } else {
+    SLV_LOAD(y, w)
+    for (k = 0; k < columns; k++) {
+      SLV_AXPY(y, l + SLI_TILE * k, w + k)
+      SLV_STORE(w, y)
+    }
+  }
+  SLV_LOAD_PART(y, w, columns, 0.0)
+  SLV_LOAD_PART(s, d, columns, 1.0)
+  SLV_DIVIDE(q, y, s)
+  SLV_MULTIPLY(y, y, q)
+  SLV_STORE(after, y)
+  for (k = 0; k < SLI_TILE; k++) {
+    before[k] = *sum;
+    after[k] = *sum -= after[k];
+  }
+  SLV_LOAD(y, after)
+  SLV_DIVIDE(q, q, y)
+  SLV_STORE(b, q)
+  SLV_LOAD(q, before)
+  SLV_DIVIDE(y, y, q)
+  SLV_MULTIPLY(s, s, y)
+  SLV_STORE(e, s)
+  for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
+    SLV_LOAD_PINNED(y, l)
+    SLV_BROADCAST(s, w + k)
+    SLV_FNMA(x, y, s)
+    SLV_BROADCAST(s, b + k)
+    SLV_FNMA(y, x, s)
+    SLV_BELOW(y, k)
+    SLV_STORE(l, y)
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
+  const sl_int width = u->width, first = SLI_TILE * u->first_tile;
+  const sl_int tiles = sli_tiles(width + u->below);
+  double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[4];
+  double *const w = u->w, *const b = u->b;
+  sl_int t0 = u->first_tile, count, t, k;
+  for (; t0 < tiles; t0 += count) {
+    const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
+    count = sli_min(tiles - t0, 4);
+    for (t = 0; t < count; t++) {
+      at[t] = l;
+      l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
+    }
+    if (count == 4) {
+      SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
+    } else {
+      for (t = 0; t < count; t++) {
+        SLV_NAME(change_tile)
+        (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+      }
+    }
+    for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
+      const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
+      SLV_NAME(change_pivots)
+      (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum,
+       u->is_trial);
+      for (k = t + 1; k < count; k++) {
+        SLV_NAME(change_tile)
+        (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+      }
+    }
+  }
+}
+#undef SLI_CHANGE_KERNEL
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -33082,8 +33309,8 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(gather),
   SLV_NAME(inverse_phase),
   SLV_NAME(takahashi),
-  {SLV_NAME(change1), SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
-  SLV_NAME(change_tiles)};
+  {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+  SLV_NAME(change_panel)};
 #endif
 
 #ifdef SLI_SECTION_LANES_UNDEF

@@ -161,6 +161,7 @@ extern "C" {
 #include "impl/inverse/region.h"
 /* change: a factor that follows changes of its matrix */
 #include "impl/change/update.h"
+#include "impl/change/path.h"
 #include "impl/change/rank.h"
 #include "impl/change/edges.h"
 #include "impl/change/choose.h"

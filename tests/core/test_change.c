@@ -186,6 +186,37 @@ static void vectors_give_the_factor_of_the_new_matrix(void **state) {
     }
 }
 
+/* One vector through a panel of many tiles, entered at any row, with weights of both signs. */
+static void one_vector_changes_a_wide_panel(void **state) {
+    (void)state;
+    isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        for (sl_int n = 61; n < 75; n++) {
+            sl_options opt = options_none();
+            opt.isa = isas.isa[k];
+            changed_t c = changed_make(GEN_DENSE, n, n % 2 ? 1 : -1, &opt);
+            const sl_int *perm = sl_symbolic_view(c.y.S).perm;
+            for (sl_int first = 0; first < n; first += 7) {
+                sl_int p[2] = {0, n - first}, i[75];
+                double x[75], sigma = (first % 2 ? 0.5 : -0.01) * (n % 2 ? 1.0 : -1.0);
+                gen_reals(x, 75, (uint64_t)first + 3);
+                for (sl_int m = 0; m < n - first; m++) {
+                    i[m] = perm[first + m];
+                }
+                for (sl_int a = 0; a < n - first; a++) {
+                    for (sl_int b = 0; b < n - first; b++) {
+                        c.dense[i[a] * n + i[b]] += sigma * x[a] * x[b];
+                    }
+                }
+                sl_csc V = {n, 1, p, i, x};
+                SL_CHECK(sl_factor_update(c.y.F, &V, &sigma, NULL, NULL));
+                assert_true(changed_error(&c) <= 1e-14);
+            }
+            changed_free(&c);
+        }
+    }
+}
+
 static void an_update_and_its_downdate_return(void **state) {
     (void)state;
     isa_list_t isas = isas_present();
@@ -516,6 +547,7 @@ int main(void) {
         cmocka_unit_test(changed_entries_give_the_factor_of_the_new_matrix),
         cmocka_unit_test(ranks_are_as_few_as_the_edges),
         cmocka_unit_test(vectors_give_the_factor_of_the_new_matrix),
+        cmocka_unit_test(one_vector_changes_a_wide_panel),
         cmocka_unit_test(an_update_and_its_downdate_return),
         cmocka_unit_test(a_lost_definiteness_is_refused_and_undone),
         cmocka_unit_test(a_factor_that_becomes_singular_is_refused),

@@ -4,7 +4,7 @@
 
 #include "../../public/change.h"
 #include "../solve/work.h"
-#include "update.h"
+#include "path.h"
 
 /* A rank-k change in progress. */
 typedef struct sli_rank {
@@ -85,6 +85,11 @@ static void sli_rank_layout_seeds(void *data, sli_block *b) {
 /* The end of the pass that begins with vector k. */
 SLI_INLINE sl_int sli_rank_pass(const sli_rank *q, sl_int k) {
     return sli_min(k + SLI_TILE, q->count);
+}
+
+/* Is a pass of `count` vectors one path through the tree? */
+SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
+    return count == 1 && q->u.sign != 0.0;
 }
 
 /* Lists the vectors of a pass, updates first, and its seeds. */
@@ -174,7 +179,12 @@ static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_
 static void sli_rank_layout(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
     const sl_symbolic *S = q->u.F->S;
-    sli_update_layout(&q->u, b, &q->whole, (sl_int)1 << sli_lanes_kind(sli_min(q->count, 8)),
+    sli_reach R = q->whole;
+    if (sli_rank_is_path(q, q->count) && !q->has_log) {
+        R.count = R.columns = 0;
+        R.n_rows = 0;
+    }
+    sli_update_layout(&q->u, b, &R, (sl_int)1 << sli_update_kind(sli_min(q->count, 8)),
                       q->has_trial);
     if (q->has_log) {
         q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
@@ -237,12 +247,18 @@ static sl_status sli_rank_passes(sli_rank *q) {
     for (k = 0; k < q->count && status == SL_OK; k = last) {
         last = sli_rank_pass(q, k);
         sli_rank_group(q, k, last, group, seeds);
-        sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
-        sli_update_load(&q->u, group, last - k);
-        sli_rank_unmark(F, q->u.steps, q->u.R.count);
-        status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
-        q->is_changed |= status == SL_OK;
-        status = status == SL_OK ? sli_update_run(&q->u) : status;
+        if (sli_rank_is_path(q, last - k)) {
+            status = q->has_trial ? sli_path_run(&q->u, seeds[0], 1) : SL_OK;
+            q->is_changed |= status == SL_OK;
+            status = status == SL_OK ? sli_path_run(&q->u, seeds[0], 0) : status;
+        } else {
+            sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
+            sli_update_load(&q->u, group, last - k);
+            sli_rank_unmark(F, q->u.steps, q->u.R.count);
+            status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
+            q->is_changed |= status == SL_OK;
+            status = status == SL_OK ? sli_update_run(&q->u) : status;
+        }
         if (status == SL_OK) {
             const double scale = fmax(info->entry_max, q->u.entry);
             const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;

@@ -40,8 +40,15 @@ typedef struct sli_update {
     double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
     double *local;           /* [tile][lane][8]: the rows of the current step */
     double *c;               /* 2 lanes for each column of the current step: y and -b */
+    double *other, *b;       /* of one vector: the rows of the next step, and b of the columns */
     double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
 } sli_update;
+
+/* The kernel for passes of `count` vectors. One vector takes another way (path.h) where all pivots
+ * have one sign. */
+SLI_INLINE int sli_update_kind(sl_int count) {
+    return count == 1 ? SLI_NRHS_2 : sli_lanes_kind(count);
+}
 
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
                               int has_trial) {
@@ -51,7 +58,9 @@ static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, s
     u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
     u->gain = SLI_TAKE(b, double, R->columns);
     u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
-    u->c = SLI_TAKE(b, double, 2 * many * (uint64_t)R->widest);
+    u->c = SLI_TAKE(b, double, 2 * many *SLI_TILE *(uint64_t)sli_tiles(R->widest));
+    u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
+    u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
     u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
     u->scratch =
         SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
@@ -178,14 +187,7 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
         if (status != SL_OK) {
             return status;
         }
-        if (u->kind == SLI_NRHS_1) {
-            for (i = j + 1; i < SLI_TILE; i++) {
-                w[i] -= l[i] * at[0];
-                l[i] -= w[i] * at[1];
-            }
-            continue;
-        }
-        u->F->kernels->change[u->kind](l, 1, at, w);
+        u->F->kernels->change[u->kind - 1](l, 1, at, w);
         for (i = 0; i <= j; i++) { /* the kernel has changed the part above the diagonal, too */
             l[i] = 0.0;
         }
@@ -193,24 +195,14 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     return SL_OK;
 }
 
-/* Applies columns from .. to-1 to row tiles t0 .. t1-1, at most 4 of them. */
-static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t0, sl_int t1,
-                            sl_int from, sl_int to) {
+/* Applies columns from .. to-1 to row tile t. */
+static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
+                            sl_int to) {
     const sl_int entered = step->first_tile;
-    const double *c = u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered);
-    double *w = u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t0 - entered), *tiles[4];
-    sl_int t;
-    for (t = t0; t < t1; t++) {
-        tiles[t - t0] =
-            (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from);
-    }
-    if (u->kind == SLI_NRHS_1 && t1 - t0 == 4) {
-        u->F->kernels->change_tiles(tiles, to - from, c, w);
-        return;
-    }
-    for (t = t0; t < t1; t++, w += SLI_TILE * (ptrdiff_t)u->lanes) {
-        u->F->kernels->change[u->kind](tiles[t - t0], to - from, c, w);
-    }
+    u->F->kernels->change[u->kind - 1](
+        (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
+        to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+        u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 /* Moves the rows of a step between the compact vector and the tiles: into the tiles, or the rows
@@ -278,30 +270,32 @@ static void sli_update_extent(sli_update *u, const sli_step *step) {
     u->growth = fmax(u->growth, extent->magnitude);
 }
 
+/* Column tiles that are applied to all rows together: so their y and b stay in the first cache. */
+#define SLI_UPDATE_COLUMNS 16
+
 /* Changes the columns of one step. On failure some of them are changed. */
 static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_int *rows) {
     const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
     const sl_int tiles = sli_tiles(step->width + step->below);
-    sl_int t0, t1, t;
+    sl_int c0, c1, t;
     sli_update_gather(u, step, rows);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, -1.0);
     }
-    for (t0 = entered; t0 < tiles; t0 = t1) {
-        t1 = sli_min(t0 + 4, tiles);
-        if (t0 > entered) {
-            sli_update_rows(u, step, t0, t1, SLI_TILE * entered,
-                            sli_min(SLI_TILE * t0, step->width));
-        }
-        for (t = t0; t < sli_min(t1, wide); t++) {
-            const sl_status status = sli_update_tile(
-                u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+    for (c0 = entered; c0 < wide; c0 = c1) {
+        c1 = sli_min(c0 + SLI_UPDATE_COLUMNS, wide);
+        for (t = c0; t < tiles; t++) {
+            sl_status status = SL_OK;
+            if (t > c0) {
+                sli_update_rows(u, step, t, SLI_TILE * c0,
+                                sli_min(SLI_TILE * sli_min(t, c1), step->width));
+            }
+            if (t < c1) {
+                status = sli_update_tile(
+                    u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+            }
             if (status != SL_OK) {
                 return status;
-            }
-            if (t + 1 < t1) {
-                sli_update_rows(u, step, t + 1, t1, SLI_TILE * t,
-                                sli_min(SLI_TILE * (t + 1), step->width));
             }
         }
     }
@@ -328,7 +322,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     const sl_csc *V = u->V;
     sl_int r, p;
     u->ranks = count;
-    u->kind = sli_lanes_kind(count);
+    u->kind = sli_update_kind(count);
     u->lanes = (sl_int)1 << u->kind;
     u->most = u->entry = u->growth = 0.0;
     memset(u->U, 0, sizeof u->U);

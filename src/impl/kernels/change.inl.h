@@ -1,4 +1,4 @@
-/* change.inl.h: rank-k change of the rows of a panel, for 1, 2, 4 and 8 vectors */
+/* change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
 
 /* Row tile by row tile: w(r) -= l y(r), then l += sum over r of b(r) w(r). All w(r) need the old l,
  * so that they do not wait for each other. c: y(0) .. y(k-1), -b(0) .. -b(k-1) of each column. */
@@ -20,46 +20,138 @@
         each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
         for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
             SLV_LOAD_PINNED(a, l) \
+            SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
             each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) \
             SLV_STORE(l, a) \
         } \
         each(SLI_STORE, 0) \
     }
-#define SLI_EACH1(op, k) op(0, k)
 #define SLI_EACH2(op, k) op(0, k) op(1, k)
 
-SLI_CHANGE_KERNEL(change1, 1, SLI_EACH1)
 SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
 SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
 SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
-/* One vector and four row tiles, whose chains of w overlap. */
+/* One vector and columns first .. last-1 of one row tile, or of four, whose chains of w overlap:
+ * w -= l y, then l += b w. A trial leaves L alone. */
+#define SLI_POINT(t, unused) double *const l##t = tiles[t];
 #define SLI_CHANGE(t, unused) \
-    SLV_LOAD_PINNED(a, l##t + at) \
-    SLV_FNMA(w##t, a, y) \
-    SLV_FNMA(a, w##t, b) \
-    SLV_STORE(l##t + at, a)
-SLV_FUNCTION static void SLV_NAME(change_tiles)(double *const *tiles, sl_int columns,
-                                                const double *c, double *w) {
-    double *const l0 = tiles[0], *const l1 = tiles[1], *const l2 = tiles[2], *const l3 = tiles[3];
-    ptrdiff_t at;
-    SLV_DECLARE(a)
-    SLV_DECLARE(y)
-    SLV_DECLARE(b)
-    SLI_EACH4(SLI_DECLARE, 0)
-    SLI_EACH4(SLI_LOAD, 0)
-    for (at = 0; at < SLI_TILE * (ptrdiff_t)columns; at += SLI_TILE, c += 2) {
-        SLV_BROADCAST(y, c)
-        SLV_BROADCAST(b, c + 1)
-        SLI_EACH4(SLI_CHANGE, 0)
+    SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
+    SLV_FNMA(w##t, a, s) \
+    if (!is_trial) { \
+        SLV_FNMA(a, w##t, r) \
+        SLV_STORE(l##t + SLI_TILE * j, a) \
     }
-    SLI_EACH4(SLI_STORE, 0)
-}
-#undef SLI_CHANGE
-#undef SLI_CHANGE_KERNEL
+#define SLI_TILES_KERNEL(name, each) \
+    SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
+                                                ptrdiff_t last, const double *y, const double *b, \
+                                                double *w, int is_trial) { \
+        ptrdiff_t j; \
+        SLV_DECLARE(a) \
+        SLV_DECLARE(s) \
+        SLV_DECLARE(r) \
+        each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
+        for (j = first; j < last; j++) { \
+            SLV_BROADCAST(s, y + j) \
+            SLV_BROADCAST(r, b + j) \
+            each(SLI_CHANGE, 0) \
+        } \
+        each(SLI_STORE, 0) \
+    }
+#define SLI_EACH1(op, k) op(0, k)
+SLI_TILES_KERNEL(change_tile, SLI_EACH1)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #undef SLI_EACH1
+#undef SLI_POINT
+#undef SLI_CHANGE
+#undef SLI_TILES_KERNEL
+
+/* The pivots of one column tile. y is what a forward sweep makes of w, whatever the pivots become;
+ * with q = y / d and the sums g of y q, the new pivots are d g(after) / g(before), and
+ * b = q / g(after). So there is no chain of divisions. l: diagonal part of the tile. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
+                                                     double *e, double *b, double *w, double *sum,
+                                                     int is_trial) {
+    SLI_ALIGNED(double before[SLI_TILE]);
+    SLI_ALIGNED(double after[SLI_TILE]);
+    sl_int k;
+    SLV_DECLARE(x)
+    SLV_DECLARE(y)
+    SLV_DECLARE(q)
+    SLV_DECLARE(s)
+    SLV_LOAD(x, w)
+    if (columns == SLI_TILE) {
+        SLV_SWEEP(tile_forward)(l, w);
+    } else {
+        SLV_LOAD(y, w)
+        for (k = 0; k < columns; k++) {
+            SLV_AXPY(y, l + SLI_TILE * k, w + k)
+            SLV_STORE(w, y)
+        }
+    }
+    SLV_LOAD_PART(y, w, columns, 0.0)
+    SLV_LOAD_PART(s, d, columns, 1.0)
+    SLV_DIVIDE(q, y, s)
+    SLV_MULTIPLY(y, y, q)
+    SLV_STORE(after, y)
+    for (k = 0; k < SLI_TILE; k++) {
+        before[k] = *sum;
+        after[k] = *sum -= after[k];
+    }
+    SLV_LOAD(y, after)
+    SLV_DIVIDE(q, q, y)
+    SLV_STORE(b, q)
+    SLV_LOAD(q, before)
+    SLV_DIVIDE(y, y, q)
+    SLV_MULTIPLY(s, s, y)
+    SLV_STORE(e, s)
+    for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
+        SLV_LOAD_PINNED(y, l)
+        SLV_BROADCAST(s, w + k)
+        SLV_FNMA(x, y, s)
+        SLV_BROADCAST(s, b + k)
+        SLV_FNMA(y, x, s)
+        SLV_BELOW(y, k)
+        SLV_STORE(l, y)
+    }
+}
+
+SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
+    const sl_int width = u->width, first = SLI_TILE * u->first_tile;
+    const sl_int tiles = sli_tiles(width + u->below);
+    double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[4];
+    double *const w = u->w, *const b = u->b;
+    sl_int t0 = u->first_tile, count, t, k;
+    for (; t0 < tiles; t0 += count) {
+        const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
+        count = sli_min(tiles - t0, 4);
+        for (t = 0; t < count; t++) {
+            at[t] = l;
+            l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
+        }
+        if (count == 4) {
+            SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
+        } else {
+            for (t = 0; t < count; t++) {
+                SLV_NAME(change_tile)
+                (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+            }
+        }
+        for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
+            const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
+            SLV_NAME(change_pivots)
+            (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum,
+             u->is_trial);
+            for (k = t + 1; k < count; k++) {
+                SLV_NAME(change_tile)
+                (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+            }
+        }
+    }
+}
+#undef SLI_CHANGE_KERNEL
 #undef SLI_EACH2
 #undef SLI_DECLARE
 #undef SLI_LOAD

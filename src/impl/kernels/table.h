@@ -12,12 +12,24 @@
  * arrays are 64-byte aligned. */
 typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
 
-/* Changes the `columns` columns of one row tile l by k = 1, 2, 4 or 8 vectors: w(r) -= l y(r), then
+/* Changes the `columns` columns of one row tile l by k = 2, 4 or 8 vectors: w(r) -= l y(r), then
  * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
 typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
-/* The same for k = 1 and four row tiles. w: [4][8] */
-typedef void (*sli_change_tiles_kernel)(double *const *tiles, sl_int columns, const double *c,
-                                        double *w);
+
+/* The change of a panel by one vector w w'/s, from a row tile on. On entry `sum` is -s, on return
+ * what is left of it for the rows below. w, b, e: 64-byte aligned, by local rows, up to a multiple
+ * of 8. */
+typedef struct sli_rank_one {
+    double *panel;
+    const double *D; /* of its columns */
+    sl_int width, below, first_tile;
+    int is_trial; /* computes the pivots alone */
+    double sum;
+    double *w; /* the vector; on return y, and what is left below */
+    double *b; /* scratch */
+    double *e; /* the new pivots */
+} sli_rank_one;
+typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
 
 /* Copies rows 0 .. count-1 of 8 columns of M, ldm apart, to v + index[k] stride, and back. v is
  * 64-byte aligned, stride is a multiple of 8. is_streamed: v is not read before it would have left
@@ -38,8 +50,8 @@ typedef struct sli_kernels {
     sli_gather_kernel gather;
     sli_inverse_phase_kernel inverse_phase;
     sli_takahashi_kernel takahashi;
-    sli_change_kernel change[SLI_NRHS_KINDS];
-    sli_change_tiles_kernel change_tiles;
+    sli_change_kernel change[SLI_NRHS_KINDS - 1]; /* from 2 vectors on */
+    sli_rank_one_kernel change_panel;
 } sli_kernels;
 
 #endif
