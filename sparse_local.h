@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b7c612d5d29cea46
+ * FNV-1a of the lines after this comment, without the license: 52824cc587899f7a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,45 +47,45 @@
  *  10011 metis_refined.h  10125 nd.h  10325 compress.h  10446 levels.h  10498 peel.h
  *  10704 quotient.h  11117 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11471 symbolic_types.h  11508 etree.h  11582 counts.h  11628 supernodes.h  11850 structure.h
- *  12003 schedule.h  12283 symbolic.h  12738 reach.h
+ *  11471 symbolic_types.h  11508 etree.h  11582 counts.h  11628 supernodes.h  11869 structure.h
+ *  12022 schedule.h  12302 symbolic.h  12758 reach.h
  * (factor: the numbers of L and D)
- *  13009 factor_types.h  13427 storage.h  13567 pivot_search.h  13913 pivoted.h  13981 scatter.h
- *  14139 uplooking.h  14211 null_product.h  14415 null_dense.h  14492 null_basis.h
- *  14800 null_vectors.h  14942 multifrontal.h  15136 gather.h  15184 kept.h  15354 front_tasks.h
- *  15697 nullspace.h  15900 growth.h  15976 factor_setup.h  16298 factor.h  16508 leftlooking.h
- *  16654 factor_query.h  16789 combination.h
+ *  13029 factor_types.h  13447 storage.h  13587 pivot_search.h  13933 pivoted.h  14001 scatter.h
+ *  14159 uplooking.h  14231 null_product.h  14435 null_dense.h  14512 null_basis.h
+ *  14820 null_vectors.h  14962 multifrontal.h  15156 gather.h  15204 kept.h  15374 front_tasks.h
+ *  15717 nullspace.h  15920 growth.h  15996 factor_setup.h  16318 factor.h  16528 leftlooking.h
+ *  16674 factor_query.h  16809 combination.h
  * (solve: full and local solves)
- *  16850 region_types.h  16954 work.h  17054 query.h  17270 singular.h  17540 backward.h
- *  17570 sweep_tasks.h  17901 sweep.h  18112 compile.h  18305 plan.h  18412 local.h  18564 parts.h
- *  18853 refine.h  19032 refine_local.h  19248 rcond.h  19407 defects.h
+ *  16870 region_types.h  16974 work.h  17074 query.h  17290 singular.h  17560 backward.h
+ *  17590 sweep_tasks.h  17921 sweep.h  18132 compile.h  18325 plan.h  18432 local.h  18584 parts.h
+ *  18873 refine.h  19052 refine_local.h  19268 rcond.h  19427 defects.h
  * (inverse: entries of the inverse, regions)
- *  19485 traversal.h  19734 traversal_run.h  19927 row_sets.h  19954 unit_vectors.h
- *  20181 bilinear.h  20358 entries.h  20640 block.h  20880 reserve.h  21072 selected.h
- *  21282 selected_query.h  21384 region_choose.h  21611 region.h
+ *  19505 traversal.h  19754 traversal_run.h  19947 row_sets.h  19974 unit_vectors.h
+ *  20201 bilinear.h  20378 entries.h  20660 block.h  20900 reserve.h  21092 selected.h
+ *  21302 selected_query.h  21404 region_choose.h  21631 region.h
  * (change: a factor that follows changes of its matrix)
- *  21859 update.h  22200 path.h  22323 rank.h  22676 edges.h  22830 choose.h  23028 pins_types.h
- *  23106 pins_nulls.h  23284 pins_capacitance.h  23535 pins_held.h  23746 pins_choose.h
- *  23816 pins_rebuild.h  24031 pins_matrix.h  24182 pins.h  24442 pins_solve.h  24817 subset.h
- *  24938 restrict_analysis.h  25292 restrict_symbolic.h  25489 restrict.h  25711 edit_match.h
- *  25910 edit_place.h  26159 edit_separate.h  26472 edit_order.h  26627 edit_graph.h
- *  26722 edit_join.h  26998 edit.h  27161 edit_factor.h
+ *  21879 update.h  22220 path.h  22343 rank.h  22696 edges.h  22850 choose.h  23048 pins_types.h
+ *  23126 pins_nulls.h  23304 pins_capacitance.h  23555 pins_held.h  23766 pins_choose.h
+ *  23836 pins_rebuild.h  24051 pins_matrix.h  24202 pins.h  24462 pins_solve.h  24837 subset.h
+ *  24958 restrict_analysis.h  25312 restrict_symbolic.h  25509 restrict.h  25731 edit_match.h
+ *  25930 edit_place.h  26179 edit_separate.h  26492 edit_order.h  26647 edit_graph.h
+ *  26742 edit_join.h  27018 edit.h  27181 edit_factor.h
  * (save: factors in files)
- *  27460 format.h  27756 decode.h  27904 check.h  28234 write.h  28539 load.h  28807 load_inverse.h
- *  29137 load_calls.h
+ *  27480 format.h  27776 decode.h  27924 check.h  28254 write.h  28559 load.h  28827 load_inverse.h
+ *  29157 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29336 batch_solve.h  29545 batch_factor.h  29746 batch_diagonal.h
+ *  29356 batch_solve.h  29565 batch_factor.h  29766 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29886 hermitian.h  30048 complex_rows.h
+ *  29906 hermitian.h  30068 complex_rows.h
  * (last: undefine every internal macro)
- *  30216 undef.h
+ *  30236 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30478 front.inl.h  30480 product.inl.h  30991 words_undef.inl.h  31068 copy_rows.inl.h
- *  31106 multi_rhs.inl.h  31125 complex_groups.inl.h  31264 multi_rhs_small.inl.h
- *  31436 multi_rhs_tiles.inl.h  31705 sweeps.inl.h  31707 unit_triangle.inl.h  31744 two_rhs.inl.h
- *  31913 small_supernode.inl.h  32094 single_rhs.inl.h  32338 kernel_set.inl.h
- *  32340 complex_small.inl.h  32510 complex_rows.inl.h  32725 inverse_front.inl.h  33010 row.inl.h
- *  33040 change.inl.h  33192 interleave.inl.h  33323 lanes_undef.inl.h
+ *  30503 front.inl.h  30505 product.inl.h  31016 words_undef.inl.h  31093 copy_rows.inl.h
+ *  31131 multi_rhs.inl.h  31150 complex_groups.inl.h  31289 multi_rhs_small.inl.h
+ *  31461 multi_rhs_tiles.inl.h  31730 sweeps.inl.h  31732 unit_triangle.inl.h  31769 two_rhs.inl.h
+ *  31938 small_supernode.inl.h  32119 single_rhs.inl.h  32363 kernel_set.inl.h
+ *  32365 complex_small.inl.h  32535 complex_rows.inl.h  32750 inverse_front.inl.h  33035 row.inl.h
+ *  33065 change.inl.h  33217 interleave.inl.h  33348 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -480,9 +480,9 @@ typedef struct sl_options {
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
-    /* with SL_ORDERING_ND: SL_PURPOSE_ONE_FACTOR orders by minimum degree where dissection would
-     * take longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
-     * entries of L */
+    /* SL_PURPOSE_ONE_FACTOR: SL_ORDERING_ND orders by minimum degree where dissection would take
+     * longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
+     * entries of L; relaxation merges more, for fewer fronts and slower solves */
     sl_purpose purpose;
 
     /* ---- factorization ---- */
@@ -950,9 +950,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates and
- *                purpose are used by SL_ORDERING_ND only, and block_size by all but
- *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses invalid ones.
+ *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates are used
+ *                by SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
+ *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), an unknown ordering, purpose, relaxation or triangle,
@@ -11637,6 +11637,7 @@ typedef struct sli_amalgamation {
   sl_int *merged_into;
   unsigned char *is_tied;
   int relaxes;
+  int is_for_one_factor;
 } sli_amalgamation;
 
 static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
@@ -11666,15 +11667,34 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
   }
 }
 
-#define SLI_ZEROS_SMALL 70
+#define SLI_ZEROS_MOST 70
 
-static int sli_may_merge(sl_int width, sl_off zeros, sl_off stored) {
-  const sl_off percent = width <= 8 ? SLI_ZEROS_SMALL : width <= 16 ? 30 : width <= 48 ? 15 : 5;
-  return zeros < stored / 100 * percent + (stored % 100 * percent + 99) / 100;
+#define SLI_COST_ROW 4
+#define SLI_COST_SUPER 100
+#define SLI_COST_WIDE 200
+#define SLI_COST_SUPER_ONE_FACTOR 140
+#define SLI_COST_WIDE_ONE_FACTOR 100
+
+static sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
+  return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
+       (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
+       (width <= SLI_TILE        ? 0
+      : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
+                   : SLI_COST_WIDE);
 }
 
 static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
   return (sl_off)g->width[c] * (g->width[p] + g->below[p] - g->below[c]);
+}
+
+static int sli_may_merge(const sli_amalgamation *g, sl_int c, sl_int p, sl_int width,
+             sl_off zeros) {
+  const sl_int below = g->below[p];
+  const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
+  return 100 * zeros <= SLI_ZEROS_MOST * stored &&
+       sli_supernode_cost(g, width, below) <=
+         sli_supernode_cost(g, g->width[c], g->below[c]) +
+           sli_supernode_cost(g, g->width[p], below);
 }
 
 static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *list, sl_int count,
@@ -11689,9 +11709,8 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
   for (k = 0; k < count; k++) {
     const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
     const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
-    const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * g->below[p];
     if ((g->is_tied != NULL && g->is_tied[c]) ||
-      (g->relaxes && sli_may_merge(width, zeros, stored))) {
+      (g->relaxes && sli_may_merge(g, c, p, width, zeros))) {
       g->width[p] = width;
       g->zeros[p] = zeros;
       g->merged_into[c] = p;
@@ -12413,6 +12432,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
   w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
+  w->amalgamation.is_for_one_factor = opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR;
   if (w->pairs != NULL) {
     sli_analysis_tie(w);
   }
@@ -30428,7 +30448,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_REGION_COLUMNS
 #undef SLI_REGION_PASSES
 #undef SLI_REGION_DETOUR
-#undef SLI_ZEROS_SMALL
+#undef SLI_ZEROS_MOST
+#undef SLI_COST_ROW
+#undef SLI_COST_SUPER
+#undef SLI_COST_WIDE
+#undef SLI_COST_SUPER_ONE_FACTOR
+#undef SLI_COST_WIDE_ONE_FACTOR
 #undef SLI_CHANGE_ENTRY
 #undef SLI_CHANGE_FLOP
 #undef SLI_CHANGE_FRONT_FLOP

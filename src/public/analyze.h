@@ -36,9 +36,9 @@
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates and
- *                purpose are used by SL_ORDERING_ND only, and block_size by all but
- *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses invalid ones.
+ *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates are used
+ *                by SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
+ *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), an unknown ordering, purpose, relaxation or triangle,

@@ -73,9 +73,9 @@ typedef struct sl_options {
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
-    /* with SL_ORDERING_ND: SL_PURPOSE_ONE_FACTOR orders by minimum degree where dissection would
-     * take longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
-     * entries of L */
+    /* SL_PURPOSE_ONE_FACTOR: SL_ORDERING_ND orders by minimum degree where dissection would take
+     * longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
+     * entries of L; relaxation merges more, for fewer fronts and slower solves */
     sl_purpose purpose;
 
     /* ---- factorization ---- */

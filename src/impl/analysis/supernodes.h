@@ -4,6 +4,7 @@
 
 #include "etree.h"
 #include "../base/sort.h"
+#include "../kernels/panel.h"
 
 /* Supernodes during amalgamation; all arrays have n entries. A merged supernode is identified by
  * the fundamental supernode on its top. */
@@ -19,6 +20,7 @@ typedef struct sli_amalgamation {
      * none */
     unsigned char *is_tied;
     int relaxes; /* merge others too */
+    int is_for_one_factor; /* by the costs of SL_PURPOSE_ONE_FACTOR */
 } sli_amalgamation;
 
 /* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
@@ -50,18 +52,29 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     }
 }
 
-/* Largest percentage of zeros in a supernode of up to 8 columns. On a path it reaches 28 of 44
- * entries, 64 %, and 2D grids have no more. It bounds the stored entries of each supernode by
- * 1 / (1 - 0.70) = 3.34 times its entries of L, even where short columns are children of tall
- * ones. */
-#define SLI_ZEROS_SMALL 70
+/* Largest percentage of zeros in a supernode. On a path it reaches 28 of 44 entries, 64 %, and 2D
+ * grids have no more. It bounds the stored entries of each supernode by 1 / (1 - 0.70) = 3.34 times
+ * its entries of L, even where short columns are children of tall ones. */
+#define SLI_ZEROS_MOST 70
 
-/* Returns whether a supernode of this width may have so many zeros among its stored entries. The
- * cost of small panels is their calls, not their flops. The thresholds gave the fastest solves on
- * 2D and 3D meshes, at 2-3 % more flops. Integers, so that all platforms merge alike. */
-static int sli_may_merge(sl_int width, sl_off zeros, sl_off stored) {
-    const sl_off percent = width <= 8 ? SLI_ZEROS_SMALL : width <= 16 ? 30 : width <= 48 ? 15 : 5;
-    return zeros < stored / 100 * percent + (stored % 100 * percent + 99) / 100;
+/* What a solve spends on a supernode besides reading its panel, in the entries that it reads in the
+ * same time: for each row below, for each supernode, and for one of more than 8 columns, which the
+ * kernels of small supernodes do not take. Fitted to solves and factorizations on 2D and 3D grids
+ * and KKT systems. For one factor, fewer fronts count more than fewer entries: 11 to 30 % less time
+ * on grids and on KKT systems with short horizons, and solves take 8 to 30 % longer. */
+#define SLI_COST_ROW 4
+#define SLI_COST_SUPER 100
+#define SLI_COST_WIDE 200
+#define SLI_COST_SUPER_ONE_FACTOR 140
+#define SLI_COST_WIDE_ONE_FACTOR 100
+
+/* Integers, so that all platforms merge alike. */
+static sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
+    return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
+           (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
+           (width <= SLI_TILE        ? 0
+            : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
+                                   : SLI_COST_WIDE);
 }
 
 /* The zeros added by merging child c into p: the columns of c grow to the rows of p. */
@@ -69,8 +82,19 @@ static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
     return (sl_off)g->width[c] * (g->width[p] + g->below[p] - g->below[c]);
 }
 
-/* Merges children into p while the share of zeros allows it, those with the fewest new zeros first.
- * list: the children. */
+/* Is one supernode of `width` columns, of which `zeros` entries are 0, better than c and p? */
+static int sli_may_merge(const sli_amalgamation *g, sl_int c, sl_int p, sl_int width,
+                         sl_off zeros) {
+    const sl_int below = g->below[p];
+    const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
+    return 100 * zeros <= SLI_ZEROS_MOST * stored &&
+           sli_supernode_cost(g, width, below) <=
+               sli_supernode_cost(g, g->width[c], g->below[c]) +
+                   sli_supernode_cost(g, g->width[p], below);
+}
+
+/* Merges children into p where that pays, those with the fewest new zeros first. list: the
+ * children. */
 static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *list, sl_int count,
                                     uint64_t *scratch) {
     sl_int k;
@@ -83,9 +107,8 @@ static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *lis
     for (k = 0; k < count; k++) {
         const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
         const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
-        const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * g->below[p];
         if ((g->is_tied != NULL && g->is_tied[c]) ||
-            (g->relaxes && sli_may_merge(width, zeros, stored))) {
+            (g->relaxes && sli_may_merge(g, c, p, width, zeros))) {
             g->width[p] = width;
             g->zeros[p] = zeros;
             g->merged_into[c] = p;
