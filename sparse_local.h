@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 52824cc587899f7a
+ * FNV-1a of the lines after this comment, without the license: b13fe53728c33e94
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,68 +24,68 @@
  *   2363 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2502 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2620 change.h     a factor that follows small changes of its matrix
- *   2707 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2857 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2988 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3040 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2708 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2858 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2989 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3041 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3132 base.h   3426 status.h   3487 options.h   3545 alloc.h   3701 hash.h   3831 file_map.h
- *   3928 sort.h   3992 parallel.h
+ *   3133 base.h   3427 status.h   3488 options.h   3546 alloc.h   3702 hash.h   3832 file_map.h
+ *   3929 sort.h   3993 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4188 panel.h   4214 step.h   4292 pivot_rule.h   4366 front.h   4427 pairs.h
- *   4634 inverse_front.h   4706 table.h   4744 simd.h   4839 simd_scalar_single.h
- *   4885 simd_scalar.h   5023 simd_avx2_single.h   5077 simd_avx2.h   5318 simd_avx512_single.h
- *   5373 simd_avx512.h   5549 simd_neon_single.h   5591 simd_neon.h   5826 dispatch.h
+ *   4189 panel.h   4215 step.h   4293 pivot_rule.h   4367 front.h   4428 pairs.h
+ *   4635 inverse_front.h   4707 table.h   4745 simd.h   4840 simd_scalar_single.h
+ *   4886 simd_scalar.h   5024 simd_avx2_single.h   5078 simd_avx2.h   5319 simd_avx512_single.h
+ *   5374 simd_avx512.h   5550 simd_neon_single.h   5592 simd_neon.h   5827 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5907 csc.h   6050 csc_build.h   6184 csc64.h   6255 csc_triangle.h   6320 csc_products.h
- *   6437 permute.h   6503 sum.h   6585 output_file.h   6794 matrix_market.h
+ *   5908 csc.h   6051 csc_build.h   6185 csc64.h   6256 csc_triangle.h   6321 csc_products.h
+ *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7240 graph.h   7384 contract.h   7638 coarsen.h   7801 labels.h   8022 subgraph.h   8217 heap.h
- *   8277 bisect.h   8504 separator.h   8766 mindeg.h   8949 dissect.h   9273 tree_cost.h
- *   9325 levelset.h   9431 geometric.h   9606 cells.h   9786 septree.h   9862 metis.h
- *  10011 metis_refined.h  10125 nd.h  10325 compress.h  10446 levels.h  10498 peel.h
- *  10704 quotient.h  11117 order.h
+ *   7241 graph.h   7385 contract.h   7639 coarsen.h   7802 labels.h   8023 subgraph.h   8218 heap.h
+ *   8278 bisect.h   8505 separator.h   8767 mindeg.h   8950 dissect.h   9274 tree_cost.h
+ *   9326 levelset.h   9432 geometric.h   9607 cells.h   9787 septree.h   9863 metis.h
+ *  10012 metis_refined.h  10126 nd.h  10326 compress.h  10447 levels.h  10499 peel.h
+ *  10705 quotient.h  11118 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11471 symbolic_types.h  11508 etree.h  11582 counts.h  11628 supernodes.h  11869 structure.h
- *  12022 schedule.h  12302 symbolic.h  12758 reach.h
+ *  11472 symbolic_types.h  11509 etree.h  11583 counts.h  11629 supernodes.h  11870 structure.h
+ *  12023 schedule.h  12303 symbolic.h  12759 reach.h
  * (factor: the numbers of L and D)
- *  13029 factor_types.h  13447 storage.h  13587 pivot_search.h  13933 pivoted.h  14001 scatter.h
- *  14159 uplooking.h  14231 null_product.h  14435 null_dense.h  14512 null_basis.h
- *  14820 null_vectors.h  14962 multifrontal.h  15156 gather.h  15204 kept.h  15374 front_tasks.h
- *  15717 nullspace.h  15920 growth.h  15996 factor_setup.h  16318 factor.h  16528 leftlooking.h
- *  16674 factor_query.h  16809 combination.h
+ *  13030 factor_types.h  13449 storage.h  13589 pivot_search.h  13935 pivoted.h  14003 scatter.h
+ *  14161 uplooking.h  14233 null_product.h  14437 null_dense.h  14514 null_basis.h
+ *  14822 null_vectors.h  14964 multifrontal.h  15158 gather.h  15206 kept.h  15376 front_tasks.h
+ *  15719 nullspace.h  15922 growth.h  15998 factor_setup.h  16320 factor.h  16530 leftlooking.h
+ *  16677 factor_query.h  16812 combination.h
  * (solve: full and local solves)
- *  16870 region_types.h  16974 work.h  17074 query.h  17290 singular.h  17560 backward.h
- *  17590 sweep_tasks.h  17921 sweep.h  18132 compile.h  18325 plan.h  18432 local.h  18584 parts.h
- *  18873 refine.h  19052 refine_local.h  19268 rcond.h  19427 defects.h
+ *  16873 region_types.h  16977 work.h  17077 query.h  17293 singular.h  17563 backward.h
+ *  17593 sweep_tasks.h  17924 sweep.h  18135 compile.h  18328 plan.h  18435 local.h  18587 parts.h
+ *  18876 refine.h  19055 refine_local.h  19271 rcond.h  19430 defects.h
  * (inverse: entries of the inverse, regions)
- *  19505 traversal.h  19754 traversal_run.h  19947 row_sets.h  19974 unit_vectors.h
- *  20201 bilinear.h  20378 entries.h  20660 block.h  20900 reserve.h  21092 selected.h
- *  21302 selected_query.h  21404 region_choose.h  21631 region.h
+ *  19508 traversal.h  19757 traversal_run.h  19950 row_sets.h  19977 unit_vectors.h
+ *  20204 bilinear.h  20381 entries.h  20663 block.h  20903 reserve.h  21095 selected.h
+ *  21305 selected_query.h  21407 region_choose.h  21634 region.h
  * (change: a factor that follows changes of its matrix)
- *  21879 update.h  22220 path.h  22343 rank.h  22696 edges.h  22850 choose.h  23048 pins_types.h
- *  23126 pins_nulls.h  23304 pins_capacitance.h  23555 pins_held.h  23766 pins_choose.h
- *  23836 pins_rebuild.h  24051 pins_matrix.h  24202 pins.h  24462 pins_solve.h  24837 subset.h
- *  24958 restrict_analysis.h  25312 restrict_symbolic.h  25509 restrict.h  25731 edit_match.h
- *  25930 edit_place.h  26179 edit_separate.h  26492 edit_order.h  26647 edit_graph.h
- *  26742 edit_join.h  27018 edit.h  27181 edit_factor.h
+ *  21882 update.h  22229 path.h  22352 rank.h  22707 edges.h  22861 choose.h  23059 pins_types.h
+ *  23137 pins_nulls.h  23315 pins_capacitance.h  23566 pins_held.h  23777 pins_choose.h
+ *  23847 pins_rebuild.h  24062 pins_matrix.h  24213 pins.h  24473 pins_solve.h  24848 subset.h
+ *  24969 restrict_analysis.h  25323 restrict_symbolic.h  25520 restrict.h  25742 edit_match.h
+ *  25941 edit_place.h  26190 edit_separate.h  26503 edit_order.h  26658 edit_graph.h
+ *  26753 edit_join.h  27029 edit.h  27192 edit_factor.h
  * (save: factors in files)
- *  27480 format.h  27776 decode.h  27924 check.h  28254 write.h  28559 load.h  28827 load_inverse.h
- *  29157 load_calls.h
+ *  27491 format.h  27787 decode.h  27935 check.h  28265 write.h  28570 load.h  28838 load_inverse.h
+ *  29168 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29356 batch_solve.h  29565 batch_factor.h  29766 batch_diagonal.h
+ *  29367 batch_solve.h  29576 batch_factor.h  29777 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29906 hermitian.h  30068 complex_rows.h
+ *  29917 hermitian.h  30079 complex_rows.h
  * (last: undefine every internal macro)
- *  30236 undef.h
+ *  30247 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30503 front.inl.h  30505 product.inl.h  31016 words_undef.inl.h  31093 copy_rows.inl.h
- *  31131 multi_rhs.inl.h  31150 complex_groups.inl.h  31289 multi_rhs_small.inl.h
- *  31461 multi_rhs_tiles.inl.h  31730 sweeps.inl.h  31732 unit_triangle.inl.h  31769 two_rhs.inl.h
- *  31938 small_supernode.inl.h  32119 single_rhs.inl.h  32363 kernel_set.inl.h
- *  32365 complex_small.inl.h  32535 complex_rows.inl.h  32750 inverse_front.inl.h  33035 row.inl.h
- *  33065 change.inl.h  33217 interleave.inl.h  33348 lanes_undef.inl.h
+ *  30514 front.inl.h  30516 product.inl.h  31027 words_undef.inl.h  31104 copy_rows.inl.h
+ *  31142 multi_rhs.inl.h  31161 complex_groups.inl.h  31300 multi_rhs_small.inl.h
+ *  31472 multi_rhs_tiles.inl.h  31741 sweeps.inl.h  31743 unit_triangle.inl.h  31780 two_rhs.inl.h
+ *  31949 small_supernode.inl.h  32130 single_rhs.inl.h  32374 kernel_set.inl.h
+ *  32376 complex_small.inl.h  32546 complex_rows.inl.h  32761 inverse_front.inl.h  33046 row.inl.h
+ *  33076 change.inl.h  33228 interleave.inl.h  33359 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2632,8 +2632,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
  *  of both signs a change may also fail because it meets a null pivot on its way.
  *
- *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of a
- *  definite matrix it stayed above the measured one. If growth or drift are too large, refactor.
+ *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
+ *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
+ *  growth or drift are too large, refactor.
  *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
  *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
  *
@@ -13076,6 +13077,7 @@ struct sl_factor {
   uint64_t generation;
   sl_off updates;
   double drift;
+  double scale;
   sli_hash analysis;
   sl_storage storage;
   void *values;
@@ -16667,6 +16669,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   }
   count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
   status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
+  F->scale = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
   sli_free(&F->allocator, b.base);
   return status;
 }
@@ -21890,6 +21893,8 @@ typedef struct sli_update {
   int kind;
   double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
   double most;
+  double fall;
+  double top;
   double entry;
   double growth;
   sli_reach R;
@@ -21981,6 +21986,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
   }
   if (!u->is_trial) {
     u->most = magnitude > u->most ? magnitude : u->most;
+    u->top = fabs(e) > u->top ? fabs(e) : u->top;
     sli_update_count(&F->stats.factor, d, e);
     F->D[k] = e;
   }
@@ -22167,12 +22173,13 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->ranks = count;
   u->kind = sli_update_kind(count);
   u->lanes = (sl_int)1 << u->kind;
-  u->most = u->entry = u->growth = 0.0;
+  u->most = u->fall = u->top = u->entry = u->growth = 0.0;
   memset(u->U, 0, sizeof u->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
   memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
   for (r = 0; r < count; r++) {
     const sl_int v = group[r];
+    double most = 0.0;
     u->alpha[r] = u->sigma == NULL ? 1.0 : u->sigma[v];
     for (p = V->p[v]; p < V->p[v + 1]; p++) {
       const sl_int at = V->x[p] == 0.0 ? -1 : sli_reach_index_of(&u->R, S->iperm[V->i[p]]);
@@ -22181,8 +22188,10 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
         u->x[(ptrdiff_t)at * u->lanes + r] += x;
         u->gain[at] += u->sign == 0.0 ? fabs(u->alpha[r] * x * x)
                         : fmax(0.0, 2.0 * u->sign * u->alpha[r] * x * x);
+        most = fmax(most, x * x);
       }
     }
+    u->fall += u->sign * u->alpha[r] > 0.0 ? 0.0 : fabs(u->alpha[r]) * most;
   }
 }
 
@@ -22580,10 +22589,10 @@ static sl_status sli_rank_passes(sli_rank *q) {
       status = status == SL_OK ? sli_update_run(&q->u) : status;
     }
     if (status == SL_OK) {
-      const double scale = fmax(info->entry_max, q->u.entry);
       const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
       info->growth = fmax(info->growth, q->u.sign != 0.0 ? fmin(growth, 2.0) : growth);
-      F->drift += scale > 0.0 ? DBL_EPSILON * fmax(1.0, q->u.most / scale) : 0.0;
+      F->scale = fmax(F->scale - q->u.fall, q->u.top / fmax(info->growth, 1.0));
+      F->drift += DBL_EPSILON * fmax(F->scale, q->u.most);
       if (info->growth > F->growth_limit) {
         q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
         q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
@@ -22598,11 +22607,12 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_stats before = F->stats;
-  const double drift = F->drift;
+  const double drift = F->drift, scale = F->updates == 0 ? before.factor.entry_max : F->scale;
   sl_status status;
   if (q->count == 0) {
     return SL_OK;
   }
+  F->scale = scale;
   if (q->has_log) {
     sli_reach R;
     sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -22619,6 +22629,7 @@ static sl_status sli_rank_run(sli_rank *q) {
     sli_rank_log(q, q->logged, 1);
     F->stats = before;
     F->drift = drift;
+    F->scale = scale;
   } else if (q->is_changed) {
     F->is_valid = 0;
     F->status = status;
@@ -22646,7 +22657,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
     stats->change.entries = q->entries;
     stats->change.flops_update = q->flops;
     stats->change.updates = F->updates;
-    stats->change.drift = F->drift;
+    stats->change.drift = F->drift > 0.0 ? F->drift / F->scale : 0.0;
     stats->change.seconds = sli_seconds() - started;
   }
 }
@@ -22918,7 +22929,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
   }
-  if (F->drift > SLI_CHANGE_DRIFT) {
+  if (F->drift > SLI_CHANGE_DRIFT * F->scale) {
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }

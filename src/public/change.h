@@ -18,8 +18,9 @@
  *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
  *  of both signs a change may also fail because it meets a null pivot on its way.
  *
- *  Errors add up: stats.change.drift estimates their backward error. In 10,000 random changes of a
- *  definite matrix it stayed above the measured one. If growth or drift are too large, refactor.
+ *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
+ *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
+ *  growth or drift are too large, refactor.
  *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
  *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
  *

@@ -49,6 +49,30 @@ static void matrices_of_zeros_are_changed(void **state) {
     sl_symbolic_free(S);
 }
 
+/* A spring of 1e10 comes and goes: what rounding has left is large beside the entries that remain,
+ * and the drift says so, also if others come and go afterwards. */
+static void drift_is_relative_to_what_remains(void **state) {
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        factored_t y = factored_make(GEN_GRID2, 100, sign, 0, NULL);
+        const sl_int row = 44, other = 3;
+        double b[100], x[100], r[100], delta = 1e10 * sign / 3.0, error = 0.0;
+        sl_stats stats;
+        SL_CHECK(sl_factor_update_entries(y.F, &row, &row, &delta, 1, NULL, &stats));
+        assert_true(stats.change.drift <= 1e-14);
+        delta = -delta;
+        SL_CHECK(sl_factor_update_entries(y.F, &row, &row, &delta, 1, NULL, &stats));
+        gen_reals(b, 100, 5);
+        SL_CHECK(sl_factor_solve(y.F, x, 100, b, 100, 1, NULL));
+        SL_CHECK(sl_csc_residual(&y.M.view, r, 100, &error, x, 100, b, 100, 1));
+        assert_true(error > 1e-9 && stats.change.drift > error && stats.change.drift < 1e-4);
+        delta = 1e-3 * sign;
+        SL_CHECK(sl_factor_update_entries(y.F, &other, &other, &delta, 1, NULL, &stats));
+        assert_true(stats.change.drift > error && stats.change.drift < 1e-4);
+        factored_free(&y);
+    }
+}
+
 /* The last pivot becomes far smaller than the terms that it was computed from, though not than the
  * change: it is null. */
 static void a_pivot_of_rounding_is_null(void **state) {
@@ -95,8 +119,7 @@ static void entries_outside_of_L_are_refused(void **state) {
         for (sl_int k = j + 1; k < N; k++) {
             const sl_int p[2] = {0, 2}, i[2] = {perm[k], perm[j]};
             const sl_csc V = {N, 1, p, i, x};
-            SL_EXPECT(has[k] ? SL_OK : SL_ERR_PATTERN,
-                      sl_factor_update(y.F, &V, NULL, NULL, NULL));
+            SL_EXPECT(has[k] ? SL_OK : SL_ERR_PATTERN, sl_factor_update(y.F, &V, NULL, NULL, NULL));
         }
     }
     sl_matrix_free(lower);
@@ -105,6 +128,7 @@ static void entries_outside_of_L_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drift_is_relative_to_what_remains),
         cmocka_unit_test(zeros_change_nothing),
         cmocka_unit_test(matrices_of_zeros_are_changed),
         cmocka_unit_test(a_pivot_of_rounding_is_null),

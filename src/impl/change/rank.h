@@ -260,10 +260,10 @@ static sl_status sli_rank_passes(sli_rank *q) {
             status = status == SL_OK ? sli_update_run(&q->u) : status;
         }
         if (status == SL_OK) {
-            const double scale = fmax(info->entry_max, q->u.entry);
             const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
             info->growth = fmax(info->growth, q->u.sign != 0.0 ? fmin(growth, 2.0) : growth);
-            F->drift += scale > 0.0 ? DBL_EPSILON * fmax(1.0, q->u.most / scale) : 0.0;
+            F->scale = fmax(F->scale - q->u.fall, q->u.top / fmax(info->growth, 1.0));
+            F->drift += DBL_EPSILON * fmax(F->scale, q->u.most);
             if (info->growth > F->growth_limit) {
                 q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
                 q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
@@ -279,11 +279,12 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sl_stats before = F->stats;
-    const double drift = F->drift;
+    const double drift = F->drift, scale = F->updates == 0 ? before.factor.entry_max : F->scale;
     sl_status status;
     if (q->count == 0) {
         return SL_OK;
     }
+    F->scale = scale;
     if (q->has_log) {
         sli_reach R;
         sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -300,6 +301,7 @@ static sl_status sli_rank_run(sli_rank *q) {
         sli_rank_log(q, q->logged, 1);
         F->stats = before;
         F->drift = drift;
+        F->scale = scale;
     } else if (q->is_changed) { /* an overflow */
         F->is_valid = 0;
         F->status = status;
@@ -329,7 +331,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
         stats->change.entries = q->entries;
         stats->change.flops_update = q->flops;
         stats->change.updates = F->updates;
-        stats->change.drift = F->drift;
+        stats->change.drift = F->drift > 0.0 ? F->drift / F->scale : 0.0;
         stats->change.seconds = sli_seconds() - started;
     }
 }

@@ -28,6 +28,8 @@ typedef struct sli_update {
     int kind;
     double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
+    double fall;   /* by at most this much the pass reduces the largest |a| */
+    double top;    /* the largest new pivot */
     double entry;  /* the largest |a| that is known of the columns of the pass */
     double growth; /* the largest growth of rows in them */
     sli_reach R;
@@ -126,6 +128,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     }
     if (!u->is_trial) {
         u->most = magnitude > u->most ? magnitude : u->most;
+        u->top = fabs(e) > u->top ? fabs(e) : u->top;
         sli_update_count(&F->stats.factor, d, e);
         F->D[k] = e;
     }
@@ -324,12 +327,13 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->ranks = count;
     u->kind = sli_update_kind(count);
     u->lanes = (sl_int)1 << u->kind;
-    u->most = u->entry = u->growth = 0.0;
+    u->most = u->fall = u->top = u->entry = u->growth = 0.0;
     memset(u->U, 0, sizeof u->U);
     memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
     memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
     for (r = 0; r < count; r++) {
         const sl_int v = group[r];
+        double most = 0.0;
         u->alpha[r] = u->sigma == NULL ? 1.0 : u->sigma[v];
         for (p = V->p[v]; p < V->p[v + 1]; p++) {
             const sl_int at = V->x[p] == 0.0 ? -1 : sli_reach_index_of(&u->R, S->iperm[V->i[p]]);
@@ -338,8 +342,10 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
                 u->x[(ptrdiff_t)at * u->lanes + r] += x;
                 u->gain[at] += u->sign == 0.0 ? fabs(u->alpha[r] * x * x)
                                               : fmax(0.0, 2.0 * u->sign * u->alpha[r] * x * x);
+                most = fmax(most, x * x);
             }
         }
+        u->fall += u->sign * u->alpha[r] > 0.0 ? 0.0 : fabs(u->alpha[r]) * most;
     }
 }
 

@@ -63,7 +63,8 @@ struct sl_factor {
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
     sl_off updates; /* rank-one changes since the last complete factorization */
-    double drift;   /* the rounding errors that they have added, relative to the largest entry */
+    double drift;   /* the rounding errors that they have added */
+    double scale;   /* at most the largest |a|, of the matrix as they have changed it */
     sli_hash analysis;  /* the identity of S */
     sl_storage storage; /* of L */
     void *values;       /* L: the panels of all supernodes, as they are stored */
