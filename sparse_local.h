@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b13fe53728c33e94
+ * FNV-1a of the lines after this comment, without the license: 71facc7d103a64a3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -25,67 +25,67 @@
  *   2502 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2620 change.h     a factor that follows small changes of its matrix
  *   2708 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2858 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2989 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3041 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2859 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2990 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3042 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3133 base.h   3427 status.h   3488 options.h   3546 alloc.h   3702 hash.h   3832 file_map.h
- *   3929 sort.h   3993 parallel.h
+ *   3134 base.h   3428 status.h   3489 options.h   3547 alloc.h   3703 hash.h   3833 file_map.h
+ *   3930 sort.h   3994 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4189 panel.h   4215 step.h   4293 pivot_rule.h   4367 front.h   4428 pairs.h
- *   4635 inverse_front.h   4707 table.h   4745 simd.h   4840 simd_scalar_single.h
- *   4886 simd_scalar.h   5024 simd_avx2_single.h   5078 simd_avx2.h   5319 simd_avx512_single.h
- *   5374 simd_avx512.h   5550 simd_neon_single.h   5592 simd_neon.h   5827 dispatch.h
+ *   4190 panel.h   4216 step.h   4294 pivot_rule.h   4368 front.h   4429 pairs.h
+ *   4636 inverse_front.h   4708 table.h   4746 simd.h   4841 simd_scalar_single.h
+ *   4887 simd_scalar.h   5025 simd_avx2_single.h   5079 simd_avx2.h   5320 simd_avx512_single.h
+ *   5375 simd_avx512.h   5551 simd_neon_single.h   5593 simd_neon.h   5828 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5908 csc.h   6051 csc_build.h   6185 csc64.h   6256 csc_triangle.h   6321 csc_products.h
- *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 matrix_market.h
+ *   5909 csc.h   6052 csc_build.h   6186 csc64.h   6257 csc_triangle.h   6322 csc_products.h
+ *   6439 permute.h   6505 sum.h   6587 output_file.h   6796 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7241 graph.h   7385 contract.h   7639 coarsen.h   7802 labels.h   8023 subgraph.h   8218 heap.h
- *   8278 bisect.h   8505 separator.h   8767 mindeg.h   8950 dissect.h   9274 tree_cost.h
- *   9326 levelset.h   9432 geometric.h   9607 cells.h   9787 septree.h   9863 metis.h
- *  10012 metis_refined.h  10126 nd.h  10326 compress.h  10447 levels.h  10499 peel.h
- *  10705 quotient.h  11118 order.h
+ *   7242 graph.h   7386 contract.h   7640 coarsen.h   7803 labels.h   8024 subgraph.h   8219 heap.h
+ *   8279 bisect.h   8506 separator.h   8768 mindeg.h   8951 dissect.h   9275 tree_cost.h
+ *   9327 levelset.h   9433 geometric.h   9608 cells.h   9788 septree.h   9864 metis.h
+ *  10013 metis_refined.h  10127 nd.h  10327 compress.h  10448 levels.h  10500 peel.h
+ *  10706 quotient.h  11119 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11472 symbolic_types.h  11509 etree.h  11583 counts.h  11629 supernodes.h  11870 structure.h
- *  12023 schedule.h  12303 symbolic.h  12759 reach.h
+ *  11473 symbolic_types.h  11510 etree.h  11584 counts.h  11630 supernodes.h  11871 structure.h
+ *  12024 schedule.h  12304 symbolic.h  12760 reach.h
  * (factor: the numbers of L and D)
- *  13030 factor_types.h  13449 storage.h  13589 pivot_search.h  13935 pivoted.h  14003 scatter.h
- *  14161 uplooking.h  14233 null_product.h  14437 null_dense.h  14514 null_basis.h
- *  14822 null_vectors.h  14964 multifrontal.h  15158 gather.h  15206 kept.h  15376 front_tasks.h
- *  15719 nullspace.h  15922 growth.h  15998 factor_setup.h  16320 factor.h  16530 leftlooking.h
- *  16677 factor_query.h  16812 combination.h
+ *  13031 factor_types.h  13450 storage.h  13590 pivot_search.h  13936 pivoted.h  14004 scatter.h
+ *  14162 uplooking.h  14234 null_product.h  14438 null_dense.h  14515 null_basis.h
+ *  14823 null_vectors.h  14965 multifrontal.h  15159 gather.h  15207 kept.h  15377 front_tasks.h
+ *  15720 nullspace.h  15923 growth.h  15999 factor_setup.h  16321 factor.h  16531 leftlooking.h
+ *  16678 factor_query.h  16813 combination.h
  * (solve: full and local solves)
- *  16873 region_types.h  16977 work.h  17077 query.h  17293 singular.h  17563 backward.h
- *  17593 sweep_tasks.h  17924 sweep.h  18135 compile.h  18328 plan.h  18435 local.h  18587 parts.h
- *  18876 refine.h  19055 refine_local.h  19271 rcond.h  19430 defects.h
+ *  16874 region_types.h  16978 work.h  17078 query.h  17294 singular.h  17568 backward.h
+ *  17598 sweep_tasks.h  17929 sweep.h  18140 compile.h  18333 plan.h  18440 local.h  18592 parts.h
+ *  18881 refine.h  19060 refine_local.h  19276 rcond.h  19435 defects.h
  * (inverse: entries of the inverse, regions)
- *  19508 traversal.h  19757 traversal_run.h  19950 row_sets.h  19977 unit_vectors.h
- *  20204 bilinear.h  20381 entries.h  20663 block.h  20903 reserve.h  21095 selected.h
- *  21305 selected_query.h  21407 region_choose.h  21634 region.h
+ *  19513 traversal.h  19762 traversal_run.h  19955 row_sets.h  19982 unit_vectors.h
+ *  20209 bilinear.h  20386 entries.h  20668 block.h  20908 reserve.h  21100 selected.h
+ *  21310 selected_query.h  21412 region_choose.h  21639 region.h
  * (change: a factor that follows changes of its matrix)
- *  21882 update.h  22229 path.h  22352 rank.h  22707 edges.h  22861 choose.h  23059 pins_types.h
- *  23137 pins_nulls.h  23315 pins_capacitance.h  23566 pins_held.h  23777 pins_choose.h
- *  23847 pins_rebuild.h  24062 pins_matrix.h  24213 pins.h  24473 pins_solve.h  24848 subset.h
- *  24969 restrict_analysis.h  25323 restrict_symbolic.h  25520 restrict.h  25742 edit_match.h
- *  25941 edit_place.h  26190 edit_separate.h  26503 edit_order.h  26658 edit_graph.h
- *  26753 edit_join.h  27029 edit.h  27192 edit_factor.h
+ *  21887 update.h  22234 path.h  22357 rank.h  22712 edges.h  22866 choose.h  23064 pins_types.h
+ *  23142 pins_nulls.h  23325 pins_capacitance.h  23576 pins_balance.h  23754 pins_held.h
+ *  23970 pins_choose.h  24040 pins_rebuild.h  24255 pins_matrix.h  24406 pins.h  24666 pins_solve.h
+ *  24937 subset.h  25058 restrict_analysis.h  25412 restrict_symbolic.h  25609 restrict.h
+ *  25831 edit_match.h  26030 edit_place.h  26279 edit_separate.h  26592 edit_order.h
+ *  26747 edit_graph.h  26842 edit_join.h  27118 edit.h  27281 edit_factor.h
  * (save: factors in files)
- *  27491 format.h  27787 decode.h  27935 check.h  28265 write.h  28570 load.h  28838 load_inverse.h
- *  29168 load_calls.h
+ *  27580 format.h  27876 decode.h  28024 check.h  28354 write.h  28659 load.h  28927 load_inverse.h
+ *  29257 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29367 batch_solve.h  29576 batch_factor.h  29777 batch_diagonal.h
+ *  29456 batch_solve.h  29665 batch_factor.h  29866 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29917 hermitian.h  30079 complex_rows.h
+ *  30006 hermitian.h  30168 complex_rows.h
  * (last: undefine every internal macro)
- *  30247 undef.h
+ *  30336 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30514 front.inl.h  30516 product.inl.h  31027 words_undef.inl.h  31104 copy_rows.inl.h
- *  31142 multi_rhs.inl.h  31161 complex_groups.inl.h  31300 multi_rhs_small.inl.h
- *  31472 multi_rhs_tiles.inl.h  31741 sweeps.inl.h  31743 unit_triangle.inl.h  31780 two_rhs.inl.h
- *  31949 small_supernode.inl.h  32130 single_rhs.inl.h  32374 kernel_set.inl.h
- *  32376 complex_small.inl.h  32546 complex_rows.inl.h  32761 inverse_front.inl.h  33046 row.inl.h
- *  33076 change.inl.h  33228 interleave.inl.h  33359 lanes_undef.inl.h
+ *  30603 front.inl.h  30605 product.inl.h  31116 words_undef.inl.h  31193 copy_rows.inl.h
+ *  31231 multi_rhs.inl.h  31250 complex_groups.inl.h  31389 multi_rhs_small.inl.h
+ *  31561 multi_rhs_tiles.inl.h  31830 sweeps.inl.h  31832 unit_triangle.inl.h  31869 two_rhs.inl.h
+ *  32038 small_supernode.inl.h  32219 single_rhs.inl.h  32463 kernel_set.inl.h
+ *  32465 complex_small.inl.h  32635 complex_rows.inl.h  32850 inverse_front.inl.h  33135 row.inl.h
+ *  33165 change.inl.h  33317 interleave.inl.h  33448 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2715,14 +2715,14 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
- *  pins that leave none of its 6 motions. Motions that pins leave are fixed by x = 0 in null rows,
- *  as they are in components without pins; b has to be in balance with them, which is not checked.
- *  Weights (options.mass) are not used.
+ *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
+ *  with the weights of options.mass, or with x = 0 in null rows and a b in balance. Motions that
+ *  the pins of a component leave need balance in any case, and x = 0 in null rows fixes them.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
  *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
- *  check C' x = g and report the loss (SL_ERR_INACCURATE). Local solves check the equalities whose
- *  rows are all in their reach.
+ *  check C' x = g in each tree of the factor and report the loss (SL_ERR_INACCURATE). Local solves
+ *  check the equalities whose rows are all in their reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -2843,7 +2843,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
  *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g does not
- *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body; with
+ *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body;
+ *           SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
  *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products
@@ -17533,13 +17534,17 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
 }
 
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
-             const sli_reach *to, double *x, sl_int lanes) {
+             const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
   sl_int s = 0, at = 0, m;
   while (s < from->count && at < to->count) {
     sli_center_terms terms;
     sli_tree_range tree;
     sl_int index;
     s = sli_center_tree_terms(F, from, s, y, lanes, &m, &tree, &terms);
+    if (m != -1 && uses != NULL &&
+      uses[sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m])] > 0) {
+      m = -1;
+    }
     for (; at < to->count && to->steps[at].column <= tree.root; at++) {
       const sli_step *step = &to->steps[at];
       const double *v = F->center + step->column, *D = F->D + step->column;
@@ -18000,7 +18005,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     sli_sweep_region(F, q, kind, v);
   }
   if (F->is_centered) {
-    sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes);
+    sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
@@ -23208,6 +23213,7 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
     status = pass == 0 ? sli_block_alloc(&b, &P->allocator)
                : sli_pin_visit_nulls(P->base, pin, 1, row);
   }
+  pin->n_nulls = status == SL_OK ? pin->n_nulls : 0;
   pin->nulls = (sl_int *)(void *)b.base;
   return status;
 }
@@ -23244,6 +23250,8 @@ typedef struct sli_pins_nulls {
   double *W;
   double *S;
   double *s;
+  double *defects;
+  double *sizes;
 } sli_pins_nulls;
 
 static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins *P) {
@@ -23255,6 +23263,8 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
   w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
   w->S = SLI_TAKE(b, double, count *count);
   w->s = SLI_TAKE(b, double, SLI_TILE *count);
+  w->defects = SLI_TAKE(b, double, SLI_TILE *count);
+  w->sizes = SLI_TAKE(b, double, SLI_TILE *count);
 }
 
 static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
@@ -23563,6 +23573,184 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   }
 }
 
+/* src/impl/change/pins_balance.h: null vectors in solves with pins: balance of forces, and motions */
+
+static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
+  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
+  sl_int a, b, p, k;
+  (void)sli_pins_nulls_begin(w, P);
+  sli_pins_nulls_load(w, P);
+  memset(w->S, 0, ld * ld * sizeof(double));
+  for (a = 0; a < w->count; a++) {
+    sli_pins_apply(P, w->W + (size_t)a * count, 1);
+  }
+  for (p = 0; p < P->n_pins; p++) {
+    const sli_pin *pin = P->pins[p];
+    for (k = 0; k < pin->n_nulls; k++) {
+      const size_t row = (size_t)w->place[pin->nulls[k]];
+      for (b = 0; b <= (sl_int)row; b++) {
+        w->S[row * ld + (size_t)b] += pin->z[k] * w->W[(size_t)b * count + (size_t)p];
+      }
+    }
+  }
+  for (a = 0; a < w->count; a++) {
+    double *row = w->S + (size_t)a * ld, d = row[a];
+    for (b = 0; b < a; b++) {
+      row[b] = w->is_free[a] || w->is_free[b]
+             ? 0.0
+             : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
+    }
+    for (b = 0; b < a; b++) {
+      const double x = row[b];
+      row[b] = x / w->S[(size_t)b * ld + (size_t)b];
+      d -= x * row[b];
+    }
+    row[a] = w->is_free[a] ? P->sign : d;
+    if (!(row[a] * P->sign > 0.0)) {
+      return SL_ERR_INACCURATE;
+    }
+  }
+  return SL_OK;
+}
+
+static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
+              const double *b, sl_int lanes, const double *norms) {
+  const sl_factor *F = P->base;
+  const sli_reach *R = &q->forward;
+  sl_int first = 0, s, m, k, r;
+  memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
+  for (s = 0; s < R->count && (w->count > 0 || F->checks); s++) {
+    sli_null_dot dot;
+    if (R->steps[s].up != -1) {
+      continue;
+    }
+    m = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+      if (P->uses[dot.number] > 0) {
+        memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
+             (size_t)lanes * sizeof(double));
+        continue;
+      }
+      for (r = 0; r < lanes && F->checks; r++) {
+        if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+          return 0;
+        }
+      }
+    }
+    first = s + 1;
+  }
+  for (k = 0; k < w->count; k++) {
+    const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
+    if (at != -1 && sli_null_column(F, null) == -1) {
+      memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
+           (size_t)lanes * sizeof(double));
+    }
+  }
+  return 1;
+}
+
+static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
+              const double *norms) {
+  const sl_factor *F = P->base;
+  sl_int m, r;
+  for (m = 0; m < F->n_nulls; m++) {
+    const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+    double *row = y + (ptrdiff_t)at * lanes;
+    const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+    for (r = 0; r < lanes && at != -1 && F->checks && norms != NULL && !is_known; r++) {
+      if (P->uses[m] == 0 && fabs(row[r]) > F->consistency * norms[r]) {
+        return 0;
+      }
+    }
+    if (at != -1 && (P->uses[m] > 0 || !F->is_centered)) {
+      memset(row, 0, (size_t)lanes * sizeof(double));
+    }
+  }
+  return 1;
+}
+
+static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
+              const double *norms) {
+  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
+  sl_int a, b, p, k, r;
+  for (k = 0; k < w->count * lanes; k++) {
+    w->defects[k] = w->s[k];
+    w->sizes[k] = norms[k % lanes];
+  }
+  for (p = 0; p < P->n_pins; p++) {
+    for (k = 0; k < P->pins[p]->n_nulls; k++) {
+      double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
+      for (r = 0; r < lanes; r++) {
+        s[r] += P->pins[p]->z[k] * f[(ptrdiff_t)p * lanes + r];
+      }
+    }
+  }
+  for (r = 0; r < lanes; r++) {
+    double *s = w->s + r;
+    for (a = 0; a < w->count; a++) {
+      s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
+      for (b = 0; b < a; b++) {
+        s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
+      }
+    }
+    for (a = w->count - 1; a >= 0; a--) {
+      s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
+      for (b = a + 1; b < w->count; b++) {
+        s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
+      }
+    }
+    for (a = 0; a < w->count; a++) {
+      for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
+        f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
+      }
+    }
+  }
+  for (p = 0; p < P->n_pins; p++) {
+    for (k = 0; k < P->pins[p]->n_nulls * lanes; k++) {
+      const sl_int at = w->place[P->pins[p]->nulls[k / lanes]] * lanes + k % lanes;
+      const double force = P->pins[p]->z[k / lanes] * f[p * lanes + k % lanes];
+      w->defects[at] += force;
+      w->sizes[at] += fabs(force);
+    }
+  }
+  for (k = 0; k < w->count * lanes && P->base->consistency >= 0.0; k++) {
+    if (w->is_free[k / lanes] && fabs(w->defects[k]) > P->base->consistency * w->sizes[k]) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
+               sl_int lanes) {
+  const sl_factor *F = P->base;
+  const sli_reach *R = &q->backward;
+  sl_int first = 0, root, s, m, k, r;
+  for (root = 0; root < R->count && w->count > 0; root++) {
+    sl_int last;
+    if (R->steps[root].up != -1) {
+      continue;
+    }
+    last = sli_tree_range_of(F->S, &R->steps[root]).root;
+    for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
+      const sl_int null = F->nulls[m], column = sli_null_column(F, null);
+      const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+      const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
+      for (s = first; s <= root && v != NULL; s++) {
+        const sli_step *step = &R->steps[s];
+        double *row = x + (ptrdiff_t)step->base * lanes;
+        for (k = step->column; k < step->column + sli_step_columns(step); k++) {
+          const double z = column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0;
+          for (r = 0; r < lanes; r++) {
+            *row++ += z * v[r];
+          }
+        }
+      }
+    }
+    first = root + 1;
+  }
+}
+
 /* src/impl/change/pins_held.h: eliminated rows: the factor of A with identity rows, and what they hand to others */
 
 typedef struct sli_holding {
@@ -23673,10 +23861,15 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
   opt.threads = F->threads;
   opt.null_pivots = F->null_pivots;
   opt.null_tolerance = F->rule.null_tolerance;
+  opt.consistency_tolerance = F->consistency;
+  opt.mass = F->mass;
   opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
   status = sli_factor_new(G, F->S, &opt, NULL);
   if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));
+    if (F->mass != NULL) {
+      memcpy((*G)->mass, F->mass, (size_t)F->S->n * sizeof(double));
+    }
   }
   return status;
 }
@@ -24489,7 +24682,10 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
               sl_int nrhs) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
-  w->u = SLI_TAKE(b, double, P->n_pins == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
+  w->u = SLI_TAKE(b, double,
+          P->n_pins == 0 ? 0
+                   : (uint64_t)sli_max(q->forward.columns, q->backward.columns) *
+                     (uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
   if (P->n_held > 0 && !sli_pins_is_whole(q)) {
     const sli_reach *R = &P->held_reach;
@@ -24497,146 +24693,6 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
     w->scratch = SLI_TAKE(b, double, 2 * sli_sweep_scratch(R->tallest, R->widest, 8));
   }
   sli_pins_nulls_layout(&w->nulls, b, P);
-}
-
-static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
-  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
-  sl_int a, b, p, k;
-  (void)sli_pins_nulls_begin(w, P);
-  sli_pins_nulls_load(w, P);
-  memset(w->S, 0, ld * ld * sizeof(double));
-  for (a = 0; a < w->count; a++) {
-    sli_pins_apply(P, w->W + (size_t)a * count, 1);
-  }
-  for (p = 0; p < P->n_pins; p++) {
-    const sli_pin *pin = P->pins[p];
-    for (k = 0; k < pin->n_nulls; k++) {
-      const size_t row = (size_t)w->place[pin->nulls[k]];
-      for (b = 0; b <= (sl_int)row; b++) {
-        w->S[row * ld + (size_t)b] += pin->z[k] * w->W[(size_t)b * count + (size_t)p];
-      }
-    }
-  }
-  for (a = 0; a < w->count; a++) {
-    double *row = w->S + (size_t)a * ld, d = row[a];
-    for (b = 0; b < a; b++) {
-      row[b] = w->is_free[a] || w->is_free[b]
-             ? 0.0
-             : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
-    }
-    for (b = 0; b < a; b++) {
-      const double x = row[b];
-      row[b] = x / w->S[(size_t)b * ld + (size_t)b];
-      d -= x * row[b];
-    }
-    row[a] = w->is_free[a] ? P->sign : d;
-    if (!(row[a] * P->sign > 0.0)) {
-      return SL_ERR_INACCURATE;
-    }
-  }
-  return SL_OK;
-}
-
-static void sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
-               const double *b, sl_int lanes) {
-  const sl_factor *F = P->base;
-  const sli_reach *R = &q->forward;
-  sl_int first = 0, s, m, k;
-  memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
-  for (s = 0; s < R->count && w->count > 0; s++) {
-    sli_null_dot dot;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    m = sli_null_first(F, R, s);
-    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
-      if (P->uses[dot.number] > 0) {
-        memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
-             (size_t)lanes * sizeof(double));
-      }
-    }
-    first = s + 1;
-  }
-  for (k = 0; k < w->count; k++) {
-    const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
-    if (at != -1 && sli_null_column(F, null) == -1) {
-      memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
-           (size_t)lanes * sizeof(double));
-    }
-  }
-}
-
-static void sli_pins_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-  sl_int m;
-  for (m = 0; m < F->n_nulls; m++) {
-    const sl_int at = sli_reach_index_of(R, F->nulls[m]);
-    if (at != -1) {
-      memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
-    }
-  }
-}
-
-static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes) {
-  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
-  sl_int a, b, p, k, r;
-  for (p = 0; p < P->n_pins; p++) {
-    for (k = 0; k < P->pins[p]->n_nulls; k++) {
-      double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
-      for (r = 0; r < lanes; r++) {
-        s[r] += P->pins[p]->z[k] * f[(ptrdiff_t)p * lanes + r];
-      }
-    }
-  }
-  for (r = 0; r < lanes; r++) {
-    double *s = w->s + r;
-    for (a = 0; a < w->count; a++) {
-      s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
-      for (b = 0; b < a; b++) {
-        s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
-      }
-    }
-    for (a = w->count - 1; a >= 0; a--) {
-      s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
-      for (b = a + 1; b < w->count; b++) {
-        s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
-      }
-    }
-    for (a = 0; a < w->count; a++) {
-      for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
-        f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
-      }
-    }
-  }
-}
-
-static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
-               sl_int lanes) {
-  const sl_factor *F = P->base;
-  const sli_reach *R = &q->backward;
-  sl_int first = 0, root, s, m, k, r;
-  for (root = 0; root < R->count && w->count > 0; root++) {
-    sl_int last;
-    if (R->steps[root].up != -1) {
-      continue;
-    }
-    last = sli_tree_range_of(F->S, &R->steps[root]).root;
-    for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
-      const sl_int null = F->nulls[m], column = sli_null_column(F, null);
-      const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
-      const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
-      for (s = first; s <= root && v != NULL; s++) {
-        const sli_step *step = &R->steps[s];
-        double *row = x + (ptrdiff_t)step->base * lanes;
-        for (k = step->column; k < step->column + sli_step_columns(step); k++) {
-          const double z = column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0;
-          for (r = 0; r < lanes; r++) {
-            *row++ += z * v[r];
-          }
-        }
-      }
-    }
-    first = root + 1;
-  }
 }
 
 static void sli_pins_couple(const sl_pins *P, double *y, int is_whole, const double *G, size_t ldg,
@@ -24685,7 +24741,7 @@ static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins
   memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
   sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
   sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
-  sli_pins_clear(P->base, R, w->e, lanes);
+  (void)sli_pins_clear(P, R, w->e, lanes, NULL);
   while (sli_intersection_next(&m)) {
     const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
     double *to = x + (ptrdiff_t)m.in_b * lanes;
@@ -24729,14 +24785,30 @@ static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_w
 
 #define SLI_PINS_LOST 1e-8
 
-static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x, const double *G,
-             size_t ldg, sl_int lanes, sl_int nrhs) {
-  sl_int p, r, k;
-  for (r = 0; r < nrhs && P->n_pins > 0; r++) {
-    double most = 0.0;
-    for (k = 0; k < R->columns; k++) {
-      most = fmax(most, fabs(x[(ptrdiff_t)k * lanes + r]));
+static void sli_pins_largest(const sli_reach *R, const double *x, double *largest, sl_int lanes) {
+  double most[SLI_TILE] = {0.0};
+  sl_int s, k, r, first = 0;
+  for (s = 0; s < R->count; s++) {
+    const sl_int end = R->steps[s].base + sli_step_columns(&R->steps[s]);
+    for (k = R->steps[s].base; k < end; k++) {
+      for (r = 0; r < lanes; r++) {
+        most[r] = fmax(most[r], fabs(x[(ptrdiff_t)k * lanes + r]));
+      }
     }
+    if (R->steps[s].up == -1) {
+      for (; first < end; first++) {
+        memcpy(largest + (ptrdiff_t)first * lanes, most, (size_t)lanes * sizeof *most);
+      }
+      memset(most, 0, sizeof most);
+    }
+  }
+}
+
+static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
+             const double *largest, const double *G, size_t ldg, sl_int lanes,
+             sl_int nrhs) {
+  sl_int p, r, k;
+  for (r = 0; r < nrhs; r++) {
     for (p = 0; p < P->n_pins; p++) {
       const sli_pin *pin = P->pins[p];
       const double g = G[(size_t)pin->index + ldg * (size_t)r];
@@ -24744,8 +24816,10 @@ static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x, 
       sl_int at = 0;
       for (k = 0; k < pin->count && at != -1; k++) {
         at = sli_reach_index_of(R, P->F->S->iperm[pin->rows[k]]);
-        sum += at == -1 ? 0.0 : pin->values[k] * x[(ptrdiff_t)at * lanes + r];
-        size += fabs(pin->values[k]) * most;
+        if (at != -1) {
+          sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
+          size += fabs(pin->values[k]) * largest[(ptrdiff_t)at * lanes + r];
+        }
       }
       if (at != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
         return 0;
@@ -24762,16 +24836,24 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
   const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
   const sl_int lanes = (sl_int)1 << kind;
+  double norms[SLI_TILE];
   sl_int p;
   sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
   sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
   sli_pins_clear_rows(P, &q->forward, v.y, lanes);
-  sli_pins_defects(P, q, &w->nulls, v.y, lanes);
+  if (F->n_nulls > 0) {
+    sli_norms(&q->forward, v.y, lanes, norms);
+  }
+  if (!sli_pins_defects(P, q, &w->nulls, v.y, lanes, norms)) {
+    return SL_ERR_INCONSISTENT;
+  }
   if (is_whole) {
     sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);
   }
-  sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
-  sli_pins_clear(F, &q->forward, v.y, lanes);
+  sli_sweep_forward(F, q, &v, nrhs);
+  if (!sli_pins_clear(P, &q->forward, v.y, lanes, norms)) {
+    return SL_ERR_INCONSISTENT;
+  }
   if (P->n_pins > 0) {
     memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
     sli_divide(F, &q->forward, w->u, lanes);
@@ -24784,15 +24866,22 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   }
   sli_pins_load(P, q, w, G, ldg, lanes, nrhs);
   sli_pins_apply(P, w->f, lanes);
-  sli_pins_balance(P, &w->nulls, w->f, lanes);
+  if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
+    return SL_ERR_INCONSISTENT;
+  }
   for (p = 0; p < P->n_pins; p++) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
-  sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
-             q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
+  if (F->is_centered) {
+    sli_center(F, &q->forward, v.y, &q->backward, v.x, lanes, P->uses);
+  }
+  sli_backward(F, &q->backward, kind, v.x, v.scratch);
   sli_pins_shift(P, q, &w->nulls, v.x, lanes);
   sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
-  if (!sli_pins_hold(P, &q->backward, v.x, G, ldg, lanes, nrhs)) {
+  if (P->n_pins > 0) {
+    sli_pins_largest(&q->backward, v.x, w->u, lanes);
+  }
+  if (!sli_pins_hold(P, &q->backward, v.x, w->u, G, ldg, lanes, nrhs)) {
     return SL_ERR_INACCURATE;
   }
   sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);

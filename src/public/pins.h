@@ -13,14 +13,14 @@
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
  *  makes a component with one of them regular, if it is not 0 there; an elastic body in 3D needs
- *  pins that leave none of its 6 motions. Motions that pins leave are fixed by x = 0 in null rows,
- *  as they are in components without pins; b has to be in balance with them, which is not checked.
- *  Weights (options.mass) are not used.
+ *  pins that leave none of its 6 motions. Components without pins are solved as by sl_factor_solve:
+ *  with the weights of options.mass, or with x = 0 in null rows and a b in balance. Motions that
+ *  the pins of a component leave need balance in any case, and x = 0 in null rows fixes them.
  *
  *  Accuracy: the capacitance matrix corrects the solution without pins. Where that solution is
  *  10^d times as large as the one with pins, as with a weak mass term, d digits are lost. Solves
- *  check C' x = g and report the loss (SL_ERR_INACCURATE). Local solves check the equalities whose
- *  rows are all in their reach.
+ *  check C' x = g in each tree of the factor and report the loss (SL_ERR_INACCURATE). Local solves
+ *  check the equalities whose rows are all in their reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
  *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
@@ -141,7 +141,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F has changed, or the plan is of another
  *           analysis; SL_ERR_UNSUPPORTED: a plan in a region; SL_ERR_INACCURATE: C' x = g does not
- *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body; with
+ *           hold to 1e-8 of x, or rounding hides whether pins rule out the motions of a body;
+ *           SL_ERR_INCONSISTENT: b is out of balance with a motion that the pins leave; with
  *           more than 8 right-hand sides X may then have those before it; SL_ERR_TOO_LARGE;
  *           SL_ERR_MEMORY.
  *  Cost     for each right-hand side a solve and, of the pins that are not eliminated, k products

@@ -164,9 +164,45 @@ static void pins_hold_bodies(void **state) {
     }
 }
 
+/* Forces out of balance on a body without pins, or on one that can still turn about its pin, are
+ * refused. */
+static void bodies_that_move_need_balance(void **state) {
+    (void)state;
+    variant_list_t variants = variants_present();
+    uint64_t seed = 8;
+    for (int k = 0; k < 8; k++) {
+        const int dim = 2 + k % 2;
+        held_t h = held_make(dim, &variants, k / 2 % variants.count, &seed);
+        sl_int row = 0;
+        while (h.y.body[row] == -1) {
+            row += dim;
+        }
+        load(&h, -2, &seed);
+        for (int c = 0; c <= dim; c++) { /* no pin, then one direction of a point after the other */
+            assert_held(&h, &seed);
+            for (sl_int at = row + dim; at < h.y.n; at += dim) {
+                if (h.y.body[at] == h.y.body[row]) { /* a moment about the point, and a force */
+                    double b = h.B[at], d = h.B[at + 1];
+                    h.B[at] += h.y.at[row + 1] - h.y.at[at + 1];
+                    h.B[at + 1] += h.y.at[at] - h.y.at[row];
+                    SL_EXPECT(SL_ERR_INCONSISTENT,
+                              sl_pins_solve(h.P, NULL, h.X, h.n, h.B, h.n, h.G, h.n, R, NULL));
+                    h.B[at] = b;
+                    h.B[at + 1] = d;
+                }
+            }
+            if (c < dim) {
+                hold(&h, row + c);
+            }
+        }
+        held_free(&h);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pins_hold_bodies),
+        cmocka_unit_test(bodies_that_move_need_balance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

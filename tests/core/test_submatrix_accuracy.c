@@ -85,7 +85,7 @@ static double pinned_error(const random_system_t *y, const double *X, const sl_i
     }
     error = most / (a * x * (double)n + b);
     for (sl_int k = 0; k < count; k++) {
-        error = fmax(error, fabs(X[rows[k]] - g[k]) / x);
+        error = fmax(error, fabs(X[rows[k]] - g[k]) / (x + fabs(g[k])));
     }
     free(r);
     return error;

@@ -84,6 +84,7 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
         status = pass == 0 ? sli_block_alloc(&b, &P->allocator)
                            : sli_pin_visit_nulls(P->base, pin, 1, row);
     }
+    pin->n_nulls = status == SL_OK ? pin->n_nulls : 0;
     pin->nulls = (sl_int *)(void *)b.base;
     return status;
 }
@@ -123,6 +124,8 @@ typedef struct sli_pins_nulls {
     double *W;              /* count x pins: first an orthogonal basis, then K^-1 W */
     double *S;              /* count x count: the factor L D L' of W' K^-1 W */
     double *s;              /* count x lanes: Z' b, then v */
+    double *defects;        /* count x lanes: Z' (b + C f) */
+    double *sizes;          /* count x lanes: of the terms of defects */
 } sli_pins_nulls;
 
 static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins *P) {
@@ -134,6 +137,8 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
     w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
     w->S = SLI_TAKE(b, double, count *count);
     w->s = SLI_TAKE(b, double, SLI_TILE *count);
+    w->defects = SLI_TAKE(b, double, SLI_TILE *count);
+    w->sizes = SLI_TAKE(b, double, SLI_TILE *count);
 }
 
 /* Fills W, and s with the size of what its columns are computed from. A single null vector is not

@@ -2,12 +2,12 @@
 #ifndef SLI_CHANGE_PINS_SOLVE_H
 #define SLI_CHANGE_PINS_SOLVE_H
 
-#include "pins_capacitance.h"
+#include "pins_balance.h"
 
 /* Arrays of a solve. */
 typedef struct sli_pins_work {
     unsigned char *memory; /* of the sweeps */
-    double *u;             /* forward.columns x lanes: D^-1 y */
+    double *u;             /* columns of either reach x lanes: D^-1 y; then the largest |x| */
     double *f;             /* n_pins x lanes: K f, then f */
     double *e;             /* held_reach.columns x lanes: L^-1 P A(:, H) g, for local solves */
     double *scratch;       /* of its sweep */
@@ -23,7 +23,10 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
                             sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
-    w->u = SLI_TAKE(b, double, P->n_pins == 0 ? 0 : (uint64_t)q->forward.columns * (uint64_t)lanes);
+    w->u = SLI_TAKE(b, double,
+                    P->n_pins == 0 ? 0
+                                   : (uint64_t)sli_max(q->forward.columns, q->backward.columns) *
+                                         (uint64_t)lanes);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
     if (P->n_held > 0 && !sli_pins_is_whole(q)) {
         const sli_reach *R = &P->held_reach;
@@ -31,151 +34,6 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
         w->scratch = SLI_TAKE(b, double, 2 * sli_sweep_scratch(R->tallest, R->widest, 8));
     }
     sli_pins_nulls_layout(&w->nulls, b, P);
-}
-
-/* Factors W' K^-1 W for the columns of W that are not left out. */
-static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
-    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
-    sl_int a, b, p, k;
-    (void)sli_pins_nulls_begin(w, P);
-    sli_pins_nulls_load(w, P);
-    memset(w->S, 0, ld * ld * sizeof(double));
-    for (a = 0; a < w->count; a++) {
-        sli_pins_apply(P, w->W + (size_t)a * count, 1);
-    }
-    for (p = 0; p < P->n_pins; p++) {
-        const sli_pin *pin = P->pins[p];
-        for (k = 0; k < pin->n_nulls; k++) {
-            const size_t row = (size_t)w->place[pin->nulls[k]];
-            for (b = 0; b <= (sl_int)row; b++) {
-                w->S[row * ld + (size_t)b] += pin->z[k] * w->W[(size_t)b * count + (size_t)p];
-            }
-        }
-    }
-    for (a = 0; a < w->count; a++) {
-        double *row = w->S + (size_t)a * ld, d = row[a];
-        for (b = 0; b < a; b++) { /* row(b) = l(b) d(b) */
-            row[b] = w->is_free[a] || w->is_free[b]
-                         ? 0.0
-                         : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
-        }
-        for (b = 0; b < a; b++) {
-            const double x = row[b];
-            row[b] = x / w->S[(size_t)b * ld + (size_t)b];
-            d -= x * row[b];
-        }
-        row[a] = w->is_free[a] ? P->sign : d;
-        if (!(row[a] * P->sign > 0.0)) {
-            return SL_ERR_INACCURATE;
-        }
-    }
-    return SL_OK;
-}
-
-/* s := Z' b before the forward sweep. */
-static void sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
-                             const double *b, sl_int lanes) {
-    const sl_factor *F = P->base;
-    const sli_reach *R = &q->forward;
-    sl_int first = 0, s, m, k;
-    memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
-    for (s = 0; s < R->count && w->count > 0; s++) {
-        sli_null_dot dot;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        m = sli_null_first(F, R, s);
-        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
-            if (P->uses[dot.number] > 0) {
-                memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
-                       (size_t)lanes * sizeof(double));
-            }
-        }
-        first = s + 1;
-    }
-    for (k = 0; k < w->count; k++) {
-        const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
-        if (at != -1 && sli_null_column(F, null) == -1) { /* a row of zeros */
-            memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
-                   (size_t)lanes * sizeof(double));
-        }
-    }
-}
-
-/* y := 0 at all null pivots. */
-static void sli_pins_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-    sl_int m;
-    for (m = 0; m < F->n_nulls; m++) {
-        const sl_int at = sli_reach_index_of(R, F->nulls[m]);
-        if (at != -1) {
-            memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
-        }
-    }
-}
-
-/* s := v, where W' f = -Z' b; f := that of this v. */
-static void sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes) {
-    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
-    sl_int a, b, p, k, r;
-    for (p = 0; p < P->n_pins; p++) {
-        for (k = 0; k < P->pins[p]->n_nulls; k++) {
-            double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
-            for (r = 0; r < lanes; r++) {
-                s[r] += P->pins[p]->z[k] * f[(ptrdiff_t)p * lanes + r];
-            }
-        }
-    }
-    for (r = 0; r < lanes; r++) {
-        double *s = w->s + r;
-        for (a = 0; a < w->count; a++) {
-            s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
-            for (b = 0; b < a; b++) {
-                s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
-            }
-        }
-        for (a = w->count - 1; a >= 0; a--) {
-            s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
-            for (b = a + 1; b < w->count; b++) {
-                s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
-            }
-        }
-        for (a = 0; a < w->count; a++) {
-            for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
-                f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
-            }
-        }
-    }
-}
-
-/* x += Z v */
-static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
-                           sl_int lanes) {
-    const sl_factor *F = P->base;
-    const sli_reach *R = &q->backward;
-    sl_int first = 0, root, s, m, k, r;
-    for (root = 0; root < R->count && w->count > 0; root++) {
-        sl_int last;
-        if (R->steps[root].up != -1) {
-            continue;
-        }
-        last = sli_tree_range_of(F->S, &R->steps[root]).root;
-        for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
-            const sl_int null = F->nulls[m], column = sli_null_column(F, null);
-            const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
-            const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
-            for (s = first; s <= root && v != NULL; s++) {
-                const sli_step *step = &R->steps[s];
-                double *row = x + (ptrdiff_t)step->base * lanes;
-                for (k = step->column; k < step->column + sli_step_columns(step); k++) {
-                    const double z = column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0;
-                    for (r = 0; r < lanes; r++) {
-                        *row++ += z * v[r];
-                    }
-                }
-            }
-        }
-        first = root + 1;
-    }
 }
 
 /* y -= A(:, H) g, where y is a vector of all columns, or that of held_reach. */
@@ -229,7 +87,7 @@ static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins
     memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
     sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
     sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
-    sli_pins_clear(P->base, R, w->e, lanes);
+    (void)sli_pins_clear(P, R, w->e, lanes, NULL);
     while (sli_intersection_next(&m)) {
         const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
         double *to = x + (ptrdiff_t)m.in_b * lanes;
@@ -276,15 +134,32 @@ static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_w
  * much larger than x. */
 #define SLI_PINS_LOST 1e-8
 
-/* Is C' x = g, for the equalities whose rows are all in the vector? */
-static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x, const double *G,
-                         size_t ldg, sl_int lanes, sl_int nrhs) {
-    sl_int p, r, k;
-    for (r = 0; r < nrhs && P->n_pins > 0; r++) {
-        double most = 0.0;
-        for (k = 0; k < R->columns; k++) {
-            most = fmax(most, fabs(x[(ptrdiff_t)k * lanes + r]));
+/* largest := the largest |x| of the tree of each row. */
+static void sli_pins_largest(const sli_reach *R, const double *x, double *largest, sl_int lanes) {
+    double most[SLI_TILE] = {0.0};
+    sl_int s, k, r, first = 0;
+    for (s = 0; s < R->count; s++) {
+        const sl_int end = R->steps[s].base + sli_step_columns(&R->steps[s]);
+        for (k = R->steps[s].base; k < end; k++) {
+            for (r = 0; r < lanes; r++) {
+                most[r] = fmax(most[r], fabs(x[(ptrdiff_t)k * lanes + r]));
+            }
         }
+        if (R->steps[s].up == -1) {
+            for (; first < end; first++) {
+                memcpy(largest + (ptrdiff_t)first * lanes, most, (size_t)lanes * sizeof *most);
+            }
+            memset(most, 0, sizeof most);
+        }
+    }
+}
+
+/* Is C' x = g, for the equalities whose rows are all in the vector? */
+static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
+                         const double *largest, const double *G, size_t ldg, sl_int lanes,
+                         sl_int nrhs) {
+    sl_int p, r, k;
+    for (r = 0; r < nrhs; r++) {
         for (p = 0; p < P->n_pins; p++) {
             const sli_pin *pin = P->pins[p];
             const double g = G[(size_t)pin->index + ldg * (size_t)r];
@@ -292,8 +167,10 @@ static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x, 
             sl_int at = 0;
             for (k = 0; k < pin->count && at != -1; k++) {
                 at = sli_reach_index_of(R, P->F->S->iperm[pin->rows[k]]);
-                sum += at == -1 ? 0.0 : pin->values[k] * x[(ptrdiff_t)at * lanes + r];
-                size += fabs(pin->values[k]) * most;
+                if (at != -1) {
+                    sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
+                    size += fabs(pin->values[k]) * largest[(ptrdiff_t)at * lanes + r];
+                }
             }
             if (at != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
                 return 0;
@@ -311,16 +188,24 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
     const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
     const sl_int lanes = (sl_int)1 << kind;
+    double norms[SLI_TILE];
     sl_int p;
     sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
     sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
     sli_pins_clear_rows(P, &q->forward, v.y, lanes);
-    sli_pins_defects(P, q, &w->nulls, v.y, lanes);
+    if (F->n_nulls > 0) {
+        sli_norms(&q->forward, v.y, lanes, norms);
+    }
+    if (!sli_pins_defects(P, q, &w->nulls, v.y, lanes, norms)) {
+        return SL_ERR_INCONSISTENT;
+    }
     if (is_whole) {
         sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);
     }
-    sli_forward_sweep(F, kind, q->forward.count, q->forward.steps, q->forward.rows, v.y, v.scratch);
-    sli_pins_clear(F, &q->forward, v.y, lanes);
+    sli_sweep_forward(F, q, &v, nrhs);
+    if (!sli_pins_clear(P, &q->forward, v.y, lanes, norms)) {
+        return SL_ERR_INCONSISTENT;
+    }
     if (P->n_pins > 0) {
         memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
         sli_divide(F, &q->forward, w->u, lanes);
@@ -333,15 +218,22 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     }
     sli_pins_load(P, q, w, G, ldg, lanes, nrhs);
     sli_pins_apply(P, w->f, lanes);
-    sli_pins_balance(P, &w->nulls, w->f, lanes);
+    if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
+        return SL_ERR_INCONSISTENT;
+    }
     for (p = 0; p < P->n_pins; p++) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
     }
-    sli_backward_sweep(F, kind, q->backward.count, q->backward.steps,
-                       q->backward.rows + q->backward.n_rows, F->D, v.x, v.scratch);
+    if (F->is_centered) {
+        sli_center(F, &q->forward, v.y, &q->backward, v.x, lanes, P->uses);
+    }
+    sli_backward(F, &q->backward, kind, v.x, v.scratch);
     sli_pins_shift(P, q, &w->nulls, v.x, lanes);
     sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
-    if (!sli_pins_hold(P, &q->backward, v.x, G, ldg, lanes, nrhs)) {
+    if (P->n_pins > 0) {
+        sli_pins_largest(&q->backward, v.x, w->u, lanes);
+    }
+    if (!sli_pins_hold(P, &q->backward, v.x, w->u, G, ldg, lanes, nrhs)) {
         return SL_ERR_INACCURATE;
     }
     sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);

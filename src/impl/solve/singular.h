@@ -269,15 +269,20 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
 }
 
 /* Centers between the sweeps. y holds the columns of the reach `from`; x, which may be y, those of
- * the reach `to`. Trees ascend in both. Trees without a row of b need nothing. */
+ * the reach `to`. Trees ascend in both. Trees without a row of b need nothing. uses: how many pins
+ * hold each null pivot, which is then left alone; NULL: none. */
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
-                       const sli_reach *to, double *x, sl_int lanes) {
+                       const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
     sl_int s = 0, at = 0, m;
     while (s < from->count && at < to->count) {
         sli_center_terms terms;
         sli_tree_range tree;
         sl_int index;
         s = sli_center_tree_terms(F, from, s, y, lanes, &m, &tree, &terms);
+        if (m != -1 && uses != NULL &&
+            uses[sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m])] > 0) {
+            m = -1;
+        }
         for (; at < to->count && to->steps[at].column <= tree.root; at++) {
             const sli_step *step = &to->steps[at];
             const double *v = F->center + step->column, *D = F->D + step->column;

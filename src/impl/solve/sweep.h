@@ -92,7 +92,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
         sli_sweep_region(F, q, kind, v);
     }
     if (F->is_centered) {
-        sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes);
+        sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
     }
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }

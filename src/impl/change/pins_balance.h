@@ -1,0 +1,191 @@
+/* pins_balance.h: null vectors in solves with pins: balance of forces, and motions */
+#ifndef SLI_CHANGE_PINS_BALANCE_H
+#define SLI_CHANGE_PINS_BALANCE_H
+
+#include "pins_capacitance.h"
+
+/* Factors W' K^-1 W for the columns of W that are not left out. */
+static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
+    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
+    sl_int a, b, p, k;
+    (void)sli_pins_nulls_begin(w, P);
+    sli_pins_nulls_load(w, P);
+    memset(w->S, 0, ld * ld * sizeof(double));
+    for (a = 0; a < w->count; a++) {
+        sli_pins_apply(P, w->W + (size_t)a * count, 1);
+    }
+    for (p = 0; p < P->n_pins; p++) {
+        const sli_pin *pin = P->pins[p];
+        for (k = 0; k < pin->n_nulls; k++) {
+            const size_t row = (size_t)w->place[pin->nulls[k]];
+            for (b = 0; b <= (sl_int)row; b++) {
+                w->S[row * ld + (size_t)b] += pin->z[k] * w->W[(size_t)b * count + (size_t)p];
+            }
+        }
+    }
+    for (a = 0; a < w->count; a++) {
+        double *row = w->S + (size_t)a * ld, d = row[a];
+        for (b = 0; b < a; b++) { /* row(b) = l(b) d(b) */
+            row[b] = w->is_free[a] || w->is_free[b]
+                         ? 0.0
+                         : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
+        }
+        for (b = 0; b < a; b++) {
+            const double x = row[b];
+            row[b] = x / w->S[(size_t)b * ld + (size_t)b];
+            d -= x * row[b];
+        }
+        row[a] = w->is_free[a] ? P->sign : d;
+        if (!(row[a] * P->sign > 0.0)) {
+            return SL_ERR_INACCURATE;
+        }
+    }
+    return SL_OK;
+}
+
+/* s := Z' b before the forward sweep. Returns 0 if b is inconsistent in a component without pins
+ * that has several null vectors. norms: of b. */
+static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
+                            const double *b, sl_int lanes, const double *norms) {
+    const sl_factor *F = P->base;
+    const sli_reach *R = &q->forward;
+    sl_int first = 0, s, m, k, r;
+    memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
+    for (s = 0; s < R->count && (w->count > 0 || F->checks); s++) {
+        sli_null_dot dot;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        m = sli_null_first(F, R, s);
+        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+            if (P->uses[dot.number] > 0) {
+                memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
+                       (size_t)lanes * sizeof(double));
+                continue;
+            }
+            for (r = 0; r < lanes && F->checks; r++) {
+                if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+                    return 0;
+                }
+            }
+        }
+        first = s + 1;
+    }
+    for (k = 0; k < w->count; k++) {
+        const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
+        if (at != -1 && sli_null_column(F, null) == -1) { /* a row of zeros */
+            memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
+                   (size_t)lanes * sizeof(double));
+        }
+    }
+    return 1;
+}
+
+/* y := 0 at null pivots after the forward sweep, but for those that weights will center. Returns 0
+ * if b is inconsistent in a component without pins. norms: of b; NULL: it is not checked. */
+static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
+                          const double *norms) {
+    const sl_factor *F = P->base;
+    sl_int m, r;
+    for (m = 0; m < F->n_nulls; m++) {
+        const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+        double *row = y + (ptrdiff_t)at * lanes;
+        const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+        for (r = 0; r < lanes && at != -1 && F->checks && norms != NULL && !is_known; r++) {
+            if (P->uses[m] == 0 && fabs(row[r]) > F->consistency * norms[r]) {
+                return 0;
+            }
+        }
+        if (at != -1 && (P->uses[m] > 0 || !F->is_centered)) {
+            memset(row, 0, (size_t)lanes * sizeof(double));
+        }
+    }
+    return 1;
+}
+
+/* s := v, where W' f = -Z' b; f := that of this v. Returns 0 if b is out of balance with a motion
+ * that the pins leave. norms: of b. */
+static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
+                            const double *norms) {
+    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
+    sl_int a, b, p, k, r;
+    for (k = 0; k < w->count * lanes; k++) {
+        w->defects[k] = w->s[k];
+        w->sizes[k] = norms[k % lanes];
+    }
+    for (p = 0; p < P->n_pins; p++) {
+        for (k = 0; k < P->pins[p]->n_nulls; k++) {
+            double *s = w->s + (ptrdiff_t)w->place[P->pins[p]->nulls[k]] * lanes;
+            for (r = 0; r < lanes; r++) {
+                s[r] += P->pins[p]->z[k] * f[(ptrdiff_t)p * lanes + r];
+            }
+        }
+    }
+    for (r = 0; r < lanes; r++) {
+        double *s = w->s + r;
+        for (a = 0; a < w->count; a++) {
+            s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
+            for (b = 0; b < a; b++) {
+                s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
+            }
+        }
+        for (a = w->count - 1; a >= 0; a--) {
+            s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
+            for (b = a + 1; b < w->count; b++) {
+                s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
+            }
+        }
+        for (a = 0; a < w->count; a++) {
+            for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
+                f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
+            }
+        }
+    }
+    for (p = 0; p < P->n_pins; p++) {
+        for (k = 0; k < P->pins[p]->n_nulls * lanes; k++) {
+            const sl_int at = w->place[P->pins[p]->nulls[k / lanes]] * lanes + k % lanes;
+            const double force = P->pins[p]->z[k / lanes] * f[p * lanes + k % lanes];
+            w->defects[at] += force;
+            w->sizes[at] += fabs(force);
+        }
+    }
+    for (k = 0; k < w->count * lanes && P->base->consistency >= 0.0; k++) {
+        if (w->is_free[k / lanes] && fabs(w->defects[k]) > P->base->consistency * w->sizes[k]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* x += Z v */
+static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w, double *x,
+                           sl_int lanes) {
+    const sl_factor *F = P->base;
+    const sli_reach *R = &q->backward;
+    sl_int first = 0, root, s, m, k, r;
+    for (root = 0; root < R->count && w->count > 0; root++) {
+        sl_int last;
+        if (R->steps[root].up != -1) {
+            continue;
+        }
+        last = sli_tree_range_of(F->S, &R->steps[root]).root;
+        for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
+            const sl_int null = F->nulls[m], column = sli_null_column(F, null);
+            const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+            const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
+            for (s = first; s <= root && v != NULL; s++) {
+                const sli_step *step = &R->steps[s];
+                double *row = x + (ptrdiff_t)step->base * lanes;
+                for (k = step->column; k < step->column + sli_step_columns(step); k++) {
+                    const double z = column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0;
+                    for (r = 0; r < lanes; r++) {
+                        *row++ += z * v[r];
+                    }
+                }
+            }
+        }
+        first = root + 1;
+    }
+}
+
+#endif

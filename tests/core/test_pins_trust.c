@@ -1,0 +1,204 @@
+/* test_pins_trust.c: pins say what they cannot answer: lost digits, unknown null vectors, forces
+ * out of balance; weights count where no pin holds */
+#include "tests/lib/zero_mean.h"
+
+enum { N = 60, HALF = 30 };
+
+/* Two paths of springs of 1 side by side. `own` is added to the first row, `other` to row HALF; the
+ * springs of the second path are multiplied by scale. */
+static gen_matrix_t two_paths(double own, double other, double scale) {
+    gen_list_t t = gen_list(N);
+    for (sl_int k = 0; k < N; k++) {
+        const double w = k < HALF ? 1.0 : scale;
+        const int has_left = k % HALF > 0, has_right = k % HALF < HALF - 1;
+        gen_add(&t, k, k, w * (has_left + has_right) + (k == 0 ? own : k == HALF ? other : 0.0));
+        if (has_left) {
+            gen_add(&t, k, k - 1, -w);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+typedef struct paths_t {
+    gen_matrix_t M;
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_pins *P;
+} paths_t;
+
+static paths_t paths_make(gen_matrix_t M, const sl_options *opt) {
+    paths_t y = {M, NULL, NULL, NULL};
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, opt, NULL));
+    SL_CHECK(sl_pins_create(&y.P, y.F, NULL));
+    return y;
+}
+
+static void paths_free(paths_t *y) {
+    sl_pins_free(y->P);
+    sl_factor_free(y->F);
+    sl_symbolic_free(y->S);
+    gen_matrix_free(&y->M);
+}
+
+/* A path that nearly floats: without pins x is 1e12 times as large as with them. The other path has
+ * the larger x, beside which C' x = g holds well. */
+static void lost_digits_are_reported_in_each_component(void **state) {
+    (void)state;
+    double b[N], x[N], g = 0.0;
+    for (int k = 0; k < N; k++) {
+        b[k] = 1.0;
+    }
+    for (int firm = 0; firm < 2; firm++) {
+        paths_t y = paths_make(two_paths(firm ? 1e-4 : 1e-13, 1e-20, 1e-20), NULL);
+        SL_CHECK(sl_pins_add(y.P, 5, NULL));
+        SL_EXPECT(firm ? SL_OK : SL_ERR_INACCURATE,
+                  sl_pins_solve(y.P, NULL, x, N, b, N, &g, 1, 1, NULL));
+        paths_free(&y);
+    }
+}
+
+/* The null vector of the first path is known, that of the second, whose springs push, is not: an
+ * equality over both is refused. */
+static void a_second_tree_may_have_an_unknown_null_vector(void **state) {
+    (void)state;
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    gen_matrix_t M = two_paths(0.0, 0.0, 1.0);
+    for (sl_int k = HALF + 1; k < N; k++) {
+        for (sl_int p = M.p[k - 1]; p < M.p[k]; p++) {
+            M.x[p] = M.i[p] == k ? -M.x[p] : M.x[p];
+        }
+    }
+    for (int swapped = 0; swapped < 2; swapped++) {
+        const sl_int rows[2] = {swapped ? HALF + 3 : 3, swapped ? 3 : HALF + 3};
+        const double values[2] = {1.0, 1.0};
+        paths_t y = paths_make(M, &opt);
+        sl_stats stats;
+        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add_equality(y.P, rows, values, 2, &stats));
+        assert_int_equal(stats.error.row, HALF + 3);
+        assert_int_equal(sl_pins_count(y.P), 0);
+        SL_CHECK(sl_pins_add(y.P, 3, NULL));
+        y.M = two_paths(0.0, 0.0, 1.0);
+        paths_free(&y);
+    }
+    gen_matrix_free(&M);
+}
+
+/* A full and a local solve with right-hand side b give the same status, and x. */
+static void expect_solves(const paths_t *y, sl_status status, double *x, const double *b,
+                          const double *g) {
+    sl_int rows[N];
+    double local[N];
+    sl_plan *P = NULL;
+    for (sl_int k = 0; k < N; k++) {
+        rows[k] = k;
+    }
+    SL_EXPECT(status, sl_pins_solve(y->P, NULL, x, N, b, N, g, N, 1, NULL));
+    SL_CHECK(sl_plan_create(&P, y->S, rows, N, rows + HALF - 10, 20, NULL, NULL));
+    SL_EXPECT(status, sl_pins_solve(y->P, P, local, 20, b, N, g, N, 1, NULL));
+    for (int k = 0; k < 20 && status == SL_OK; k++) {
+        assert_true(fabs(local[k] - x[HALF - 10 + k]) <= 1e-11);
+    }
+    sl_plan_free(P);
+}
+
+/* The second path has no pin: there b has to be in balance, unless weights make it so, and then x
+ * has zero mean. Pins by both ways. */
+static void components_without_pins_are_as_without_a_set(void **state) {
+    (void)state;
+    double m[N], g[N] = {0.0};
+    for (int k = 0; k < N; k++) {
+        m[k] = 1.0 + k % 3;
+    }
+    for (int kind = 0; kind < 6; kind++) {
+        const int is_held = kind % 2, way = kind / 2; /* way 0: checked, 1: not, 2: with weights */
+        double b[N], x[N];
+        sl_options opt = options_none();
+        sl_stats stats;
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.mass = way == 2 ? m : NULL;
+        opt.consistency_tolerance = way == 1 ? -1.0 : 0.0;
+        paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
+        sl_int rows[HALF - 1];
+        for (sl_int k = 0; k + 1 < HALF; k++) {
+            rows[k] = k == 0 ? 0 : k + 1;
+        }
+        SL_CHECK(is_held ? sl_pins_set_matrix(y.P, &y.M.view, NULL) : SL_OK);
+        SL_CHECK(sl_pins_add_rows(y.P, rows, is_held ? HALF - 1 : 1, &stats));
+        assert_int_equal(stats.pins.method, is_held ? SL_PINS_ELIMINATION : SL_PINS_CAPACITANCE);
+        gen_reals(b, N, 3);
+        b[HALF] += 1.0;
+        expect_solves(&y, way == 0 ? SL_ERR_INCONSISTENT : SL_OK, x, b, g);
+        if (way == 2) { /* the second path by itself */
+            double sums[3] = {0.0, 0.0, 0.0}, largest = 0.0;
+            for (int k = HALF; k < N; k++) {
+                sums[0] += b[k];
+                sums[1] += m[k];
+                sums[2] += m[k] * x[k];
+                largest = fmax(largest, fabs(x[k]));
+            }
+            assert_true(fabs(sums[2]) <= 1e-13 * sums[1] * largest);
+            for (int k = HALF; k < N; k++) {
+                b[k] -= sums[0] / sums[1] * m[k];
+            }
+            double r[N];
+            SL_CHECK(sl_csc_residual(&y.M.view, r, N, NULL, x, N, b, N, 1));
+            for (int k = HALF; k < N; k++) {
+                assert_true(fabs(r[k]) <= 1e-12);
+            }
+        }
+        assert_true(way == 0 || fabs(x[0]) <= 1e-13);
+        double sum = 0.0;
+        for (int k = HALF; k < N; k++) {
+            sum += b[k];
+        }
+        b[HALF] -= sum;
+        expect_solves(&y, SL_OK, x, b, g);
+        paths_free(&y);
+    }
+}
+
+/* A difference leaves the constant of its path: b has to be in balance, with weights or not. */
+static void motions_that_pins_leave_need_balance(void **state) {
+    (void)state;
+    const sl_int rows[2] = {3, HALF - 2};
+    const double values[2] = {1.0, -1.0};
+    double m[N], g[N] = {2.0};
+    for (int k = 0; k < N; k++) {
+        m[k] = 1.0 + k % 3;
+    }
+    for (int weighted = 0; weighted < 2; weighted++) {
+        double b[N] = {0.0}, x[N], r[N];
+        sl_options opt = options_none();
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.mass = weighted ? m : NULL;
+        paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
+        SL_CHECK(sl_pins_add_equality(y.P, rows, values, 2, NULL));
+        b[10] = 1.0;
+        expect_solves(&y, SL_ERR_INCONSISTENT, x, b, g);
+        b[20] = -1.0;
+        expect_solves(&y, SL_OK, x, b, g);
+        assert_true(fabs(x[rows[0]] - x[rows[1]] - 2.0) <= 1e-13);
+        SL_CHECK(sl_csc_residual(&y.M.view, r, N, NULL, x, N, b, N, 1));
+        for (int k = 0; k < N; k++) {
+            assert_true(k == rows[0] || k == rows[1] || fabs(r[k]) <= 1e-13);
+        }
+        b[20] = 0.0; /* one pin more, and nothing is left */
+        SL_CHECK(sl_pins_add(y.P, 0, NULL));
+        expect_solves(&y, SL_OK, x, b, g);
+        paths_free(&y);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lost_digits_are_reported_in_each_component),
+        cmocka_unit_test(a_second_tree_may_have_an_unknown_null_vector),
+        cmocka_unit_test(components_without_pins_are_as_without_a_set),
+        cmocka_unit_test(motions_that_pins_leave_need_balance),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
