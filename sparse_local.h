@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 71facc7d103a64a3
+ * FNV-1a of the lines after this comment, without the license: 5931dff483bcc033
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20209 bilinear.h  20386 entries.h  20668 block.h  20908 reserve.h  21100 selected.h
  *  21310 selected_query.h  21412 region_choose.h  21639 region.h
  * (change: a factor that follows changes of its matrix)
- *  21887 update.h  22234 path.h  22357 rank.h  22712 edges.h  22866 choose.h  23064 pins_types.h
- *  23142 pins_nulls.h  23325 pins_capacitance.h  23576 pins_balance.h  23754 pins_held.h
- *  23970 pins_choose.h  24040 pins_rebuild.h  24255 pins_matrix.h  24406 pins.h  24666 pins_solve.h
- *  24937 subset.h  25058 restrict_analysis.h  25412 restrict_symbolic.h  25609 restrict.h
- *  25831 edit_match.h  26030 edit_place.h  26279 edit_separate.h  26592 edit_order.h
- *  26747 edit_graph.h  26842 edit_join.h  27118 edit.h  27281 edit_factor.h
+ *  21887 update.h  22234 path.h  22361 rank.h  22716 edges.h  22870 choose.h  23068 pins_types.h
+ *  23146 pins_nulls.h  23329 pins_capacitance.h  23580 pins_balance.h  23758 pins_held.h
+ *  23974 pins_choose.h  24044 pins_rebuild.h  24259 pins_matrix.h  24410 pins.h  24670 pins_solve.h
+ *  24941 subset.h  25062 restrict_analysis.h  25416 restrict_symbolic.h  25613 restrict.h
+ *  25835 edit_match.h  26034 edit_place.h  26283 edit_separate.h  26596 edit_order.h
+ *  26751 edit_graph.h  26846 edit_join.h  27122 edit.h  27285 edit_factor.h
  * (save: factors in files)
- *  27580 format.h  27876 decode.h  28024 check.h  28354 write.h  28659 load.h  28927 load_inverse.h
- *  29257 load_calls.h
+ *  27584 format.h  27880 decode.h  28028 check.h  28358 write.h  28663 load.h  28931 load_inverse.h
+ *  29261 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29456 batch_solve.h  29665 batch_factor.h  29866 batch_diagonal.h
+ *  29460 batch_solve.h  29669 batch_factor.h  29870 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30006 hermitian.h  30168 complex_rows.h
+ *  30010 hermitian.h  30172 complex_rows.h
  * (last: undefine every internal macro)
- *  30336 undef.h
+ *  30340 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30603 front.inl.h  30605 product.inl.h  31116 words_undef.inl.h  31193 copy_rows.inl.h
- *  31231 multi_rhs.inl.h  31250 complex_groups.inl.h  31389 multi_rhs_small.inl.h
- *  31561 multi_rhs_tiles.inl.h  31830 sweeps.inl.h  31832 unit_triangle.inl.h  31869 two_rhs.inl.h
- *  32038 small_supernode.inl.h  32219 single_rhs.inl.h  32463 kernel_set.inl.h
- *  32465 complex_small.inl.h  32635 complex_rows.inl.h  32850 inverse_front.inl.h  33135 row.inl.h
- *  33165 change.inl.h  33317 interleave.inl.h  33448 lanes_undef.inl.h
+ *  30607 front.inl.h  30609 product.inl.h  31120 words_undef.inl.h  31197 copy_rows.inl.h
+ *  31235 multi_rhs.inl.h  31254 complex_groups.inl.h  31393 multi_rhs_small.inl.h
+ *  31565 multi_rhs_tiles.inl.h  31834 sweeps.inl.h  31836 unit_triangle.inl.h  31873 two_rhs.inl.h
+ *  32042 small_supernode.inl.h  32223 single_rhs.inl.h  32467 kernel_set.inl.h
+ *  32469 complex_small.inl.h  32639 complex_rows.inl.h  32854 inverse_front.inl.h  33139 row.inl.h
+ *  33169 change.inl.h  33321 interleave.inl.h  33452 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22233,11 +22233,12 @@ static sl_status sli_update_run(sli_update *u) {
 
 /* src/impl/change/path.h: rank-one changes, supernode by supernode on one path */
 
-static double sli_path_load(const sli_update *u, sl_int v, sl_int s, double *w) {
+static double sli_path_load(sli_update *u, sl_int v, sl_int s, double *w) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
   const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v], scale = sqrt(fabs(sigma));
   const sli_step *step = &S->steps[s];
+  double most = 0.0;
   sl_int p;
   memset(w, 0, SLI_TILE * (size_t)sli_tiles(step->width + step->below) * sizeof *w);
   for (p = V->p[v]; p < V->p[v + 1]; p++) {
@@ -22248,8 +22249,10 @@ static double sli_path_load(const sli_update *u, sl_int v, sl_int s, double *w) 
           ? k - step->column
           : step->width + sli_lower_bound(S->rows + S->rows_begin[s], step->below, k);
       w[at] += scale * V->x[p];
+      most = fmax(most, V->x[p] * V->x[p]);
     }
   }
+  u->fall = u->sign * sigma > 0.0 ? 0.0 : fabs(sigma) * most;
   return sigma < 0.0 ? -1.0 : 1.0;
 }
 
@@ -22280,7 +22283,7 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
   const double known = F->extents[s].magnitude, tolerance = F->rule.null_tolerance;
-  double *D = F->D + F->S->super_first[s], least = info->pivot_min, most = info->pivot_max;
+  double *D = F->D + F->S->super_first[s], least = info->pivot_min, top = u->top;
   sl_status status = SL_OK;
   sl_int j;
   for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
@@ -22291,7 +22294,7 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
       if (!u->is_trial) {
         u->most = magnitude > u->most ? magnitude : u->most;
         least = size < least ? size : least;
-        most = size > most ? size : most;
+        top = size > top ? size : top;
         D[j] = e;
       }
     } else {
@@ -22299,7 +22302,8 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
     }
   }
   info->pivot_min = fmin(least, info->pivot_min);
-  info->pivot_max = fmax(most, info->pivot_max);
+  info->pivot_max = fmax(top, info->pivot_max);
+  u->top = fmax(top, u->top);
   return status;
 }
 
@@ -22316,7 +22320,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   one.e = u->c;
   one.b = u->b;
   one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
-  u->most = u->entry = u->growth = 0.0;
+  u->most = u->top = u->entry = u->growth = 0.0;
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];

@@ -9,11 +9,12 @@
 
 /* Loads vector v into the rows of supernode s, times the root of its weight. Returns the sign of
  * the weight. */
-static double sli_path_load(const sli_update *u, sl_int v, sl_int s, double *w) {
+static double sli_path_load(sli_update *u, sl_int v, sl_int s, double *w) {
     const sl_symbolic *S = u->F->S;
     const sl_csc *V = u->V;
     const double sigma = u->sigma == NULL ? 1.0 : u->sigma[v], scale = sqrt(fabs(sigma));
     const sli_step *step = &S->steps[s];
+    double most = 0.0;
     sl_int p;
     memset(w, 0, SLI_TILE * (size_t)sli_tiles(step->width + step->below) * sizeof *w);
     for (p = V->p[v]; p < V->p[v + 1]; p++) {
@@ -24,8 +25,10 @@ static double sli_path_load(const sli_update *u, sl_int v, sl_int s, double *w) 
                     ? k - step->column
                     : step->width + sli_lower_bound(S->rows + S->rows_begin[s], step->below, k);
             w[at] += scale * V->x[p];
+            most = fmax(most, V->x[p] * V->x[p]);
         }
     }
+    u->fall = u->sign * sigma > 0.0 ? 0.0 : fabs(sigma) * most;
     return sigma < 0.0 ? -1.0 : 1.0;
 }
 
@@ -59,7 +62,7 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
     const double known = F->extents[s].magnitude, tolerance = F->rule.null_tolerance;
-    double *D = F->D + F->S->super_first[s], least = info->pivot_min, most = info->pivot_max;
+    double *D = F->D + F->S->super_first[s], least = info->pivot_min, top = u->top;
     sl_status status = SL_OK;
     sl_int j;
     for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
@@ -70,7 +73,7 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
             if (!u->is_trial) {
                 u->most = magnitude > u->most ? magnitude : u->most;
                 least = size < least ? size : least;
-                most = size > most ? size : most;
+                top = size > top ? size : top;
                 D[j] = e;
             }
         } else {
@@ -78,7 +81,8 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
         }
     }
     info->pivot_min = fmin(least, info->pivot_min);
-    info->pivot_max = fmax(most, info->pivot_max);
+    info->pivot_max = fmax(top, info->pivot_max);
+    u->top = fmax(top, u->top);
     return status;
 }
 
@@ -97,7 +101,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     one.e = u->c;
     one.b = u->b;
     one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
-    u->most = u->entry = u->growth = 0.0;
+    u->most = u->top = u->entry = u->growth = 0.0;
     for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
         const sli_step *step = &S->steps[s];
         const sl_int *to = S->relative + S->rows_begin[s];
