@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5931dff483bcc033
+ * FNV-1a of the lines after this comment, without the license: 503228d8f255df4e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -65,27 +65,27 @@
  *  21310 selected_query.h  21412 region_choose.h  21639 region.h
  * (change: a factor that follows changes of its matrix)
  *  21887 update.h  22234 path.h  22361 rank.h  22716 edges.h  22870 choose.h  23068 pins_types.h
- *  23146 pins_nulls.h  23329 pins_capacitance.h  23580 pins_balance.h  23758 pins_held.h
- *  23974 pins_choose.h  24044 pins_rebuild.h  24259 pins_matrix.h  24410 pins.h  24670 pins_solve.h
- *  24941 subset.h  25062 restrict_analysis.h  25416 restrict_symbolic.h  25613 restrict.h
- *  25835 edit_match.h  26034 edit_place.h  26283 edit_separate.h  26596 edit_order.h
- *  26751 edit_graph.h  26846 edit_join.h  27122 edit.h  27285 edit_factor.h
+ *  23147 pins_nulls.h  23330 pins_capacitance.h  23582 pins_balance.h  23760 pins_held.h
+ *  23976 pins_choose.h  24035 pins_rebuild.h  24253 pins_matrix.h  24404 pins.h  24673 pins_solve.h
+ *  24944 subset.h  25065 restrict_analysis.h  25419 restrict_symbolic.h  25616 restrict.h
+ *  25838 edit_match.h  26037 edit_place.h  26286 edit_separate.h  26599 edit_order.h
+ *  26754 edit_graph.h  26849 edit_join.h  27125 edit.h  27288 edit_factor.h
  * (save: factors in files)
- *  27584 format.h  27880 decode.h  28028 check.h  28358 write.h  28663 load.h  28931 load_inverse.h
- *  29261 load_calls.h
+ *  27587 format.h  27883 decode.h  28031 check.h  28361 write.h  28666 load.h  28934 load_inverse.h
+ *  29264 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29460 batch_solve.h  29669 batch_factor.h  29870 batch_diagonal.h
+ *  29463 batch_solve.h  29672 batch_factor.h  29873 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30010 hermitian.h  30172 complex_rows.h
+ *  30013 hermitian.h  30175 complex_rows.h
  * (last: undefine every internal macro)
- *  30340 undef.h
+ *  30343 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30607 front.inl.h  30609 product.inl.h  31120 words_undef.inl.h  31197 copy_rows.inl.h
- *  31235 multi_rhs.inl.h  31254 complex_groups.inl.h  31393 multi_rhs_small.inl.h
- *  31565 multi_rhs_tiles.inl.h  31834 sweeps.inl.h  31836 unit_triangle.inl.h  31873 two_rhs.inl.h
- *  32042 small_supernode.inl.h  32223 single_rhs.inl.h  32467 kernel_set.inl.h
- *  32469 complex_small.inl.h  32639 complex_rows.inl.h  32854 inverse_front.inl.h  33139 row.inl.h
- *  33169 change.inl.h  33321 interleave.inl.h  33452 lanes_undef.inl.h
+ *  30610 front.inl.h  30612 product.inl.h  31123 words_undef.inl.h  31200 copy_rows.inl.h
+ *  31238 multi_rhs.inl.h  31257 complex_groups.inl.h  31396 multi_rhs_small.inl.h
+ *  31568 multi_rhs_tiles.inl.h  31837 sweeps.inl.h  31839 unit_triangle.inl.h  31876 two_rhs.inl.h
+ *  32045 small_supernode.inl.h  32226 single_rhs.inl.h  32470 kernel_set.inl.h
+ *  32472 complex_small.inl.h  32642 complex_rows.inl.h  32857 inverse_front.inl.h  33142 row.inl.h
+ *  33172 change.inl.h  33324 interleave.inl.h  33455 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23085,7 +23085,8 @@ struct sl_pins {
   sli_numbers numbers;
   double sign;
   double delta;
-  sl_int count, room;
+  sl_int count;
+  sl_off room;
   sl_int *rows;
 
   const sl_factor *base;
@@ -23333,6 +23334,9 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
   const sl_symbolic *S = F->S;
   const sl_status status = sli_pin_find_nulls(P, pin, row);
   sl_int k;
+  if (status != SL_OK) {
+    return status;
+  }
   memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
   for (k = 0; k < pin->count; k++) {
     const sl_int column = S->iperm[pin->rows[k]];
@@ -23346,14 +23350,12 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
       pin->y[at] = 0.0;
     }
   }
-  return status;
+  return SL_OK;
 }
 
 static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
-  if (pin != NULL) {
-    sli_free(&P->allocator, pin->nulls);
-    sli_free(&P->allocator, pin);
-  }
+  sli_free(&P->allocator, pin->nulls);
+  sli_free(&P->allocator, pin);
 }
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
@@ -23911,7 +23913,7 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
   const sl_symbolic *S = P->F->S;
   const sl_off total = S->scatter_begin[S->n_supers];
   sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
-  sl_status status = h->couplings > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+  sl_status status = SL_OK;
   sl_int *rows = NULL, *held = NULL, k, j, s = 0;
   double *values = NULL;
   sli_set set;
@@ -23980,18 +23982,7 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
 #define SLI_PINS_MAP 5e-9
 #define SLI_PINS_MEMORY 6e-9
 
-static double sli_pins_flop(sl_isa isa) {
-  switch (isa) {
-  case SL_ISA_AVX512:
-    return 0.016e-9;
-  case SL_ISA_AVX2:
-    return 0.035e-9;
-  case SL_ISA_NEON:
-    return 0.08e-9;
-  default:
-    return 0.3e-9;
-  }
-}
+static const double sli_pins_flop[] = {0.0, 0.3e-9, 0.035e-9, 0.016e-9, 0.08e-9};
 
 static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                     sl_int others, sl_int *uses) {
@@ -24030,7 +24021,7 @@ static double sli_pins_least_cost(const sl_pins *P) {
 
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
   const sl_symbolic *S = P->F->S;
-  const double flop = sli_pins_flop(P->F->kernels->isa);
+  const double flop = sli_pins_flop[P->F->kernels->isa];
   const double whole = flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT * S->n_supers;
   double part;
   h->way.seeds = h->seeds;
@@ -24081,25 +24072,28 @@ static void sli_pins_release(sl_pins *P) {
   sli_free(&P->allocator, P->held);
 }
 
-static sl_status sli_pins_reserve(sl_pins *P, sl_off count) {
-  const sl_off room = count < 8 ? 8 : count < INT32_MAX / 2 ? 2 * count : INT32_MAX;
-  sl_int *rows;
+static sl_status sli_pins_reserve(sl_pins *P, sl_int count) {
+  const sl_off room = 2 * (sl_off)count + 8;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int *rows = NULL;
+  int pass;
   if (count <= P->room) {
     return SL_OK;
   }
-  if (count > INT32_MAX) {     /* untested: 2^31 pins */
-    return SL_ERR_TOO_LARGE; /* untested: the same */
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    rows = SLI_TAKE(&b, sl_int, room);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
-  rows = (sl_int *)sli_alloc(&P->allocator, (size_t)room * sizeof *rows);
-  if (rows == NULL) {
-    return SL_ERR_MEMORY;
+  if (status != SL_OK) {
+    return status;
   }
   if (P->count > 0) {
     memcpy(rows, P->rows, (size_t)P->count * sizeof *rows);
   }
   sli_free(&P->allocator, P->rows);
   P->rows = rows;
-  P->room = (sl_int)room;
+  P->room = room;
   return SL_OK;
 }
 
@@ -24112,14 +24106,14 @@ typedef struct sli_pins_target {
 } sli_pins_target;
 
 static sl_status sli_pins_target_make(sli_pins_target *t, sli_block *b, const sl_pins *P,
-                    sl_off more) {
-  const sl_off count = P->count + more;
-  sl_status status = count > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+                    sl_int more) {
+  const sl_int count = P->count + more;
+  sl_status status = SL_OK;
   int pass;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     t->rows = SLI_TAKE(b, sl_int, count);
     t->from = SLI_TAKE(b, sl_int, count);
-    t->list = SLI_TAKE(b, uint64_t, 2 * count);
+    t->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)count);
     t->uses = SLI_TAKE(b, sl_int, P->F->S->n_supers);
     status = pass == 0 ? sli_block_alloc(b, &P->allocator) : SL_OK;
   }
@@ -24189,7 +24183,8 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
                   int is_stale, sl_stats *stats) {
   sl_pins D = *P;
   sl_status status = SL_OK;
-  D.count = D.room = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
+  D.count = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
+  D.room = 0;
   D.rows = D.uses = D.held = NULL;
   D.pins = NULL;
   if (h != NULL && P->G == NULL) {
@@ -24211,9 +24206,8 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
   return SL_OK;
 }
 
-static int sli_pins_is_numeric(sl_status status) {
-  return status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE || status == SL_ERR_INACCURATE ||
-       status == SL_ERR_UNSUPPORTED;
+static int sli_pins_is_refused(sl_status status) {
+  return status != SL_OK && status != SL_ERR_MEMORY;
 }
 
 static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *values,
@@ -24228,11 +24222,11 @@ static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *v
   if (values != NULL) {
     status = sli_holding_begin(&h, P, t->rows, t->count, is_stale, stats);
     elimination = status == SL_OK ? sli_pins_elimination_cost(P, &h) : 0.0;
-    is_held = status == SL_OK && margin * capacitance > elimination && h.count > 0;
+    is_held = status == SL_OK && margin * capacitance > elimination;
   }
   if (is_held) {
     status = sli_pins_rebuild(P, t, &h, is_stale, stats);
-    is_refused = sli_pins_is_numeric(status);
+    is_refused = sli_pins_is_refused(status);
     is_held = !is_refused;
   }
   if (!is_held && (status == SL_OK || is_refused)) {
@@ -24488,7 +24482,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
       return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
     }
   }
-  status = sli_pins_reserve(P, (sl_off)P->count + 1);
+  status = sli_pins_reserve(P, P->count + 1);
   status = status == SL_OK ? sli_pins_push(P, P->count, rows, values, count, stats) : status;
   if (status == SL_OK) {
     P->rows[P->count++] = -1;
@@ -24501,7 +24495,7 @@ static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_
                        sl_stats *stats) {
   const double one = 1.0;
   const sl_int before = P->count;
-  sl_status status = sli_pins_reserve(P, (sl_off)P->count + count);
+  sl_status status = sli_pins_reserve(P, P->count + count);
   sl_int k;
   for (k = 0; k < count && status == SL_OK; k++) {
     status = sli_pins_push(P, P->count, &rows[k], &one, 1, stats);
@@ -24557,7 +24551,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
       P->reason = SL_PINS_CHEAPEST;
       P->spent = 0.0;
       P->threshold = sli_pins_least_cost(P);
-    } else if (sli_pins_is_numeric(status)) {
+    } else if (sli_pins_is_refused(status)) {
       P->reason = SL_PINS_REFUSED;
       P->threshold = (double)INFINITY;
       status = SL_OK;
@@ -24570,7 +24564,8 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
 
 SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
   const double started = sli_seconds();
-  double seconds = 0.0;
+  double seconds = 0.0, threshold;
+  sl_pins_reason reason;
   sl_status status = SL_OK;
   sl_int k;
   int is_done = 0;
@@ -24581,6 +24576,11 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
   if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
     return SL_ERR_STATE;
   }
+  if (count > INT32_MAX - P->count) {
+    return SL_ERR_TOO_LARGE;
+  }
+  reason = P->reason;
+  threshold = P->threshold;
   for (k = 0; k < count; k++) {
     if (rows[k] < 0 || rows[k] >= P->F->S->n) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0);
@@ -24598,6 +24598,9 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
   }
   if (status == SL_OK) {
     sli_pins_report(P, started, stats);
+  } else {
+    P->reason = reason;
+    P->threshold = threshold;
   }
   return status;
 }

@@ -20,7 +20,7 @@ static factored_t path(double sign, sl_int cut, double shift) {
         }
     }
     for (sl_int k = 0; k < N; k++) {
-        gen_add(&t, k, k, diagonal[k] + (cut > 0 && k >= cut ? shift : 0.0));
+        gen_add(&t, k, k, fabs(sign) * diagonal[k] + (cut > 0 && k >= cut ? shift : 0.0));
     }
     y.M = gen_store(&t, gen_style(0), 1);
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
@@ -48,10 +48,14 @@ static void failed_factors_are_refused(void **state) {
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &A, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_create(&Q, y.F, NULL));
     assert_null(Q);
-    SL_EXPECT(SL_ERR_STATE, sl_pins_add(P, 4, NULL));
+    const sl_int row = 4;
+    SL_EXPECT(SL_ERR_STATE, sl_pins_add(P, row, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_add_equality(P, &row, &g, 1, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_refactor(P));
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_add(P, row, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_add_equality(P, &row, &g, 1, NULL));
     SL_CHECK(sl_pins_refactor(P));
     SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     assert_true(fabs(x[3] - g) <= 1e-14);
@@ -132,6 +136,14 @@ static void null_vectors_must_be_known(void **state) {
     sl_pins_free(P);
     factored_free(&y);
 
+    y = path(1.0, 20, 0.0); /* two such components */
+    assert_int_equal(null_count(y.F), 2);
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 33, NULL));
+    sl_pins_free(P);
+    factored_free(&y);
+
     double z[2 * N], b[N] = {0.0}, x[N];
     const double g[2] = {2.0, -1.0};
     sl_options opt = options_none();
@@ -142,6 +154,13 @@ static void null_vectors_must_be_known(void **state) {
         z[k] = 1.0;
         z[N + k] = k;
     }
+    y = path(1.0, 0, 0.0); /* none holds */
+    sl_factor_free(y.F);
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, NULL));
+    sl_pins_free(P);
+    factored_free(&y);
     y = path(-1.0, 0, 0.0);
     sl_factor_free(y.F);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
@@ -199,16 +218,20 @@ static void a_difference_leaves_the_constant_free(void **state) {
     factored_free(&y);
 }
 
-/* New values with another null vector: the pins are refused until the values are good again. */
+/* New values with another null vector: the pins are refused until the values are good again. They
+ * can be released in between. */
 static void a_refactorization_may_lose_the_null_vector(void **state) {
     (void)state;
     factored_t y = path(-1.0, 0, 0.0), bad = path(1.0, 0, 0.0);
     double b[N] = {0.0}, x[N], g = 4.0;
     sl_pins *P;
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 8, NULL));
     SL_CHECK(sl_pins_add(P, 3, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &bad.M.view, NULL));
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P));
+    SL_CHECK(sl_pins_release(P, 0));
+    assert_int_equal(sl_pins_count(P), 1);
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
     SL_CHECK(sl_pins_refactor(P));
@@ -218,6 +241,136 @@ static void a_refactorization_may_lose_the_null_vector(void **state) {
     }
     sl_pins_free(P);
     factored_free(&bad);
+    factored_free(&y);
+}
+
+/* Each allocation of a set over a singular matrix fails once, and of an equality. */
+static void failing_allocations_leave_the_set(void **state) {
+    (void)state;
+    factored_t y = path(-1.0, 0, 0.0);
+    const sl_int rows[2] = {3, 20};
+    const double values[2] = {0.75, 0.25};
+    double b[N] = {0.0}, x[N], g = 4.0;
+    for (int step = 0; step < 2; step++) {
+        sl_status status = SL_ERR_MEMORY;
+        for (int k = 0; status != SL_OK; k++) {
+            counter_t counter = counter_make();
+            sl_options opt = options_counted(&counter);
+            sl_pins *P = (sl_pins *)(void *)&y;
+            counter.fail_at = step == 0 ? k : -1;
+            status = sl_pins_create(&P, y.F, &opt);
+            assert_true((P != NULL) == (status == SL_OK));
+            if (step == 1) {
+                counter.fail_at = (int64_t)counter.calls + k;
+                status = sl_pins_add_equality(P, rows, values, 2, NULL);
+                assert_int_equal(sl_pins_count(P), status == SL_OK);
+            }
+            assert_true(status == SL_ERR_MEMORY || (status == SL_OK && k > step));
+            counter.fail_at = -1;
+            if (step == 1 && status == SL_OK) {
+                SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+                assert_true(fabs(x[0] - g) <= 1e-12);
+            }
+            sl_pins_free(P);
+            COUNTER_CLEAN(&counter);
+        }
+    }
+    factored_free(&y);
+}
+
+/* Rows of zeros, one by itself and one among the entries of a path, and what is pinned there. Two
+ * paths that only a zero joins have two null vectors, of which one is known. */
+static void rows_of_zeros_can_be_pinned(void **state) {
+    (void)state;
+    for (int way = 0; way < 3; way++) {
+        factored_t y = {{0}, NULL, NULL};
+        sl_options opt = options_none();
+        gen_list_t t = gen_list(N);
+        double b[N] = {0.0}, x[N];
+        const double g[2] = {2.0, -7.0};
+        sl_pins *P;
+        sl_stats stats;
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        for (sl_int k = 0; k + 2 < N; k++) { /* row N - 1 is 0 */
+            const double weight = way == 2 && k == 19 ? 0.0 : 1.0;
+            gen_add(&t, k + 1, k, -weight);
+            gen_add(&t, k, k, weight);
+            gen_add(&t, k + 1, k + 1, weight);
+        }
+        gen_add(&t, N - 1, N - 1, 0.0);
+        if (way == 1) {
+            gen_add(&t, N - 1, 7, 0.0);
+        }
+        y.M = gen_store(&t, gen_style(0), 1);
+        SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
+        SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+        assert_int_equal(null_count(y.F), way == 2 ? 3 : 2);
+        SL_CHECK(sl_pins_create(&P, y.F, NULL));
+        SL_CHECK(sl_pins_set_matrix(P, &y.M.view, &stats));
+        if (way == 2) {
+            SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 30, NULL));
+            SL_CHECK(sl_pins_add(P, N - 1, NULL));
+            sl_pins_free(P);
+            gen_list_free(&t);
+            factored_free(&y);
+            continue;
+        }
+        SL_CHECK(sl_pins_add(P, 30, NULL));
+        SL_CHECK(sl_pins_add(P, N - 1, NULL));
+        SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
+        for (sl_int k = 0; k < N; k++) {
+            assert_true(fabs(x[k] - (k == N - 1 ? g[1] : g[0])) <= 1e-12);
+        }
+        sl_pins_free(P);
+        gen_list_free(&t);
+        factored_free(&y);
+    }
+}
+
+/* A weak mass term: without pins x is 1e11 times as large as with them. */
+static void lost_digits_are_noticed(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
+    gen_list_t t = gen_list(N);
+    double B[9 * N], X[9 * N], before[9 * N];
+    const double G[9] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+    sl_pins *P;
+    factored_free(&y);
+    for (sl_int k = 0; k + 1 < N; k++) {
+        gen_add(&t, k + 1, k, -1.0);
+        gen_add(&t, k, k, 1.0);
+        gen_add(&t, k + 1, k + 1, 1.0 + (k == 20 ? 3e-12 : 0.0));
+    }
+    y.M = gen_store(&t, gen_style(0), 1);
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add(P, 3, NULL));
+    for (int k = 0; k < 9 * N; k++) {
+        B[k] = 1.0 + 0.1 * (k % 7);
+        X[k] = before[k] = 123.0;
+    }
+    SL_EXPECT(SL_ERR_INACCURATE, sl_pins_solve(P, NULL, X, N, B, N, G, 1, 9, NULL));
+    assert_memory_equal(X, before, sizeof X);
+    sl_pins_free(P);
+    gen_list_free(&t);
+    factored_free(&y);
+}
+
+/* An equality that sees the constant so little that its square underflows. */
+static void an_underflow_is_refused(void **state) {
+    (void)state;
+    factored_t y = path(-1e-6, 0, 0.0);
+    const sl_int *perm = sl_symbolic_view(y.S).perm;
+    const sl_int rows[3] = {perm[0], perm[N / 2], perm[N - 1]}; /* summed in the order of L */
+    const double values[3] = {1.0, -1.0, 1e-160};
+    double b[N] = {0.0}, x[N] = {0.0}, g = 1.0;
+    sl_pins *P;
+    SL_CHECK(sl_pins_create(&P, y.F, NULL));
+    SL_CHECK(sl_pins_add_equality(P, rows, values, 3, NULL));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
+    assert_true(x[0] == 0.0);
+    sl_pins_free(P);
     factored_free(&y);
 }
 
@@ -241,6 +394,10 @@ int main(void) {
         cmocka_unit_test(null_vectors_must_be_known),
         cmocka_unit_test(a_difference_leaves_the_constant_free),
         cmocka_unit_test(a_refactorization_may_lose_the_null_vector),
+        cmocka_unit_test(failing_allocations_leave_the_set),
+        cmocka_unit_test(rows_of_zeros_can_be_pinned),
+        cmocka_unit_test(lost_digits_are_noticed),
+        cmocka_unit_test(an_underflow_is_refused),
         cmocka_unit_test(a_matrix_without_rows_has_no_pins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

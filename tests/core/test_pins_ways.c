@@ -41,13 +41,6 @@ static sl_int free_rows(const pinned_t *p, sl_int *rows, sl_int most, uint64_t *
     return count;
 }
 
-static void add_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_stats *stats) {
-    SL_CHECK(sl_pins_add_rows(p->P, rows, count, stats));
-    for (sl_int k = 0; k < count; k++) {
-        p->C[(size_t)p->n * (size_t)p->count++ + (size_t)rows[k]] = 1.0;
-    }
-}
-
 /* Releases `count` of the pins from number `least` on. */
 static void release_rows(pinned_t *p, sl_int least, sl_int count, uint64_t *seed, sl_stats *stats) {
     const size_t n = (size_t)p->n;
@@ -106,7 +99,7 @@ static void change(pinned_t *p, sl_int least, uint64_t *seed, ways_t *w) {
         const int kind = (int)gen_below(seed, 8);
         if (kind < 3 && p->count < p->n / 2) {
             const sl_int most = kind == 0 ? 1 : 1 + gen_below(seed, 1 + p->n / 4);
-            add_rows(p, rows, free_rows(p, rows, most, seed), &stats);
+            pin_rows(p, rows, free_rows(p, rows, most, seed), &stats);
         } else if (kind == 3 && p->count > least) {
             release(p, least + gen_below(seed, p->count - least));
             continue;
@@ -223,10 +216,10 @@ static void new_numbers_are_taken(void **state) {
     }
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(NULL, A, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(p.P, NULL, NULL));
-    add_rows(&p, rows, 2, &stats);
+    pin_rows(&p, rows, 2, &stats);
     assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
     SL_CHECK(sl_pins_set_matrix(p.P, A, &stats));
-    add_rows(&p, rows + 2, 38, &stats);
+    pin_rows(&p, rows + 2, 38, &stats);
     assert_int_equal(stats.pins.eliminated, 40);
     SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, 4, &stats));
     assert_int_equal(stats.error.row, 4);
@@ -265,7 +258,22 @@ static void new_numbers_are_taken(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, outside, 2, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(NULL, twice, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_pins_add_rows(p.P, twice, INT32_MAX, NULL));
     assert_pinned(&p, 7);
+    SL_CHECK(sl_pins_set_matrix(p.P, A, NULL));
+    SL_CHECK(sl_pins_add_rows(p.P, NULL, 0, NULL));
+    for (sl_int k = 0; k < 40; k++) {
+        rows[k] = 2 * (k % 39) + 1;
+    }
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows, 40, &stats)); /* row 1 twice */
+    assert_int_equal(stats.error.row, 1);
+    pin_rows(&p, rows, 39, &stats);
+    assert_int_equal(stats.pins.method, SL_PINS_ELIMINATION);
+    assert_pinned(&p, 8);
+    A->x = x; /* zeros */
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(p.y.F, A, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_release(p.P, p.count - 1));
+    assert_int_equal(sl_pins_count(p.P), p.count);
     A->x = p.y.M.x;
     free(values);
     free(x);

@@ -34,6 +34,13 @@ static inline void pin(pinned_t *p, sl_int row) {
     assert_int_equal(sl_pins_count(p->P), p->count);
 }
 
+static inline void pin_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_stats *stats) {
+    SL_CHECK(sl_pins_add_rows(p->P, rows, count, stats));
+    for (sl_int k = 0; k < count; k++) {
+        p->C[(size_t)p->n * (size_t)p->count++ + (size_t)rows[k]] = 1.0;
+    }
+}
+
 static inline void release(pinned_t *p, sl_int index) {
     size_t n = (size_t)p->n;
     SL_CHECK(sl_pins_release(p->P, index));

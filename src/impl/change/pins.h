@@ -84,7 +84,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
             return sli_fail_at(stats, SL_ERR_NOT_FINITE, rows[k], -1, values[k]);
         }
     }
-    status = sli_pins_reserve(P, (sl_off)P->count + 1);
+    status = sli_pins_reserve(P, P->count + 1);
     status = status == SL_OK ? sli_pins_push(P, P->count, rows, values, count, stats) : status;
     if (status == SL_OK) {
         P->rows[P->count++] = -1;
@@ -98,7 +98,7 @@ static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_
                                              sl_stats *stats) {
     const double one = 1.0;
     const sl_int before = P->count;
-    sl_status status = sli_pins_reserve(P, (sl_off)P->count + count);
+    sl_status status = sli_pins_reserve(P, P->count + count);
     sl_int k;
     for (k = 0; k < count && status == SL_OK; k++) {
         status = sli_pins_push(P, P->count, &rows[k], &one, 1, stats);
@@ -156,7 +156,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
             P->reason = SL_PINS_CHEAPEST;
             P->spent = 0.0;
             P->threshold = sli_pins_least_cost(P);
-        } else if (sli_pins_is_numeric(status)) {
+        } else if (sli_pins_is_refused(status)) {
             P->reason = SL_PINS_REFUSED;
             P->threshold = (double)INFINITY;
             status = SL_OK;
@@ -169,7 +169,8 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
 
 SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
     const double started = sli_seconds();
-    double seconds = 0.0;
+    double seconds = 0.0, threshold;
+    sl_pins_reason reason;
     sl_status status = SL_OK;
     sl_int k;
     int is_done = 0;
@@ -180,6 +181,11 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
     if (!P->F->is_valid || !sli_numbers_are_of(&P->numbers, P->F)) {
         return SL_ERR_STATE;
     }
+    if (count > INT32_MAX - P->count) {
+        return SL_ERR_TOO_LARGE;
+    }
+    reason = P->reason;
+    threshold = P->threshold;
     for (k = 0; k < count; k++) {
         if (rows[k] < 0 || rows[k] >= P->F->S->n) {
             return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[k], -1, 0.0);
@@ -197,6 +203,9 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
     }
     if (status == SL_OK) {
         sli_pins_report(P, started, stats);
+    } else { /* both ways have refused them */
+        P->reason = reason;
+        P->threshold = threshold;
     }
     return status;
 }

@@ -10,6 +10,9 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
     const sl_symbolic *S = F->S;
     const sl_status status = sli_pin_find_nulls(P, pin, row);
     sl_int k;
+    if (status != SL_OK) {
+        return status;
+    }
     memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
     for (k = 0; k < pin->count; k++) {
         const sl_int column = S->iperm[pin->rows[k]];
@@ -23,14 +26,12 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
             pin->y[at] = 0.0;
         }
     }
-    return status;
+    return SL_OK;
 }
 
 static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
-    if (pin != NULL) {
-        sli_free(&P->allocator, pin->nulls);
-        sli_free(&P->allocator, pin);
-    }
+    sli_free(&P->allocator, pin->nulls);
+    sli_free(&P->allocator, pin);
 }
 
 /* Makes an equality. */

@@ -12,19 +12,8 @@
 #define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
 #define SLI_PINS_MEMORY 6e-9   /* an entry of a new factor */
 
-/* Seconds of a flop in a front. */
-static double sli_pins_flop(sl_isa isa) {
-    switch (isa) {
-    case SL_ISA_AVX512:
-        return 0.016e-9;
-    case SL_ISA_AVX2:
-        return 0.035e-9;
-    case SL_ISA_NEON:
-        return 0.08e-9;
-    default:
-        return 0.3e-9;
-    }
-}
+/* Seconds of a flop in a front, by sl_isa. */
+static const double sli_pins_flop[] = {0.0, 0.3e-9, 0.035e-9, 0.016e-9, 0.08e-9};
 
 /* Seconds of new pins by the capacitance matrix, beside `others` that are there. seeds: their
  * columns, ascending; uses: n_supers of scratch, 0 before and after; NULL: for one pin, whose path
@@ -68,7 +57,7 @@ static double sli_pins_least_cost(const sl_pins *P) {
 /* Seconds of elimination. Decides whether it is computed in the reach of the changes. */
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
     const sl_symbolic *S = P->F->S;
-    const double flop = sli_pins_flop(P->F->kernels->isa);
+    const double flop = sli_pins_flop[P->F->kernels->isa];
     const double whole = flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT * S->n_supers;
     double part;
     h->way.seeds = h->seeds;

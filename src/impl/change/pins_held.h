@@ -173,7 +173,7 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
     const sl_symbolic *S = P->F->S;
     const sl_off total = S->scatter_begin[S->n_supers];
     sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
-    sl_status status = h->couplings > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+    sl_status status = SL_OK;
     sl_int *rows = NULL, *held = NULL, k, j, s = 0;
     double *values = NULL;
     sli_set set;

@@ -46,25 +46,28 @@ static void sli_pins_release(sl_pins *P) {
 }
 
 /* Room for the rows of `count` pins in all. */
-static sl_status sli_pins_reserve(sl_pins *P, sl_off count) {
-    const sl_off room = count < 8 ? 8 : count < INT32_MAX / 2 ? 2 * count : INT32_MAX;
-    sl_int *rows;
+static sl_status sli_pins_reserve(sl_pins *P, sl_int count) {
+    const sl_off room = 2 * (sl_off)count + 8;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int *rows = NULL;
+    int pass;
     if (count <= P->room) {
         return SL_OK;
     }
-    if (count > INT32_MAX) {     /* untested: 2^31 pins */
-        return SL_ERR_TOO_LARGE; /* untested: the same */
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        rows = SLI_TAKE(&b, sl_int, room);
+        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
-    rows = (sl_int *)sli_alloc(&P->allocator, (size_t)room * sizeof *rows);
-    if (rows == NULL) {
-        return SL_ERR_MEMORY;
+    if (status != SL_OK) {
+        return status;
     }
     if (P->count > 0) {
         memcpy(rows, P->rows, (size_t)P->count * sizeof *rows);
     }
     sli_free(&P->allocator, P->rows);
     P->rows = rows;
-    P->room = (sl_int)room;
+    P->room = room;
     return SL_OK;
 }
 
@@ -78,14 +81,14 @@ typedef struct sli_pins_target {
 } sli_pins_target;
 
 static sl_status sli_pins_target_make(sli_pins_target *t, sli_block *b, const sl_pins *P,
-                                      sl_off more) {
-    const sl_off count = P->count + more;
-    sl_status status = count > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK;
+                                      sl_int more) {
+    const sl_int count = P->count + more;
+    sl_status status = SL_OK;
     int pass;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         t->rows = SLI_TAKE(b, sl_int, count);
         t->from = SLI_TAKE(b, sl_int, count);
-        t->list = SLI_TAKE(b, uint64_t, 2 * count);
+        t->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)count);
         t->uses = SLI_TAKE(b, sl_int, P->F->S->n_supers);
         status = pass == 0 ? sli_block_alloc(b, &P->allocator) : SL_OK;
     }
@@ -161,7 +164,8 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
                                   int is_stale, sl_stats *stats) {
     sl_pins D = *P;
     sl_status status = SL_OK;
-    D.count = D.room = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
+    D.count = D.n_pins = D.capacity = D.n_held = D.n_couplings = 0;
+    D.room = 0;
     D.rows = D.uses = D.held = NULL;
     D.pins = NULL;
     if (h != NULL && P->G == NULL) {
@@ -184,9 +188,8 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
 }
 
 /* Is this the outcome of numbers, after which the other way may be tried? */
-static int sli_pins_is_numeric(sl_status status) {
-    return status == SL_ERR_PIVOT || status == SL_ERR_NOT_FINITE || status == SL_ERR_INACCURATE ||
-           status == SL_ERR_UNSUPPORTED;
+static int sli_pins_is_refused(sl_status status) {
+    return status != SL_OK && status != SL_ERR_MEMORY;
 }
 
 /* Makes the set anew by the cheaper way, with the values of A, or NULL. margin: elimination may
@@ -203,11 +206,11 @@ static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *v
     if (values != NULL) {
         status = sli_holding_begin(&h, P, t->rows, t->count, is_stale, stats);
         elimination = status == SL_OK ? sli_pins_elimination_cost(P, &h) : 0.0;
-        is_held = status == SL_OK && margin * capacitance > elimination && h.count > 0;
+        is_held = status == SL_OK && margin * capacitance > elimination;
     }
     if (is_held) {
         status = sli_pins_rebuild(P, t, &h, is_stale, stats);
-        is_refused = sli_pins_is_numeric(status);
+        is_refused = sli_pins_is_refused(status);
         is_held = !is_refused;
     }
     if (!is_held && (status == SL_OK || is_refused)) {

@@ -44,7 +44,8 @@ struct sl_pins {
     sli_numbers numbers;
     double sign;  /* of all pivots */
     double delta; /* takes the place of null pivots, and of the diagonal of held rows */
-    sl_int count, room;
+    sl_int count;
+    sl_off room;
     sl_int *rows; /* room: the row of each pin; -1: an equality */
 
     /* by the capacitance matrix */
