@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 503228d8f255df4e
+ * FNV-1a of the lines after this comment, without the license: b437f2c76066ba52
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -68,24 +68,24 @@
  *  23147 pins_nulls.h  23330 pins_capacitance.h  23582 pins_balance.h  23760 pins_held.h
  *  23976 pins_choose.h  24035 pins_rebuild.h  24253 pins_matrix.h  24404 pins.h  24673 pins_solve.h
  *  24944 subset.h  25065 restrict_analysis.h  25419 restrict_symbolic.h  25616 restrict.h
- *  25838 edit_match.h  26037 edit_place.h  26286 edit_separate.h  26599 edit_order.h
- *  26754 edit_graph.h  26849 edit_join.h  27125 edit.h  27288 edit_factor.h
+ *  25838 edit_match.h  26037 edit_place.h  26286 edit_separate.h  26600 edit_order.h
+ *  26755 edit_graph.h  26850 edit_join.h  27126 edit.h  27289 edit_factor.h
  * (save: factors in files)
- *  27587 format.h  27883 decode.h  28031 check.h  28361 write.h  28666 load.h  28934 load_inverse.h
- *  29264 load_calls.h
+ *  27572 format.h  27868 decode.h  28016 check.h  28346 write.h  28651 load.h  28919 load_inverse.h
+ *  29249 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29463 batch_solve.h  29672 batch_factor.h  29873 batch_diagonal.h
+ *  29448 batch_solve.h  29657 batch_factor.h  29858 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30013 hermitian.h  30175 complex_rows.h
+ *  29998 hermitian.h  30160 complex_rows.h
  * (last: undefine every internal macro)
- *  30343 undef.h
+ *  30328 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30610 front.inl.h  30612 product.inl.h  31123 words_undef.inl.h  31200 copy_rows.inl.h
- *  31238 multi_rhs.inl.h  31257 complex_groups.inl.h  31396 multi_rhs_small.inl.h
- *  31568 multi_rhs_tiles.inl.h  31837 sweeps.inl.h  31839 unit_triangle.inl.h  31876 two_rhs.inl.h
- *  32045 small_supernode.inl.h  32226 single_rhs.inl.h  32470 kernel_set.inl.h
- *  32472 complex_small.inl.h  32642 complex_rows.inl.h  32857 inverse_front.inl.h  33142 row.inl.h
- *  33172 change.inl.h  33324 interleave.inl.h  33455 lanes_undef.inl.h
+ *  30595 front.inl.h  30597 product.inl.h  31108 words_undef.inl.h  31185 copy_rows.inl.h
+ *  31223 multi_rhs.inl.h  31242 complex_groups.inl.h  31381 multi_rhs_small.inl.h
+ *  31553 multi_rhs_tiles.inl.h  31822 sweeps.inl.h  31824 unit_triangle.inl.h  31861 two_rhs.inl.h
+ *  32030 small_supernode.inl.h  32211 single_rhs.inl.h  32455 kernel_set.inl.h
+ *  32457 complex_small.inl.h  32627 complex_rows.inl.h  32842 inverse_front.inl.h  33127 row.inl.h
+ *  33157 change.inl.h  33309 interleave.inl.h  33440 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -26458,7 +26458,7 @@ static sl_int sli_band_search(sli_band *w) {
       }
       continue;
     }
-    if ((w->kind[v] & SLI_BAND_LAST) != 0 && w->to[v] != SLI_BAND_END) {
+    if ((w->kind[v] & SLI_BAND_LAST) != 0) {
       return v;
     }
     w->e->steps -= 1 + e->begin[k + 1] - e->begin[k];
@@ -26483,9 +26483,9 @@ static void sli_band_augment(sli_band *w, sl_int last) {
   w->from[w->queue[count - 1] / 2] = SLI_BAND_END;
   for (k = count - 2; k >= 0; k--) {
     const sl_int a = w->queue[k + 1], b = w->queue[k];
-    if (a % 2 == 1 && b % 2 == 0 && a / 2 == b / 2) {
+    if (a % 2 == 1 && a / 2 == b / 2) {
       w->from[a / 2] = w->to[a / 2] = SLI_BAND_NONE;
-    } else if (a % 2 == 1 && b % 2 == 0) {
+    } else if (a % 2 == 1) {
       w->to[a / 2] = b / 2;
       w->from[b / 2] = a / 2;
     }
@@ -26517,7 +26517,8 @@ static void sli_band_apply(sli_band *w) {
     for (k = 0; k < count; k++) {
       const sl_int row = w->queue[k], lowest = sli_edit_lowest(e, row, &conflicts);
       if (sli_band_is_below(w, lowest) || !progress) {
-        sli_edit_move(e, row, lowest == -1 ? w->node : lowest);
+        const int is_lost = lowest == -1; /* untested: rows follow those they came from */
+        sli_edit_move(e, row, is_lost ? w->node : lowest); /* untested: the same */
       } else {
         w->queue[left++] = row;
       }
@@ -26549,7 +26550,7 @@ static void sli_band_cut(sli_band *w) {
 static sl_int sli_edit_separates(sli_edit *e, sl_int row) {
   sl_int conflicts;
   const sl_int node = e->node[row] == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
-  return node != -1 && e->is_join && sli_edit_is_above(e, e->node[row], node) ? node : -1;
+  return node != -1 && e->is_join ? node : -1;
 }
 
 static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
@@ -26785,8 +26786,8 @@ static sl_status sli_edit_graph_room(const sli_edit *e, sli_restriction *r, cons
   for (k = 0; k < e->n_fresh; k++) {
     entries += (uint64_t)(e->B->p[e->fresh[k] + 1] - e->B->p[e->fresh[k]]);
   }
-  if (entries > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
+  if (entries > INT32_MAX) {   /* untested: 2^31 entries */
+    return SL_ERR_TOO_LARGE; /* untested: the same */
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     r->entry_row = SLI_TAKE(&b, sl_int, entries);
@@ -27232,7 +27233,7 @@ static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, doubl
     T->ordered_l = S->ordered_l > 0 ? S->ordered_l : before->nnz_l;
     T->ordered_a = S->ordered_a > 0 ? S->ordered_a : before->nnz_a;
   }
-  if (!is_anew && T->ordered_a > 0 && T->ordered_l > 0 && now->nnz_a > 0) {
+  if (!is_anew && T->ordered_a > 0 && now->nnz_a > 0) {
     info->growth = ((double)now->nnz_l / (double)T->ordered_l) /
              ((double)now->nnz_a / (double)T->ordered_a);
   }
@@ -27453,17 +27454,6 @@ static void sli_reuse_compare(sli_reuse *r, sl_int s) {
   }
 }
 
-static int sli_reuse_has_children(const sli_reuse *r, sl_int s) {
-  const sl_symbolic *T = r->G->S;
-  sl_int c;
-  for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
-    if (r->from[c] == -1 || r->F->S->super_parent[r->from[c]] != r->from[s]) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static int sli_reuse_find(sli_reuse *r) {
   const sl_symbolic *T = r->G->S;
   sl_int s;
@@ -27483,11 +27473,6 @@ static int sli_reuse_find(sli_reuse *r) {
         (is_sample ? SLI_REUSE_MOST_OF_SAMPLE : SLI_REUSE_MOST) * r->flops_anew) {
         return 0;
       }
-    }
-  }
-  for (s = 0; s < T->n_supers; s++) {
-    if (r->from[s] != -1 && !sli_reuse_has_children(r, s)) {
-      sli_reuse_drop(r, s);
     }
   }
   return sli_reuse_choose(r);

@@ -223,6 +223,8 @@ CREATE(pins, sl_pins, sl_pins_free, sl_pins_create(&out, a->F, NULL))
 CREATE(symbolic, sl_symbolic, sl_symbolic_free, sl_symbolic_create(&out, a->A, NULL, &a->stats))
 CREATE(edit, sl_symbolic, sl_symbolic_free,
        sl_symbolic_edit(&out, a->S, &o->good.M.view, a->A, o->perm, NULL, &a->stats))
+CREATE(edit_before, sl_symbolic, sl_symbolic_free,
+       sl_symbolic_edit(&out, a->S, a->A, &o->good.M.view, o->perm, NULL, &a->stats))
 CREATE(edit_factor, sl_factor, sl_factor_free,
        sl_factor_edit(&out, a->F, a->S, a->A, o->perm, NULL, &a->stats))
 CREATE(factor, sl_factor, sl_factor_free, sl_factor_create(&out, a->S, a->A, NULL, &a->stats))
@@ -250,6 +252,7 @@ static const struct {
     {"sl_matrix_sum", sum, A_ | SQUARE_},
     {"sl_symbolic_create", symbolic, A_ | SQUARE_},
     {"sl_symbolic_edit", edit, A_ | SQUARE_ | S_},
+    {"sl_symbolic_edit, A", edit_before, A_ | SQUARE_ | S_},
     {"sl_factor_edit", edit_factor, A_ | SQUARE_ | VALUES_ | S_ | F_ | FAILED_},
     {"sl_symbolic_scatter", scatter, A_ | SQUARE_ | VALUES_ | S_},
     {"sl_factor_create", factor, A_ | SQUARE_ | VALUES_ | S_},
@@ -321,6 +324,7 @@ SPOIL(no_matrix, a->A = NULL)
 SPOIL(negative_size, a->view.n_rows = a->view.n_cols = -1)
 SPOIL(negative_rows, a->view.n_rows = -1)
 SPOIL(rectangular, a->view.n_rows = N + 1)
+SPOIL(narrow, a->view.n_cols = N - 1)
 SPOIL(largest_size, a->view.n_rows = a->view.n_cols = INT32_MAX)
 SPOIL(no_positions, a->view.p = NULL)
 SPOIL(no_rows, a->view.i = NULL)
@@ -373,6 +377,7 @@ static const struct {
     {"n = -1", negative_size, A_, BAD_MATRIX},
     {"n_rows = -1", negative_rows, A_, BAD_MATRIX},
     {"rectangular", rectangular, SQUARE_, BAD_MATRIX},
+    {"a column less", narrow, SQUARE_, BAD_MATRIX},
     {"n = 2^31 - 1", largest_size, A_, BAD_MATRIX},
     {"p NULL", no_positions, A_, SL_ERR_ARGUMENT},
     {"i NULL", no_rows, A_, SL_ERR_ARGUMENT},

@@ -183,7 +183,7 @@ static void assert_saving(sl_status expected, sl_symbolic *S, sl_factor *F, sl_s
 static void an_analysis_created_again(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_PATH, N, 1, 1);
-    sl_int perm[N];
+    sl_int perm[N], map[N];
     double b[6] = {1, 2, 3, 4, 5, 6}, x[6], full[N], rhs[N] = {1};
     for (int other = 0; other < 2; other++) {
         pool_t pool;
@@ -227,6 +227,11 @@ static void an_analysis_created_again(void **state) {
         SL_EXPECT(expected, sl_factor_restrict(&part, &H, F, &M.view, set, 6, NULL, NULL));
         sl_factor_free(H);
         sl_symbolic_free(part);
+        for (sl_int k = 0; k < N; k++) {
+            map[k] = k;
+        }
+        SL_EXPECT(expected, sl_factor_edit(&H, F, S, &M.view, map, NULL, NULL));
+        sl_factor_free(H);
         sl_plan *inside = NULL;
         rest.region = R;
         SL_EXPECT(expected, sl_plan_create(&inside, S, set, 6, set, 6, &rest, NULL));

@@ -272,7 +272,8 @@ static sl_status restrict_few(fixture_t *f, const sl_options *opt) {
     return restriction(f, f->bset, 20, opt);
 }
 
-/* Three rows in the middle of the grid are joined with rows below them, and row 7 is gone. */
+/* Three rows in the middle of the grid are joined with rows below them, row 7 is gone, and two rows
+ * are new. */
 static sl_status edit(fixture_t *f, const sl_options *opt) {
     const sl_csc *A = &f->y.M.view;
     gen_list_t t = gen_list(A->n_cols);
@@ -281,7 +282,7 @@ static sl_status edit(fixture_t *f, const sl_options *opt) {
     for (sl_int j = 0; j < A->n_cols; j++) {
         new_of[j] = j < 7 ? j : j == 7 ? -1 : j - 1;
     }
-    t.n--;
+    t.n++;
     for (sl_int j = 0; j < A->n_cols; j++) {
         for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
             if (A->i[p] >= j && A->i[p] != 7 && j != 7) {
@@ -294,6 +295,7 @@ static sl_status edit(fixture_t *f, const sl_options *opt) {
     for (sl_int k = 110; k < 113; k++) {
         gen_add(&t, k + 31, k, 1.0);
     }
+    gen_add(&t, 225, 224, 1.0);
     gen_matrix_t B = gen_store(&t, gen_style(0), 1);
     const sl_status status = sl_symbolic_edit(&T, f->y.S, A, &B.view, new_of, opt, NULL);
     MADE_OR_NULL(status, T);

@@ -171,11 +171,111 @@ static void everything_may_come_or_go(void **state) {
     SL_CHECK(sl_symbolic_edit(&U, T, &none.view, &A.view, NULL, NULL, &stats));
     edited_check(U, &A, 0);
     assert_int_equal(stats.edit.is_anew, 1);
+    sl_symbolic_free(T);
+    for (int k = 0; k < 49; k++) { /* all edges go */
+        gone[k] = k;
+    }
+    gen_matrix_t diagonal = gen_matrix(GEN_DIAGONAL, 49, 1, 1);
+    SL_CHECK(sl_symbolic_edit(&T, S, &A.view, &diagonal.view, gone, NULL, &stats));
+    edited_check(T, &diagonal, 0);
+    assert_int_equal(stats.edit.changed, 49);
+    gen_matrix_free(&diagonal);
     sl_symbolic_free(S);
     sl_symbolic_free(T);
     sl_symbolic_free(U);
     gen_matrix_free(&A);
     gen_matrix_free(&none);
+}
+
+/* Entries that options.triangle leaves out are not compared. */
+static void one_triangle_is_read(void **state) {
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        sl_options opt = options_none();
+        gen_list_t t = gen_make(GEN_GRID2, 400, 1, 42);
+        gen_matrix_t A = gen_store(&t, gen_style(2), 1);
+        gen_add(&t, 230, 150, 0.25);
+        gen_add(&t, 231, 151, 0.25);
+        gen_matrix_t B = gen_store(&t, gen_style(2), 1);
+        sl_int map[400];
+        sl_symbolic *S = NULL, *T = NULL, *whole = NULL;
+        sl_stats stats, all;
+        for (sl_int i = 0; i < 400; i++) {
+            map[i] = i;
+        }
+        SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
+        SL_CHECK(sl_symbolic_edit(&whole, S, &A.view, &B.view, map, NULL, &all));
+        sl_symbolic_free(S);
+        opt.triangle = k == 0 ? SL_TRIANGLE_LOWER : SL_TRIANGLE_UPPER;
+        SL_CHECK(sl_symbolic_create(&S, &A.view, &opt, NULL));
+        SL_CHECK(sl_symbolic_edit(&T, S, &A.view, &B.view, map, &opt, &stats));
+        edited_check(T, &B, 0);
+        assert_int_equal(stats.edit.is_anew, 0);
+        assert_int_equal(stats.edit.changed, 4);
+        assert_int_equal(stats.edit.changed, all.edit.changed);
+        assert_true(stats.symbolic.nnz_l == all.symbolic.nnz_l);
+        sl_symbolic_free(S);
+        sl_symbolic_free(T);
+        sl_symbolic_free(whole);
+        gen_matrix_free(&A);
+        gen_matrix_free(&B);
+        gen_list_free(&t);
+    }
+}
+
+/* Two chains of supernodes, whose lower ends are joined by more and more new entries: searches that
+ * climb them end after a moderate number of steps, in any part of the edit. New rows join in. */
+static void long_searches_end(void **state) {
+    (void)state;
+    enum { LENGTH = 150, N = 2 * LENGTH + 1 };
+    int local = 0, anew = 0;
+    for (int way = 0; way < 4; way++) {
+        for (sl_int joined = 1; joined < 24; joined++) {
+            const sl_int n = way % 2 ? N : N - 1, added = 3;
+            gen_list_t t = gen_list(n), e = gen_list(n + added);
+            uint64_t random = (uint64_t)joined;
+            sl_int map[N], perm[N];
+            sl_options opt = options_none();
+            sl_symbolic *S = NULL, *T = NULL;
+            sl_stats stats;
+            for (sl_int k = 0; k < n; k++) { /* with n odd both end in the last row */
+                const sl_int up = k == 2 * LENGTH ? -1 : k % LENGTH + 1 < LENGTH ? k + 1 : n - 1;
+                map[k] = perm[k] = k;
+                if (up > k && (up < 2 * LENGTH ? up / LENGTH == k / LENGTH : way % 2 == 1)) {
+                    gen_add(&t, up, k, 1.0);
+                    gen_add(&e, up, k, 1.0);
+                }
+            }
+            for (sl_int k = 0; k < joined; k++) {
+                gen_add(&e, LENGTH + (way < 2 ? 3 * k : 2 * k), 3 * k, 1.0);
+            }
+            for (sl_int k = 0; k < added; k++) {
+                gen_add(&e, n + k, 5 * k, 1.0);
+                gen_add(&e, n + k, LENGTH + 7 * k, 1.0);
+            }
+            gen_dominate(&t, 1, &random);
+            gen_dominate(&e, 1, &random);
+            gen_matrix_t A = gen_store(&t, gen_style(0), 1), B = gen_store(&e, gen_style(0), 1);
+            opt.ordering = SL_ORDERING_GIVEN;
+            opt.perm = perm;
+            opt.relaxation = SL_RELAXATION_NONE;
+            SL_CHECK(sl_symbolic_create(&S, &A.view, &opt, NULL));
+            opt.ordering = SL_ORDERING_ND;
+            opt.perm = NULL;
+            SL_CHECK(sl_symbolic_edit(&T, S, &A.view, &B.view, map, &opt, &stats));
+            edited_check(T, &B, 1);
+            anew += stats.edit.is_anew;
+            local += !stats.edit.is_anew;
+            sl_symbolic_free(S);
+            sl_symbolic_free(T);
+            gen_matrix_free(&A);
+            gen_matrix_free(&B);
+            gen_list_free(&t);
+            gen_list_free(&e);
+        }
+    }
+    print_message("%d of %d edits kept the order\n", local, local + anew);
+    assert_true(local > 0 && anew > 0);
 }
 
 static void wrong_maps_and_matrices_are_refused(void **state) {
@@ -211,6 +311,16 @@ static void wrong_maps_and_matrices_are_refused(void **state) {
     assert_int_equal(sl_symbolic_edit(&T, S, &B.view, &A.view, new_of, NULL, NULL), SL_ERR_PATTERN);
     assert_int_equal(sl_symbolic_edit(&T, S, &small.view, &A.view, new_of, NULL, NULL),
                      SL_ERR_PATTERN);
+    sl_matrix *other; /* with as many entries */
+    sl_int perm[49];
+    for (sl_int i = 0; i < 49; i++) {
+        perm[i] = (i + 1) % 49;
+    }
+    SL_CHECK(sl_matrix_permute(&other, &A.view, perm, NULL));
+    const sl_csc rotated = sl_matrix_view(other);
+    assert_int_equal(sl_symbolic_edit(&T, S, &rotated, &B.view, new_of, NULL, NULL),
+                     SL_ERR_PATTERN);
+    sl_matrix_free(other);
     opt.relaxation = (sl_relaxation)7;
     assert_int_equal(sl_symbolic_edit(&T, S, &A.view, &B.view, new_of, &opt, NULL),
                      SL_ERR_ARGUMENT);
@@ -220,6 +330,17 @@ static void wrong_maps_and_matrices_are_refused(void **state) {
     assert_int_equal(sl_symbolic_edit(&T, S, &A.view, &B.view, new_of, NULL, NULL),
                      SL_ERR_UNSUPPORTED);
     sl_symbolic_free(S);
+    sl_factor *F = NULL, *G = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A.view, NULL, NULL));
+    SL_CHECK(sl_factor_restrict(&T, &G, F, &A.view, new_of, 20, NULL, NULL));
+    sl_symbolic *U = NULL;
+    assert_int_equal(sl_symbolic_edit(&U, T, &A.view, &B.view, new_of, NULL, NULL),
+                     SL_ERR_UNSUPPORTED);
+    sl_factor_free(F);
+    sl_factor_free(G);
+    sl_symbolic_free(S);
+    sl_symbolic_free(T);
     gen_matrix_free(&A);
     gen_matrix_free(&B);
     gen_matrix_free(&small);
@@ -232,6 +353,8 @@ int main(void) {
         cmocka_unit_test(renumbering_changes_nothing),
         cmocka_unit_test(a_cut_is_an_edit),
         cmocka_unit_test(everything_may_come_or_go),
+        cmocka_unit_test(one_triangle_is_read),
+        cmocka_unit_test(long_searches_end),
         cmocka_unit_test(wrong_maps_and_matrices_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

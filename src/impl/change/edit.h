@@ -120,7 +120,7 @@ static void sli_edit_count(sl_symbolic *T, const sli_edit *e, int is_anew, doubl
         T->ordered_l = S->ordered_l > 0 ? S->ordered_l : before->nnz_l;
         T->ordered_a = S->ordered_a > 0 ? S->ordered_a : before->nnz_a;
     }
-    if (!is_anew && T->ordered_a > 0 && T->ordered_l > 0 && now->nnz_a > 0) {
+    if (!is_anew && T->ordered_a > 0 && now->nnz_a > 0) {
         info->growth = ((double)now->nnz_l / (double)T->ordered_l) /
                        ((double)now->nnz_a / (double)T->ordered_a);
     }

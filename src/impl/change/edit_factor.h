@@ -23,8 +23,9 @@
 #define SLI_REUSE_UNKNOWN (-2)
 
 /* What is kept of F. A supernode of G is kept if a supernode of F has the same columns, rows and
- * entries, and if its children are kept and are all children of that one. The rows may be in
- * another order, as ancestors may be. */
+ * entries and as many descendants, and if its own are kept. The rows may be in another order, as
+ * ancestors may be. These descendants are those of the supernode of F: the first row below each
+ * child in F is in the columns of its parent in G, as all others are among the rows below it. */
 typedef struct sli_reuse {
     const sl_factor *F;
     sl_factor *G;
@@ -192,18 +193,6 @@ static void sli_reuse_compare(sli_reuse *r, sl_int s) {
     }
 }
 
-/* Are the children of kept supernode s all those of the one of F? Their subtrees are as large. */
-static int sli_reuse_has_children(const sli_reuse *r, sl_int s) {
-    const sl_symbolic *T = r->G->S;
-    sl_int c;
-    for (c = s - 1; c >= T->first_descendant[s]; c = T->first_descendant[c] - 1) {
-        if (r->from[c] == -1 || r->F->S->super_parent[r->from[c]] != r->from[s]) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* Finds the subtrees to keep. Returns whether that is faster than to compute them. */
 static int sli_reuse_find(sli_reuse *r) {
     const sl_symbolic *T = r->G->S;
@@ -224,11 +213,6 @@ static int sli_reuse_find(sli_reuse *r) {
                 (is_sample ? SLI_REUSE_MOST_OF_SAMPLE : SLI_REUSE_MOST) * r->flops_anew) {
                 return 0;
             }
-        }
-    }
-    for (s = 0; s < T->n_supers; s++) {
-        if (r->from[s] != -1 && !sli_reuse_has_children(r, s)) {
-            sli_reuse_drop(r, s);
         }
     }
     return sli_reuse_choose(r);

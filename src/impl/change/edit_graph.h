@@ -45,8 +45,8 @@ static sl_status sli_edit_graph_room(const sli_edit *e, sli_restriction *r, cons
     for (k = 0; k < e->n_fresh; k++) {
         entries += (uint64_t)(e->B->p[e->fresh[k] + 1] - e->B->p[e->fresh[k]]);
     }
-    if (entries > INT32_MAX) {
-        return SL_ERR_TOO_LARGE;
+    if (entries > INT32_MAX) {   /* untested: 2^31 entries */
+        return SL_ERR_TOO_LARGE; /* untested: the same */
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         r->entry_row = SLI_TAKE(&b, sl_int, entries);

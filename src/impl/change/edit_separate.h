@@ -190,7 +190,7 @@ static sl_int sli_band_search(sli_band *w) {
             }
             continue;
         }
-        if ((w->kind[v] & SLI_BAND_LAST) != 0 && w->to[v] != SLI_BAND_END) {
+        if ((w->kind[v] & SLI_BAND_LAST) != 0) { /* nothing leads behind the end of a path */
             return v;
         }
         w->e->steps -= 1 + e->begin[k + 1] - e->begin[k];
@@ -216,9 +216,9 @@ static void sli_band_augment(sli_band *w, sl_int last) {
     w->from[w->queue[count - 1] / 2] = SLI_BAND_END;
     for (k = count - 2; k >= 0; k--) {
         const sl_int a = w->queue[k + 1], b = w->queue[k];
-        if (a % 2 == 1 && b % 2 == 0 && a / 2 == b / 2) { /* the vertex leaves its path */
+        if (a % 2 == 1 && a / 2 == b / 2) { /* the vertex leaves its path */
             w->from[a / 2] = w->to[a / 2] = SLI_BAND_NONE;
-        } else if (a % 2 == 1 && b % 2 == 0) {
+        } else if (a % 2 == 1) {
             w->to[a / 2] = b / 2;
             w->from[b / 2] = a / 2;
         }
@@ -250,8 +250,9 @@ static void sli_band_apply(sli_band *w) {
         sl_int left = 0;
         for (k = 0; k < count; k++) {
             const sl_int row = w->queue[k], lowest = sli_edit_lowest(e, row, &conflicts);
-            if (sli_band_is_below(w, lowest) || !progress) {
-                sli_edit_move(e, row, lowest == -1 ? w->node : lowest);
+            if (sli_band_is_below(w, lowest) || !progress) { /* then some neighbor has a place */
+                const int is_lost = lowest == -1; /* untested: rows follow those they came from */
+                sli_edit_move(e, row, is_lost ? w->node : lowest); /* untested: the same */
             } else {
                 w->queue[left++] = row;
             }
@@ -281,11 +282,12 @@ static void sli_band_cut(sli_band *w) {
     }
 }
 
-/* The node whose subtrees a row near the edit separates, or -1. */
+/* The node whose subtrees a row near the edit separates, or -1. The row's own node, which is on one
+ * path with that of each neighbor, is the same or above. */
 static sl_int sli_edit_separates(sli_edit *e, sl_int row) {
     sl_int conflicts;
     const sl_int node = e->node[row] == -1 ? -1 : sli_edit_lowest(e, row, &conflicts);
-    return node != -1 && e->is_join && sli_edit_is_above(e, e->node[row], node) ? node : -1;
+    return node != -1 && e->is_join ? node : -1;
 }
 
 /* Finds smaller separators for all nodes above the subtrees that are ordered anew. */
