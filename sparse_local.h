@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b437f2c76066ba52
+ * FNV-1a of the lines after this comment, without the license: 0c6c78c775db0591
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -82,10 +82,10 @@
  * (templates: the header includes them from itself, once for each instruction set)
  *  30595 front.inl.h  30597 product.inl.h  31108 words_undef.inl.h  31185 copy_rows.inl.h
  *  31223 multi_rhs.inl.h  31242 complex_groups.inl.h  31381 multi_rhs_small.inl.h
- *  31553 multi_rhs_tiles.inl.h  31822 sweeps.inl.h  31824 unit_triangle.inl.h  31861 two_rhs.inl.h
- *  32030 small_supernode.inl.h  32211 single_rhs.inl.h  32455 kernel_set.inl.h
- *  32457 complex_small.inl.h  32627 complex_rows.inl.h  32842 inverse_front.inl.h  33127 row.inl.h
- *  33157 change.inl.h  33309 interleave.inl.h  33440 lanes_undef.inl.h
+ *  31553 multi_rhs_tiles.inl.h  31830 sweeps.inl.h  31832 unit_triangle.inl.h  31869 two_rhs.inl.h
+ *  32038 small_supernode.inl.h  32219 single_rhs.inl.h  32463 kernel_set.inl.h
+ *  32465 complex_small.inl.h  32635 complex_rows.inl.h  32850 inverse_front.inl.h  33135 row.inl.h
+ *  33165 change.inl.h  33317 interleave.inl.h  33448 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -31570,7 +31570,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                        double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
-  const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
+#if SLW_GROUPS >= 8
+  const int is_fetched = sli_steps_exceed_cache(count, s, stride);
+#endif
   SLI_PREPARE
   for (; count > 0; rows += s->below, count--, s++) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -31578,9 +31580,11 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
     double *xs = x + ((ptrdiff_t)s->base - first) * stride;
     ptrdiff_t row;
     sl_int group, j;
+#if SLW_GROUPS >= 8
     if (is_fetched && count > SLI_STEPS_AHEAD) {
       sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
     }
+#endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {
@@ -31639,7 +31643,9 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                         double *buf SLI_STRIDE_PARAMETER) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   SLI_SET_STRIDE
-  const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
+#if SLW_GROUPS >= 8
+  const int is_fetched = sli_steps_exceed_cache(count, s, stride);
+#endif
   SLI_PREPARE
   for (s += count; count > 0; count--) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -31649,9 +31655,11 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
     ptrdiff_t row;
     sl_int group, i, j;
     rows_end -= s->below;
+#if SLW_GROUPS >= 8
     if (is_fetched && count > SLI_STEPS_AHEAD) {
       sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
     }
+#endif
 #if defined(SLI_SMALL)
     if (w <= SLI_TILE) {
       for (group = 0; group < stride; group += SLW_NRHS) {
@@ -31699,7 +31707,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
           }
         }
         l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
-        for (j = final; j > first; j -= SLI_PARTS) {
+        for (j = final - SLI_PARTS; j >= first; j -= SLI_PARTS) {
           l -= SLI_TILE;
           xj -= SLI_PARTS * (ptrdiff_t)stride;
           SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);

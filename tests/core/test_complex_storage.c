@@ -381,11 +381,11 @@ static void a_column_without_a_diagonal_is_refused(void **state) {
     static const struct {
         sl_int p[3], i[2];
     } blocks[] = {{{0, 0, 2}, {0, 1}}, {{0, 2, 2}, {0, 1}}, {{0, 1, 2}, {0, 0}}};
-    static const double x[2] = {2.0, 0.0};
     sl_options opt = options_none();
     opt.block_size = 2;
-    for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) {
-        const sl_csc A = {2, 2, blocks[k].p, blocks[k].i, x};
+    for (size_t k = 0; k < 2 * sizeof blocks / sizeof *blocks; k++) {
+        const double x[2] = {2.0, k % 2 == 0 ? 0.0 : 2.0};
+        const sl_csc A = {2, 2, blocks[k / 2].p, blocks[k / 2].i, x};
         sl_symbolic *S = NULL;
         SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
         assert_int_equal(sl_symbolic_view(S).n_supers, 1);

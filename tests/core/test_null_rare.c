@@ -330,6 +330,31 @@ static void rounding_of_many_rows_is_not_suspected(void **state) {
     gen_matrix_free(&M);
 }
 
+/* [a b; b c], semidefinite: a diagonal entry 0 beside one that is not, weights whose sum overflows,
+ * and pivots so small that the weights divided by them do. */
+static void pairs_of_rows_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        double x[3], mass[2];
+        sl_status status;
+    } cases[] = {{{1.0, 1.0, 0.0}, {1.0, 1.0}, SL_ERR_PIVOT},
+                 {{1.0, -1.0, 1.0}, {1.7e308, 1.7e308}, SL_ERR_PIVOT},
+                 {{1e-310, -1e-310, 1e-310}, {1.0, 1.0}, SL_ERR_NOT_FINITE},
+                 {{1.0, -1.0, 1.0}, {1.0, 1.0}, SL_OK}};
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const sl_csc A = {2, 2, p, i, cases[k].x};
+        sl_options opt = skipping();
+        sl_symbolic *S;
+        sl_factor *F = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+        opt.mass = cases[k].mass;
+        SL_EXPECT(cases[k].status, sl_factor_create(&F, S, &A, &opt, NULL));
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_of_zeros_in_several_trees),
@@ -342,6 +367,7 @@ int main(void) {
         cmocka_unit_test(pivots_that_overflow),
         cmocka_unit_test(a_regular_component_is_not_suspected),
         cmocka_unit_test(rounding_of_many_rows_is_not_suspected),
+        cmocka_unit_test(pairs_of_rows_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

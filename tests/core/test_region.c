@@ -286,6 +286,40 @@ static void squares_of_a_grid_match_full_solves(void **state) {
     assert_true(copied > 0);
 }
 
+/* With a selected inverse: neighbors, for which a subtree may hold all entries, and sets in several
+ * subtrees, for which only large ones do. */
+static void neighbors_and_spread_sets_match_the_dense_inverse(void **state) {
+    (void)state;
+    enum { REGIONS = 40 };
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    sl_int n = y.M.view.n_cols, *set = test_ints((size_t)n);
+    double *M = ref_dense(&y.M.view), *Z = ref_scaled_inverse(n, M);
+    sl_selected *all = NULL;
+    uint64_t seed = 5;
+    int copied = 0;
+    SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+    for (int k = 0; k < REGIONS; k++) {
+        const sl_int count = 2 + k % 3, first = gen_below(&seed, n - count);
+        sl_region *R = NULL;
+        sl_stats stats;
+        gen_set(set, count, n, gen_bits(&seed));
+        for (sl_int q = 0; q < count && k % 2 == 0; q++) {
+            set[q] = first + q;
+        }
+        SL_CHECK(sl_region_create(&R, y.F, set, count, all, NULL, &stats));
+        NOTHING_WRONG(check_region(R, set, count));
+        copied += stats.region.is_copied;
+        assert_region_solves(R, y.F, n, Z, 0, set, count, set, count, 2, gen_bits(&seed), NULL);
+        sl_region_free(R);
+    }
+    assert_in_range(copied, 1, REGIONS - 1);
+    sl_selected_free(all);
+    free(set);
+    free(M);
+    free(Z);
+    factored_free(&y);
+}
+
 /* A region cannot know the weights outside it, nor what regularization changed there. */
 static void unknown_weights_and_shifts_are_refused(void **state) {
     (void)state;
@@ -391,6 +425,7 @@ int main(void) {
         cmocka_unit_test(every_small_pattern_matches_the_dense_inverse),
         cmocka_unit_test(every_matrix_kind_matches_the_dense_inverse),
         cmocka_unit_test(squares_of_a_grid_match_full_solves),
+        cmocka_unit_test(neighbors_and_spread_sets_match_the_dense_inverse),
         cmocka_unit_test(null_pivots_match_the_full_solve),
         cmocka_unit_test(unknown_weights_and_shifts_are_refused),
     };

@@ -335,6 +335,32 @@ static void check_blocks(const sl_factor *F, size_t n) {
     free(Y);
 }
 
+/* One worker solves singular systems, whose sums are over all rows, and along a chain of columns,
+ * which no number of divisions makes shorter. */
+static void some_systems_are_left_to_one_worker(void **state) {
+    (void)state;
+    int calls = 0;
+    const sl_options many = options_with_threads(run_backwards, 4, &calls);
+    for (int k = 0; k < 3; k++) {
+        sl_options opt = options_none();
+        opt.ordering = k == 0 ? SL_ORDERING_NATURAL : SL_ORDERING_ND;
+        opt.relaxation = SL_RELAXATION_NONE;
+        gen_list_t t = gen_make(k == 0 ? GEN_PATH : GEN_SINGULAR, 400, 1, 3);
+        factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
+        sli_sweep_tasks tasks;
+        gen_list_free(&t);
+        SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
+        opt = options_none();
+        opt.null_pivots = k == 0 ? SL_NULL_PIVOT_REFUSE : SL_NULL_PIVOT_SKIP;
+        opt.consistency_tolerance = k == 1 ? -1.0 : 0.0;
+        SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
+        const sli_query q = sli_query_all(y.S);
+        sli_sweep_tasks_plan(&tasks, y.F, &q, 1, &many.threads);
+        assert_int_equal(tasks.workers, 1);
+        factored_free(&y);
+    }
+}
+
 /* Columns that are supernodes of their own, with more than a tile of rows below. */
 static gen_matrix_t bordered(void) {
     enum { SINGLE = 40, BORDER = 11 };
@@ -425,6 +451,7 @@ int main(void) {
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(solves_give_the_same_bits),
         cmocka_unit_test(many_trees_give_the_same_bits),
+        cmocka_unit_test(some_systems_are_left_to_one_worker),
         cmocka_unit_test(large_vectors_give_the_same_bits),
         cmocka_unit_test(unusual_thread_counts_are_handled),
     };

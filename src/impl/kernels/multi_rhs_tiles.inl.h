@@ -34,7 +34,9 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
                                              double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
-    const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
+#if SLW_GROUPS >= 8
+    const int is_fetched = sli_steps_exceed_cache(count, s, stride);
+#endif
     SLI_PREPARE
     for (; count > 0; rows += s->below, count--, s++) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -42,9 +44,11 @@ SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, co
         double *xs = x + ((ptrdiff_t)s->base - first) * stride;
         ptrdiff_t row;
         sl_int group, j;
+#if SLW_GROUPS >= 8
         if (is_fetched && count > SLI_STEPS_AHEAD) {
             sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
         }
+#endif
 #if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
@@ -105,7 +109,9 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                                               double *buf SLI_STRIDE_PARAMETER) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     SLI_SET_STRIDE
-    const int is_fetched = SLI_IS_DIRECT && sli_steps_exceed_cache(count, s, stride);
+#if SLW_GROUPS >= 8
+    const int is_fetched = sli_steps_exceed_cache(count, s, stride);
+#endif
     SLI_PREPARE
     for (s += count; count > 0; count--) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
@@ -115,9 +121,11 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
         ptrdiff_t row;
         sl_int group, i, j;
         rows_end -= s->below;
+#if SLW_GROUPS >= 8
         if (is_fetched && count > SLI_STEPS_AHEAD) {
             sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
         }
+#endif
 #if defined(SLI_SMALL)
         if (w <= SLI_TILE) {
             for (group = 0; group < stride; group += SLW_NRHS) {
@@ -165,7 +173,7 @@ SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
                     }
                 }
                 l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
-                for (j = final; j > first; j -= SLI_PARTS) {
+                for (j = final - SLI_PARTS; j >= first; j -= SLI_PARTS) {
                     l -= SLI_TILE;
                     xj -= SLI_PARTS * (ptrdiff_t)stride;
                     SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
