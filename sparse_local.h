@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0c6c78c775db0591
+ * FNV-1a of the lines after this comment, without the license: 1c9ac5877978d57d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -60,32 +60,32 @@
  *  17598 sweep_tasks.h  17929 sweep.h  18140 compile.h  18333 plan.h  18440 local.h  18592 parts.h
  *  18881 refine.h  19060 refine_local.h  19276 rcond.h  19435 defects.h
  * (inverse: entries of the inverse, regions)
- *  19513 traversal.h  19762 traversal_run.h  19955 row_sets.h  19982 unit_vectors.h
- *  20209 bilinear.h  20386 entries.h  20668 block.h  20908 reserve.h  21100 selected.h
- *  21310 selected_query.h  21412 region_choose.h  21639 region.h
+ *  19513 traversal.h  19762 traversal_run.h  19955 row_sets.h  19989 unit_vectors.h
+ *  20216 bilinear.h  20388 entries.h  20665 block.h  20900 reserve.h  21092 selected.h
+ *  21302 selected_query.h  21404 region_choose.h  21631 region.h
  * (change: a factor that follows changes of its matrix)
- *  21887 update.h  22234 path.h  22361 rank.h  22716 edges.h  22870 choose.h  23068 pins_types.h
- *  23147 pins_nulls.h  23330 pins_capacitance.h  23582 pins_balance.h  23760 pins_held.h
- *  23976 pins_choose.h  24035 pins_rebuild.h  24253 pins_matrix.h  24404 pins.h  24673 pins_solve.h
- *  24944 subset.h  25065 restrict_analysis.h  25419 restrict_symbolic.h  25616 restrict.h
- *  25838 edit_match.h  26037 edit_place.h  26286 edit_separate.h  26600 edit_order.h
- *  26755 edit_graph.h  26850 edit_join.h  27126 edit.h  27289 edit_factor.h
+ *  21879 update.h  22226 path.h  22353 rank.h  22708 edges.h  22862 choose.h  23060 pins_types.h
+ *  23139 pins_nulls.h  23322 pins_capacitance.h  23574 pins_balance.h  23752 pins_held.h
+ *  23968 pins_choose.h  24027 pins_rebuild.h  24245 pins_matrix.h  24396 pins.h  24665 pins_solve.h
+ *  24936 subset.h  25057 restrict_analysis.h  25411 restrict_symbolic.h  25608 restrict.h
+ *  25830 edit_match.h  26029 edit_place.h  26278 edit_separate.h  26592 edit_order.h
+ *  26747 edit_graph.h  26842 edit_join.h  27118 edit.h  27281 edit_factor.h
  * (save: factors in files)
- *  27572 format.h  27868 decode.h  28016 check.h  28346 write.h  28651 load.h  28919 load_inverse.h
- *  29249 load_calls.h
+ *  27564 format.h  27860 decode.h  28008 check.h  28338 write.h  28643 load.h  28911 load_inverse.h
+ *  29241 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29448 batch_solve.h  29657 batch_factor.h  29858 batch_diagonal.h
+ *  29440 batch_solve.h  29649 batch_factor.h  29850 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29998 hermitian.h  30160 complex_rows.h
+ *  29990 hermitian.h  30152 complex_rows.h
  * (last: undefine every internal macro)
- *  30328 undef.h
+ *  30320 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30595 front.inl.h  30597 product.inl.h  31108 words_undef.inl.h  31185 copy_rows.inl.h
- *  31223 multi_rhs.inl.h  31242 complex_groups.inl.h  31381 multi_rhs_small.inl.h
- *  31553 multi_rhs_tiles.inl.h  31830 sweeps.inl.h  31832 unit_triangle.inl.h  31869 two_rhs.inl.h
- *  32038 small_supernode.inl.h  32219 single_rhs.inl.h  32463 kernel_set.inl.h
- *  32465 complex_small.inl.h  32635 complex_rows.inl.h  32850 inverse_front.inl.h  33135 row.inl.h
- *  33165 change.inl.h  33317 interleave.inl.h  33448 lanes_undef.inl.h
+ *  30587 front.inl.h  30589 product.inl.h  31100 words_undef.inl.h  31177 copy_rows.inl.h
+ *  31215 multi_rhs.inl.h  31234 complex_groups.inl.h  31373 multi_rhs_small.inl.h
+ *  31545 multi_rhs_tiles.inl.h  31822 sweeps.inl.h  31824 unit_triangle.inl.h  31861 two_rhs.inl.h
+ *  32030 small_supernode.inl.h  32211 single_rhs.inl.h  32455 kernel_set.inl.h
+ *  32457 complex_small.inl.h  32627 complex_rows.inl.h  32842 inverse_front.inl.h  33127 row.inl.h
+ *  33157 change.inl.h  33309 interleave.inl.h  33440 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -19966,6 +19966,13 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
   return SL_OK;
 }
 
+static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows, sl_int n_rows,
+                   const sl_int *columns, sl_int n_columns, sl_stats *stats) {
+  sl_status status = sli_inverse_check(F);
+  status = status == SL_OK ? sli_check_rows(F->S, rows, n_rows, 0, stats) : status;
+  return status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
+}
+
 static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int count,
                  uint64_t *seeds, uint64_t *scratch, sl_stats *stats) {
   const sl_status status = sli_check_rows(S, rows, count, 0, stats);
@@ -20351,15 +20358,10 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
   if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_inverse_check(F);
-  if (status != SL_OK) {
-    return status;
-  }
   if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
     return SL_ERR_TOO_LARGE;
   }
-  status = sli_check_rows(F->S, cset, nc, 0, stats);
-  status = status == SL_OK ? sli_check_rows(F->S, bset, nb, 1, stats) : status;
+  status = sli_check_entries(F, cset, nc, bset, nb, stats);
   if (status != SL_OK) {
     return status;
   }
@@ -20631,12 +20633,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
   if (count < 0 || (count > 0 && out == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_inverse_check(F);
-  if (status != SL_OK) {
-    return status;
-  }
-  status = sli_check_rows(F->S, rows, count, 0, stats);
-  status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
+  status = sli_check_entries(F, rows, count, columns, count, stats);
   if (status != SL_OK) {
     return status;
   }
@@ -20879,12 +20876,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_inverse_check(F);
-  if (status != SL_OK) {
-    return status;
-  }
-  status = sli_check_rows(F->S, rows, n_rows, 0, stats);
-  status = status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
+  status = sli_check_entries(F, rows, n_rows, columns, n_columns, stats);
   if (status != SL_OK) {
     return status;
   }

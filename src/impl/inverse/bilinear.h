@@ -161,15 +161,10 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
     if (nc < 0 || nb < 0 || (nc > 0 && c == NULL) || (nb > 0 && b == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_inverse_check(F);
-    if (status != SL_OK) {
-        return status;
-    }
     if (cset != NULL && bset != NULL && nc > INT32_MAX - nb) {
         return SL_ERR_TOO_LARGE;
     }
-    status = sli_check_rows(F->S, cset, nc, 0, stats);
-    status = status == SL_OK ? sli_check_rows(F->S, bset, nb, 1, stats) : status;
+    status = sli_check_entries(F, cset, nc, bset, nb, stats);
     if (status != SL_OK) {
         return status;
     }

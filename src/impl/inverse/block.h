@@ -234,12 +234,7 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
         (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_inverse_check(F);
-    if (status != SL_OK) {
-        return status;
-    }
-    status = sli_check_rows(F->S, rows, n_rows, 0, stats);
-    status = status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
+    status = sli_check_entries(F, rows, n_rows, columns, n_columns, stats);
     if (status != SL_OK) {
         return status;
     }

@@ -273,12 +273,7 @@ static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_i
     if (count < 0 || (count > 0 && out == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_inverse_check(F);
-    if (status != SL_OK) {
-        return status;
-    }
-    status = sli_check_rows(F->S, rows, count, 0, stats);
-    status = status == SL_OK ? sli_check_rows(F->S, columns, count, 1, stats) : status;
+    status = sli_check_entries(F, rows, count, columns, count, stats);
     if (status != SL_OK) {
         return status;
     }

@@ -2,9 +2,8 @@
 #ifndef SLI_INVERSE_ROW_SETS_H
 #define SLI_INVERSE_ROW_SETS_H
 
-#include "../analysis/symbolic_types.h"
 #include "../base/sort.h"
-#include "../base/status.h"
+#include "../factor/factor_types.h"
 
 /* Refuses a row out of range. stats name it as a row or, if is_column, as a column. NULL is the
  * set of all rows. */
@@ -18,6 +17,14 @@ static sl_status sli_check_rows(const sl_symbolic *S, const sl_int *rows, sl_int
         }
     }
     return SL_OK;
+}
+
+/* May entries of the inverse of F in these rows and columns be computed? */
+static sl_status sli_check_entries(const sl_factor *F, const sl_int *rows, sl_int n_rows,
+                                   const sl_int *columns, sl_int n_columns, sl_stats *stats) {
+    sl_status status = sli_inverse_check(F);
+    status = status == SL_OK ? sli_check_rows(F->S, rows, n_rows, 0, stats) : status;
+    return status == SL_OK ? sli_check_rows(F->S, columns, n_columns, 1, stats) : status;
 }
 
 /* seeds := the rows as columns of L, ascending, with repetitions; refuses a row out of range.
