@@ -15,6 +15,17 @@
 
 enum { SLI_QUOTIENT_PIVOT = -1, SLI_QUOTIENT_MERGED = -2 }; /* instead of a number of elements */
 
+/* What is read together of a variable or an element: half a cache line. */
+typedef struct sli_quotient_node {
+    sl_off begin;    /* where its list begins */
+    sl_int length;   /* entries in it; 0 if it is dead */
+    sl_int elements; /* elements in the list of a variable, or SLI_QUOTIENT_PIVOT, _MERGED */
+    sl_int degree;   /* bound on the external degree; of an element, weight of its list */
+    sl_int next;     /* list of equal degrees; chain of equal hashes within the front */
+    sl_int previous; /* list of equal degrees; the hash within the front */
+    sl_int into;     /* what a variable is merged into, or an element absorbed by; or -1 */
+} sli_quotient_node;
+
 /* The quotient graph. A variable stands for rows that have become indistinguishable. A pivot
  * becomes an element, whose list names the variables of its front. The list of a variable holds
  * elements first, then the variables that only an entry of A joins to it. No list ever grows, so
@@ -23,17 +34,11 @@ typedef struct sli_quotient {
     sl_int n;
     sl_off end, room;    /* of list: positions used, and available */
     sl_int *list;        /* all lists */
-    sl_off *begin;       /* n: where the list of a variable or an element begins */
-    sl_int *length;      /* n: entries in it; 0 if it is dead */
-    sl_int *elements;    /* n: elements in the list of a variable, or SLI_QUOTIENT_PIVOT, _MERGED */
+    sli_quotient_node *node; /* n */
     sl_int *weight;      /* n: rows of a variable; 0: merged; negated in the front being formed */
-    sl_int *degree;      /* n: bound on the external degree; of an element, weight of its list */
     sl_int *mark;        /* n: 0 for a dead element, otherwise see sli_quotient_overlaps */
     sl_int *head;        /* n: first variable of each degree, or -1 */
-    sl_int *next;        /* n: list of equal degrees; chain of equal hashes within the front */
-    sl_int *previous;    /* n: list of equal degrees; the hash within the front */
     sl_int *bucket;      /* n: first variable of each hash, or -1 */
-    sl_int *into;        /* n: what a variable is merged into, or an element absorbed by; or -1 */
     sl_int *sequence;    /* n: pivots in the order of elimination */
     sl_int live;         /* rows that are not dense */
     sl_int pivots, rows; /* pivots and rows eliminated */
@@ -46,41 +51,35 @@ typedef struct sli_quotient {
 static void sli_quotient_layout(sli_quotient *q, sli_block *b, sl_int n, sl_off edges) {
     q->n = n;
     q->room = edges + edges / 4 + n;
-    q->begin = SLI_TAKE(b, sl_off, n);
+    q->node = SLI_TAKE(b, sli_quotient_node, n);
     q->list = SLI_TAKE(b, sl_int, q->room);
-    q->length = SLI_TAKE(b, sl_int, n);
-    q->elements = SLI_TAKE(b, sl_int, n);
     q->weight = SLI_TAKE(b, sl_int, n);
-    q->degree = SLI_TAKE(b, sl_int, n);
     q->mark = SLI_TAKE(b, sl_int, n);
     q->head = SLI_TAKE(b, sl_int, n);
-    q->next = SLI_TAKE(b, sl_int, n);
-    q->previous = SLI_TAKE(b, sl_int, n);
     q->bucket = SLI_TAKE(b, sl_int, n);
-    q->into = SLI_TAKE(b, sl_int, n);
     q->sequence = SLI_TAKE(b, sl_int, n);
 }
 
 SLI_INLINE void sli_quotient_enqueue(sli_quotient *q, sl_int v) {
-    const sl_int degree = q->degree[v], first = q->head[degree];
-    q->next[v] = first;
-    q->previous[v] = -1;
+    const sl_int degree = q->node[v].degree, first = q->head[degree];
+    q->node[v].next = first;
+    q->node[v].previous = -1;
     if (first != -1) {
-        q->previous[first] = v;
+        q->node[first].previous = v;
     }
     q->head[degree] = v;
     q->least = degree < q->least ? degree : q->least;
 }
 
 SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
-    const sl_int before = q->previous[v], after = q->next[v];
+    const sl_int before = q->node[v].previous, after = q->node[v].next;
     if (after != -1) {
-        q->previous[after] = before;
+        q->node[after].previous = before;
     }
     if (before != -1) {
-        q->next[before] = after;
+        q->node[before].next = after;
     } else {
-        q->head[q->degree[v]] = after;
+        q->head[q->node[v].degree] = after;
     }
 }
 
@@ -99,21 +98,21 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
         const sl_off degree = G->begin[v + 1] - G->begin[v];
         const int is_dense = degree > 16 && degree * degree > limit;
         q->weight[v] = !is_dense;
-        q->elements[v] = is_dense ? SLI_QUOTIENT_MERGED : 0;
+        q->node[v].elements = is_dense ? SLI_QUOTIENT_MERGED : 0;
         q->mark[v] = 1;
-        q->head[v] = q->bucket[v] = q->into[v] = -1;
+        q->head[v] = q->bucket[v] = q->node[v].into = -1;
         if (is_dense) {
             perm[--q->live] = v;
         }
     }
     for (v = 0; v < q->n; v++) {
-        q->begin[v] = q->end;
+        q->node[v].begin = q->end;
         for (e = G->begin[v]; e < G->begin[v + 1] && q->weight[v] != 0; e++) {
             if (q->weight[G->to[e]] != 0) {
                 q->list[q->end++] = G->to[e];
             }
         }
-        q->length[v] = q->degree[v] = (sl_int)(q->end - q->begin[v]);
+        q->node[v].length = q->node[v].degree = (sl_int)(q->end - q->node[v].begin);
     }
     for (v = q->n - 1; v >= 0; v--) {
         if (q->weight[v] != 0) {
@@ -128,9 +127,9 @@ static void sli_quotient_collect(sli_quotient *q) {
     sl_off from = 0, to = 0;
     sl_int v, k;
     for (v = 0; v < q->n; v++) {
-        if (q->length[v] > 0) {
-            const sl_off at = q->begin[v];
-            q->begin[v] = q->list[at];
+        if (q->node[v].length > 0) {
+            const sl_off at = q->node[v].begin;
+            q->node[v].begin = q->list[at];
             q->list[at] = ~v;
         }
     }
@@ -140,9 +139,9 @@ static void sli_quotient_collect(sli_quotient *q) {
             continue; /* no longer in any list */
         }
         v = ~v;
-        q->list[to] = (sl_int)q->begin[v];
-        q->begin[v] = to++;
-        for (k = 1; k < q->length[v]; k++) {
+        q->list[to] = (sl_int)q->node[v].begin;
+        q->node[v].begin = to++;
+        for (k = 1; k < q->node[v].length; k++) {
             q->list[to++] = q->list[from++];
         }
     }
@@ -166,61 +165,63 @@ SLI_INLINE sl_off sli_quotient_gather(sli_quotient *q, sl_off from, sl_int count
 
 SLI_INLINE void sli_quotient_absorb(sli_quotient *q, sl_int element, sl_int pivot) {
     q->mark[element] = 0;
-    q->length[element] = 0;
-    q->into[element] = pivot;
+    q->node[element].length = 0;
+    q->node[element].into = pivot;
 }
 
 /* Makes the variable `pivot` an element: its list becomes the variables next to it, directly or
  * through its elements, which it absorbs. Returns the weight of the list. */
 static sl_int sli_quotient_form(sli_quotient *q, sl_int pivot) {
-    const sl_int elements = q->elements[pivot];
+    const sl_int elements = q->node[pivot].elements;
     sl_int total = 0, k;
     sl_off at, begin, to;
-    q->elements[pivot] = SLI_QUOTIENT_PIVOT;
+    q->node[pivot].elements = SLI_QUOTIENT_PIVOT;
     q->weight[pivot] = -q->weight[pivot]; /* stays out of its own front */
     if (elements == 0) {
-        begin = q->begin[pivot];
-        to = sli_quotient_gather(q, begin, q->length[pivot], begin, &total);
+        begin = q->node[pivot].begin;
+        to = sli_quotient_gather(q, begin, q->node[pivot].length, begin, &total);
     } else {
         if (q->room - q->end < q->live - q->rows) {
             sli_quotient_collect(q);
         }
-        at = q->begin[pivot];
+        at = q->node[pivot].begin;
         begin = to = q->end;
         for (k = 0; k < elements; k++) {
             const sl_int e = q->list[at + k];
             SLI_ASSERT(q->mark[e] != 0); /* lists lose absorbed elements with each front */
-            to = sli_quotient_gather(q, q->begin[e], q->length[e], to, &total);
+            to = sli_quotient_gather(q, q->node[e].begin, q->node[e].length, to, &total);
             sli_quotient_absorb(q, e, pivot);
         }
-        to = sli_quotient_gather(q, at + elements, q->length[pivot] - elements, to, &total);
-        q->begin[pivot] = begin;
+        to = sli_quotient_gather(q, at + elements, q->node[pivot].length - elements, to, &total);
+        q->node[pivot].begin = begin;
         q->end = to;
     }
-    q->length[pivot] = (sl_int)(to - begin);
+    q->node[pivot].length = (sl_int)(to - begin);
     return total;
 }
 
 /* mark[e] - base := the weight of what element e has outside the front, for every element next to a
  * variable of the front. */
 static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
-    const sl_int *front = q->list + q->begin[pivot];
-    sl_int k, p, v;
+    const sl_int *front = q->list + q->node[pivot].begin;
+    const sl_int size = q->node[pivot].length;
+    sl_int k, p, v, base;
     if (q->base > INT32_MAX - 3 * (sl_off)q->n - 3) {
         for (v = 0; v < q->n; v++) {
             q->mark[v] = q->mark[v] != 0;
         }
         q->base = 2;
     }
-    for (k = 0; k < q->length[pivot]; k++) {
-        const sl_int weight = -q->weight[front[k]];
-        const sl_int *elements = q->list + q->begin[front[k]];
-        for (p = 0; p < q->elements[front[k]]; p++) {
+    base = q->base;
+    for (k = 0; k < size; k++) {
+        const sl_int weight = -q->weight[front[k]], count = q->node[front[k]].elements;
+        const sl_int *elements = q->list + q->node[front[k]].begin;
+        for (p = 0; p < count; p++) {
             const sl_int e = elements[p], mark = q->mark[e];
-            if (mark >= q->base) {
+            if (mark >= base) {
                 q->mark[e] = mark - weight;
             } else if (mark != 0) {
-                q->mark[e] = q->degree[e] + q->base - weight;
+                q->mark[e] = q->node[e].degree + base - weight;
             }
         }
     }
@@ -230,8 +231,8 @@ static void sli_quotient_overlaps(sli_quotient *q, sl_int pivot) {
  * front are absorbed, variables of the front are left out. Returns whether anything but the new
  * element is left. Otherwise v can be eliminated with the pivot. */
 static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
-    sl_int *list = q->list + q->begin[v];
-    const sl_int elements = q->elements[v], length = q->length[v];
+    sl_int *list = q->list + q->node[v].begin;
+    const sl_int elements = q->node[v].elements, length = q->node[v].length;
     sl_int k, to = 0, degree = 0, first_variable;
     uint32_t hash = 0;
     for (k = 0; k < elements; k++) {
@@ -249,12 +250,11 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
     }
     first_variable = to;
     for (k = elements; k < length; k++) {
-        const sl_int u = list[k];
-        if (q->weight[u] > 0) {
-            degree += q->weight[u];
-            hash += (uint32_t)u;
-            list[to++] = u;
-        }
+        const sl_int u = list[k], weight = q->weight[u] > 0 ? q->weight[u] : 0;
+        degree += weight; /* without a branch: processors do not foresee which ones are left */
+        hash += weight > 0 ? (uint32_t)u : 0;
+        list[to] = u;
+        to += weight > 0;
     }
     if (to == 0) {
         return 0;
@@ -262,52 +262,52 @@ static int sli_quotient_rewrite(sli_quotient *q, sl_int v, sl_int pivot) {
     list[to] = list[first_variable]; /* the pivot, or what it absorbed, has left a gap */
     list[first_variable] = list[0];
     list[0] = pivot;
-    q->elements[v] = first_variable + 1;
-    q->length[v] = to + 1;
-    q->degree[v] = degree < q->degree[v] ? degree : q->degree[v];
-    hash %= (uint32_t)q->n;
-    q->previous[v] = (sl_int)hash;
-    q->next[v] = q->bucket[hash];
+    q->node[v].elements = first_variable + 1;
+    q->node[v].length = to + 1;
+    q->node[v].degree = degree < q->node[v].degree ? degree : q->node[v].degree;
+    hash = (uint32_t)((uint64_t)(hash * 0x9e3779b1u) * (uint32_t)q->n >> 32); /* 0 .. n-1 */
+    q->node[v].previous = (sl_int)hash;
+    q->node[v].next = q->bucket[hash];
     q->bucket[hash] = v;
     return 1;
 }
 
 /* Merges variable v into `root`, a pivot or a variable. */
 SLI_INLINE void sli_quotient_merge(sli_quotient *q, sl_int v, sl_int root) {
-    q->into[v] = root;
+    q->node[v].into = root;
     q->weight[root] += q->weight[v]; /* both negative */
     q->weight[v] = 0;
-    q->length[v] = 0;
-    q->elements[v] = SLI_QUOTIENT_MERGED;
+    q->node[v].length = 0;
+    q->node[v].elements = SLI_QUOTIENT_MERGED;
 }
 
 /* Returns whether the lists of u and v agree after their first entry, the new element. All entries
  * of u's list are marked with base. */
 SLI_INLINE int sli_quotient_is_indistinguishable(const sli_quotient *q, sl_int u, sl_int v) {
-    const sl_int *list = q->list + q->begin[v];
+    const sl_int *list = q->list + q->node[v].begin;
     sl_int k = 1;
-    if (q->length[u] != q->length[v] || q->elements[u] != q->elements[v]) {
+    if (q->node[u].length != q->node[v].length || q->node[u].elements != q->node[v].elements) {
         return 0;
     }
-    while (k < q->length[v] && q->mark[list[k]] == q->base) {
+    while (k < q->node[v].length && q->mark[list[k]] == q->base) {
         k++;
     }
-    return k == q->length[v];
+    return k == q->node[v].length;
 }
 
 /* Merges the variables of the front that are indistinguishable, among those of one hash. */
 static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
-    for (; u != -1 && q->next[u] != -1; u = q->next[u], q->base++) {
-        const sl_int *list = q->list + q->begin[u];
-        sl_int k, before = u, v = q->next[u];
-        for (k = 1; k < q->length[u]; k++) {
+    for (; u != -1 && q->node[u].next != -1; u = q->node[u].next, q->base++) {
+        const sl_int *list = q->list + q->node[u].begin;
+        sl_int k, before = u, v = q->node[u].next;
+        for (k = 1; k < q->node[u].length; k++) {
             q->mark[list[k]] = q->base;
         }
         while (v != -1) {
-            const sl_int after = q->next[v];
+            const sl_int after = q->node[v].next;
             if (sli_quotient_is_indistinguishable(q, u, v)) {
                 sli_quotient_merge(q, v, u);
-                q->next[before] = after;
+                q->node[before].next = after;
             } else {
                 before = v;
             }
@@ -318,8 +318,8 @@ static void sli_quotient_merge_chain(sli_quotient *q, sl_int u) {
 
 /* Eliminates a variable of least degree, and with it those that have no other neighbors. */
 static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
-    const sl_int total = sli_quotient_form(q, pivot), count = q->length[pivot];
-    sl_int *front = q->list + q->begin[pivot];
+    const sl_int total = sli_quotient_form(q, pivot), count = q->node[pivot].length;
+    sl_int *front = q->list + q->node[pivot].begin;
     sl_int k, kept = 0, left = total;
     double height;
     q->rows -= q->weight[pivot];
@@ -336,7 +336,7 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     q->base += q->widest + 1;
     for (k = 0; k < count; k++) {
         if (q->weight[front[k]] != 0) {
-            const sl_int hash = q->previous[front[k]], first = q->bucket[hash];
+            const sl_int hash = q->node[front[k]].previous, first = q->bucket[hash];
             q->bucket[hash] = -1;
             sli_quotient_merge_chain(q, first);
         }
@@ -345,16 +345,17 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
         const sl_int v = front[k], weight = -q->weight[v];
         if (weight != 0) {
             q->weight[v] = weight;
-            q->degree[v] = sli_min(q->degree[v] + left - weight, q->live - q->rows - weight);
+            q->node[v].degree =
+                sli_min(q->node[v].degree + left - weight, q->live - q->rows - weight);
             sli_quotient_enqueue(q, v);
             front[kept++] = v;
         }
     }
     q->weight[pivot] = -q->weight[pivot];
-    q->degree[pivot] = left;
+    q->node[pivot].degree = left;
     q->mark[pivot] = kept > 0;
-    q->end -= q->end == q->begin[pivot] + count ? count - kept : 0;
-    q->length[pivot] = kept;
+    q->end -= q->end == q->node[pivot].begin + count ? count - kept : 0;
+    q->node[pivot].length = kept;
     q->sequence[q->pivots++] = pivot;
     height = 2.0 * left + q->weight[pivot];
     q->flops += height * height * q->weight[pivot];
@@ -371,7 +372,7 @@ static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int 
     for (k = q->pivots - 1; k >= 0; k--) { /* backwards: the lists then ascend */
         sl_int *list;
         v = q->sequence[k];
-        list = q->into[v] == -1 ? &roots : &child[q->into[v]];
+        list = q->node[v].into == -1 ? &roots : &child[q->node[v].into];
         sibling[v] = *list;
         *list = v;
     }
@@ -383,7 +384,7 @@ static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int 
         }
         start[v] = at;
         at += q->weight[v];
-        v = sibling[v] != -1 ? sibling[v] : q->into[v];
+        v = sibling[v] != -1 ? sibling[v] : q->node[v].into;
     }
 }
 
@@ -392,21 +393,21 @@ static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int 
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
     sl_int *start = q->head;
     sl_int v, k;
-    sli_quotient_postorder(q, start, q->next, q->previous);
+    sli_quotient_postorder(q, start, q->bucket, q->mark);
     for (k = 0; k < q->pivots; k++) {
         perm[start[q->sequence[k]]++] = q->sequence[k];
     }
     for (v = 0; v < q->n; v++) {
         sl_int root = v;
-        if (q->elements[v] == SLI_QUOTIENT_PIVOT || q->into[v] == -1) {
+        if (q->node[v].elements == SLI_QUOTIENT_PIVOT || q->node[v].into == -1) {
             continue;
         }
-        while (q->elements[root] != SLI_QUOTIENT_PIVOT) {
-            root = q->into[root];
+        while (q->node[root].elements != SLI_QUOTIENT_PIVOT) {
+            root = q->node[root].into;
         }
         for (k = v; k != root;) { /* shortens the chain for those that come later */
-            const sl_int up = q->into[k];
-            q->into[k] = root;
+            const sl_int up = q->node[k].into;
+            q->node[k].into = root;
             k = up;
         }
         perm[start[root]++] = v;
