@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3910ef593773eb55
+ * FNV-1a of the lines after this comment, without the license: 4ced2ac04b61d5a5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,81 +11,81 @@
  *    553 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    748 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    920 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1061 factor.h     the numerical factorization P A P' = L D L'
- *   1342 solve.h      full solves, and the workspace of all solves
- *   1455 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1549 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1662 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1775 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1911 batch.h      many independent solves by one call, distributed over threads
- *   1961 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2139 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2259 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2363 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2502 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2620 change.h     a factor that follows small changes of its matrix
- *   2708 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2859 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2990 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3042 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   1062 factor.h     the numerical factorization P A P' = L D L'
+ *   1343 solve.h      full solves, and the workspace of all solves
+ *   1456 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1550 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1663 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1776 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1912 batch.h      many independent solves by one call, distributed over threads
+ *   1962 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2140 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2260 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2364 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2503 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2621 change.h     a factor that follows small changes of its matrix
+ *   2709 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2860 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2991 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3043 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3134 base.h   3428 status.h   3489 options.h   3547 alloc.h   3703 hash.h   3833 file_map.h
- *   3930 sort.h   3994 parallel.h
+ *   3135 base.h   3429 status.h   3490 options.h   3548 alloc.h   3704 hash.h   3834 file_map.h
+ *   3931 sort.h   3995 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4190 panel.h   4216 step.h   4294 pivot_rule.h   4368 front.h   4429 pairs.h
- *   4636 inverse_front.h   4708 table.h   4746 simd.h   4841 simd_scalar_single.h
- *   4887 simd_scalar.h   5025 simd_avx2_single.h   5079 simd_avx2.h   5320 simd_avx512_single.h
- *   5375 simd_avx512.h   5551 simd_neon_single.h   5593 simd_neon.h   5828 dispatch.h
+ *   4191 panel.h   4217 step.h   4295 pivot_rule.h   4369 front.h   4430 pairs.h
+ *   4637 inverse_front.h   4709 table.h   4747 simd.h   4842 simd_scalar_single.h
+ *   4888 simd_scalar.h   5026 simd_avx2_single.h   5080 simd_avx2.h   5321 simd_avx512_single.h
+ *   5376 simd_avx512.h   5552 simd_neon_single.h   5594 simd_neon.h   5829 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5909 csc.h   6052 csc_build.h   6186 csc64.h   6257 csc_triangle.h   6322 csc_products.h
- *   6439 permute.h   6505 sum.h   6587 output_file.h   6796 matrix_market.h
+ *   5910 csc.h   6053 csc_build.h   6187 csc64.h   6258 csc_triangle.h   6323 csc_products.h
+ *   6440 permute.h   6506 sum.h   6588 output_file.h   6797 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7242 graph.h   7386 contract.h   7640 coarsen.h   7803 labels.h   8024 subgraph.h   8219 heap.h
- *   8279 bisect.h   8506 separator.h   8768 mindeg.h   8951 dissect.h   9275 tree_cost.h
- *   9327 levelset.h   9433 geometric.h   9608 cells.h   9788 septree.h   9864 metis.h
- *  10013 metis_refined.h  10127 nd.h  10327 compress.h  10448 levels.h  10500 peel.h
- *  10706 quotient.h  11119 order.h
+ *   7243 graph.h   7361 contract.h   7615 coarsen.h   7778 labels.h   7999 subgraph.h   8194 heap.h
+ *   8254 bisect.h   8481 separator.h   8743 mindeg.h   8926 dissect.h   9250 tree_cost.h
+ *   9302 levelset.h   9408 geometric.h   9583 cells.h   9763 septree.h   9839 metis.h
+ *   9988 metis_refined.h  10102 nd.h  10302 compress.h  10423 levels.h  10475 peel.h
+ *  10681 quotient.h  11094 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11473 symbolic_types.h  11510 etree.h  11584 counts.h  11630 supernodes.h  11871 structure.h
- *  12024 schedule.h  12304 symbolic.h  12760 reach.h
+ *  11448 symbolic_types.h  11485 etree.h  11559 counts.h  11605 supernodes.h  11846 pattern.h
+ *  11931 structure.h  12125 schedule.h  12405 symbolic.h  12851 reach.h
  * (factor: the numbers of L and D)
- *  13031 factor_types.h  13450 storage.h  13590 pivot_search.h  13936 pivoted.h  14004 scatter.h
- *  14162 uplooking.h  14234 null_product.h  14438 null_dense.h  14515 null_basis.h
- *  14823 null_vectors.h  14965 multifrontal.h  15159 gather.h  15207 kept.h  15377 front_tasks.h
- *  15720 nullspace.h  15923 growth.h  15999 factor_setup.h  16321 factor.h  16531 leftlooking.h
- *  16678 factor_query.h  16813 combination.h
+ *  13122 factor_types.h  13541 storage.h  13681 pivot_search.h  14027 pivoted.h  14096 scatter.h
+ *  14254 uplooking.h  14326 null_product.h  14530 null_dense.h  14607 null_basis.h
+ *  14915 null_vectors.h  15057 multifrontal.h  15251 gather.h  15299 kept.h  15469 front_tasks.h
+ *  15812 nullspace.h  16015 growth.h  16091 factor_setup.h  16413 factor.h  16623 leftlooking.h
+ *  16770 factor_query.h  16905 combination.h
  * (solve: full and local solves)
- *  16874 region_types.h  16978 work.h  17078 query.h  17294 singular.h  17568 backward.h
- *  17598 sweep_tasks.h  17929 sweep.h  18140 compile.h  18333 plan.h  18440 local.h  18592 parts.h
- *  18881 refine.h  19060 refine_local.h  19276 rcond.h  19435 defects.h
+ *  16966 region_types.h  17070 work.h  17170 query.h  17386 singular.h  17660 backward.h
+ *  17690 sweep_tasks.h  18021 sweep.h  18232 compile.h  18425 plan.h  18532 local.h  18684 parts.h
+ *  18973 refine.h  19152 refine_local.h  19368 rcond.h  19527 defects.h
  * (inverse: entries of the inverse, regions)
- *  19513 traversal.h  19762 traversal_run.h  19955 row_sets.h  19989 unit_vectors.h
- *  20216 bilinear.h  20388 entries.h  20665 block.h  20900 reserve.h  21092 selected.h
- *  21302 selected_query.h  21404 region_choose.h  21631 region.h
+ *  19605 traversal.h  19854 traversal_run.h  20047 row_sets.h  20081 unit_vectors.h
+ *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
+ *  21394 selected_query.h  21496 region_choose.h  21723 region.h
  * (change: a factor that follows changes of its matrix)
- *  21879 update.h  22226 path.h  22353 rank.h  22708 edges.h  22862 choose.h  23060 pins_types.h
- *  23139 pins_nulls.h  23322 pins_capacitance.h  23574 pins_balance.h  23752 pins_held.h
- *  23968 pins_choose.h  24027 pins_rebuild.h  24245 pins_matrix.h  24396 pins.h  24665 pins_solve.h
- *  24936 subset.h  25057 restrict_analysis.h  25411 restrict_symbolic.h  25608 restrict.h
- *  25830 edit_match.h  26029 edit_place.h  26278 edit_separate.h  26592 edit_order.h
- *  26747 edit_graph.h  26842 edit_join.h  27118 edit.h  27281 edit_factor.h
+ *  21971 update.h  22318 path.h  22445 rank.h  22800 edges.h  22954 choose.h  23152 pins_types.h
+ *  23231 pins_nulls.h  23414 pins_capacitance.h  23666 pins_balance.h  23844 pins_held.h
+ *  24060 pins_choose.h  24119 pins_rebuild.h  24337 pins_matrix.h  24488 pins.h  24757 pins_solve.h
+ *  25028 subset.h  25149 restrict_analysis.h  25502 restrict_symbolic.h  25699 restrict.h
+ *  25921 edit_match.h  26120 edit_place.h  26369 edit_separate.h  26683 edit_order.h
+ *  26838 edit_graph.h  26933 edit_join.h  27209 edit.h  27372 edit_factor.h
  * (save: factors in files)
- *  27564 format.h  27860 decode.h  28008 check.h  28338 write.h  28643 load.h  28911 load_inverse.h
- *  29241 load_calls.h
+ *  27655 format.h  27951 decode.h  28099 check.h  28429 write.h  28734 load.h  29002 load_inverse.h
+ *  29332 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29440 batch_solve.h  29649 batch_factor.h  29850 batch_diagonal.h
+ *  29531 batch_solve.h  29740 batch_factor.h  29941 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  29990 hermitian.h  30152 complex_rows.h
+ *  30081 hermitian.h  30243 complex_rows.h
  * (last: undefine every internal macro)
- *  30320 undef.h
+ *  30411 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30587 front.inl.h  30589 product.inl.h  31100 words_undef.inl.h  31177 copy_rows.inl.h
- *  31215 multi_rhs.inl.h  31234 complex_groups.inl.h  31373 multi_rhs_small.inl.h
- *  31545 multi_rhs_tiles.inl.h  31822 sweeps.inl.h  31824 unit_triangle.inl.h  31861 two_rhs.inl.h
- *  32030 small_supernode.inl.h  32211 single_rhs.inl.h  32455 kernel_set.inl.h
- *  32457 complex_small.inl.h  32627 complex_rows.inl.h  32842 inverse_front.inl.h  33127 row.inl.h
- *  33157 change.inl.h  33309 interleave.inl.h  33440 lanes_undef.inl.h
+ *  30680 front.inl.h  30682 product.inl.h  31193 words_undef.inl.h  31270 copy_rows.inl.h
+ *  31308 multi_rhs.inl.h  31327 complex_groups.inl.h  31466 multi_rhs_small.inl.h
+ *  31638 multi_rhs_tiles.inl.h  31915 sweeps.inl.h  31917 unit_triangle.inl.h  31954 two_rhs.inl.h
+ *  32123 small_supernode.inl.h  32304 single_rhs.inl.h  32548 kernel_set.inl.h
+ *  32550 complex_small.inl.h  32720 complex_rows.inl.h  32935 inverse_front.inl.h  33220 row.inl.h
+ *  33250 change.inl.h  33402 interleave.inl.h  33533 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -964,9 +964,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
  *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
- *           SL_ORDERING_METIS_REFINED, with the same result for any number of them. The call is one
- *           call of the pool; any of its threads may call the allocator, one at a time. Small
- *           systems use fewer threads.
+ *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A and the
+ *           rows of L, with the same result for any number of them. The call is one call of the
+ *           pool; any of its threads may call the allocator, one at a time. Small systems use fewer
+ *           threads.
  *           Any number of calls at once, with the same result for the same pattern however it is
  *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
  *           draws from rand() of the C library and prints a line if it runs out of memory. During
@@ -7326,44 +7327,18 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
   G->begin[G->n] = count;
 }
 
-static void sli_pattern_starts(sli_pattern *h, sl_int n) {
-  sl_int k, total = 0;
-  for (k = 0; k <= n; k++) {
-    const sl_int here = h->begin[k];
-    h->begin[k] = total;
-    total += here;
-  }
-}
-
-static void sli_pattern_fill(const sl_csc *A, const sl_int *column, sl_triangle triangle,
-               const sl_int *iperm, sli_pattern *rows, sli_pattern *columns) {
-  const sl_int n = A->n_cols, nnz = sli_nnz(A), *row = A->i;
-  sl_int *row_at = rows->begin, *column_at = columns->begin, *to = rows->to, *from = rows->from;
-  const sl_int side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
-  sl_int p;
-  memset(row_at, 0, ((size_t)n + 1) * sizeof(sl_int));
-  memset(column_at, 0, ((size_t)n + 1) * sizeof(sl_int));
-  for (p = 0; p < nnz; p++) {
-    const sl_int a = iperm[row[p]], b = iperm[column[p]];
-    const sl_int is_read = side * (row[p] - column[p]) >= 0;
-    const sl_int k = sli_max(a, b);
-    row_at[k] += is_read;
-    column_at[a + b - k] += is_read;
-  }
-  sli_pattern_starts(rows, n);
-  sli_pattern_starts(columns, n);
-  for (p = 0; p < nnz; p++) {
-    if (side * (row[p] - column[p]) >= 0) {
-      const sl_int a = iperm[row[p]], b = iperm[column[p]];
-      const sl_int k = sli_max(a, b), i = a + b - k, at = row_at[k]++;
-      to[at] = i;
-      from[at] = p;
-      columns->to[column_at[i]++] = k;
+static void sli_pattern_starts(sli_pattern *h, sl_int n, sl_int *at, sl_int ranges, size_t stride) {
+  sl_int k, r, total = 0;
+  for (k = 0; k < n; k++) {
+    const sl_int begin = total;
+    for (r = 0; r < ranges; r++) {
+      const sl_int here = at[(size_t)r * stride + (size_t)k];
+      at[(size_t)r * stride + (size_t)k] = total;
+      total += here;
     }
+    h->begin[k] = begin;
   }
-  memmove(row_at + 1, row_at, (size_t)n * sizeof(sl_int));
-  memmove(column_at + 1, column_at, (size_t)n * sizeof(sl_int));
-  row_at[0] = column_at[0] = 0;
+  h->begin[n] = total;
 }
 
 static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
@@ -11868,6 +11843,91 @@ static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
   return 1;
 }
 
+/* src/impl/analysis/pattern.h: the scratch of the analysis; both triangles of P A P', by ranges of entries */
+
+typedef struct sli_growing {
+  sl_off base;
+  sl_off panel;
+  sl_off to;
+  sl_int width;
+  sl_int local;
+  sl_int mark;
+  sl_int parent;
+} sli_growing;
+
+#define SLI_ANALYSIS_RUNS 64
+
+typedef struct sli_analysis {
+  sl_int n;
+  sl_int workers;
+  const sl_csc *A;
+  sli_hash pattern;
+  sl_int *column;
+  sl_int side;
+  sli_pattern rows, columns;
+  sli_amalgamation amalgamation;
+  sl_int *perm;
+  sli_order_choice choice;
+  sl_int *old_of, *new_of;
+  sl_int *parent, *counts, *super_of;
+  sl_int *scratch;
+  uint64_t *list;
+  sli_growing *growing;
+  const unsigned char *pairs;
+  unsigned char *is_first;
+  sl_int *earlier;
+  sli_septree septree;
+  size_t ordered;
+  sl_symbolic *S;
+  sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
+} sli_analysis;
+
+static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
+  const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
+  const sl_int ranges = sli_max(w->workers, 1);
+  const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
+  sl_int *row_at = (sl_int *)(void *)w->growing + 2 * (size_t)r * (size_t)w->n;
+  sl_int *column_at = row_at + w->n, p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
+  if (!is_counted) {
+    memset(row_at, 0, 2 * (size_t)w->n * sizeof(sl_int));
+  }
+  for (; p < end && !is_counted; p++) {
+    const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_max(a, b);
+    const int is_read = side * (row[p] - column[p]) >= 0;
+    row_at[k] += is_read;
+    column_at[a + b - k] += is_read;
+  }
+  for (; p < end; p++) {
+    if (side * (row[p] - column[p]) >= 0) {
+      const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_max(a, b);
+      const sl_int i = a + b - k, at = row_at[k]++;
+      w->rows.to[at] = i;
+      w->rows.from[at] = p;
+      w->columns.to[column_at[i]++] = k;
+    }
+  }
+}
+
+static void sli_pattern_count_item(void *data, sl_int r, sl_int worker) {
+  (void)worker;
+  sli_pattern_range((const sli_analysis *)data, r, 0);
+}
+
+static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
+  (void)worker;
+  sli_pattern_range((const sli_analysis *)data, r, 1);
+}
+
+static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
+  const sl_int ranges = sli_max(w->workers, 1);
+  sl_int *at = (sl_int *)(void *)w->growing;
+  w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
+  sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
+  sli_pattern_starts(&w->rows, w->n, at, ranges, 2 * (size_t)w->n);
+  sli_pattern_starts(&w->columns, w->n, at + w->n, ranges, 2 * (size_t)w->n);
+  sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
+}
+
 /* src/impl/analysis/structure.h: rows of the supernodes, relative indices, and the scatter map of A into L */
 
 static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
@@ -11883,16 +11943,6 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
   S->scatter_begin[S->n_supers] = total;
 }
 
-typedef struct sli_growing {
-  sl_off base;
-  sl_off panel;
-  sl_off to;
-  sl_int width;
-  sl_int local;
-  sl_int mark;
-  sl_int parent;
-} sli_growing;
-
 SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *queue,
                   sl_int length) {
   const int is_new = g[s].mark != k;
@@ -11902,36 +11952,25 @@ SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *qu
   return length + is_new;
 }
 
-static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
-                 const sl_int *new_of, const sl_int *earlier, sli_growing *g,
-                 sl_int *queue) {
-  const sl_int *super_of = S->super_of, *super_first = S->super_first;
-  sl_int *scatter_from = S->scatter_from, k, p, s;
-  sl_off *scatter_to = S->scatter_to;
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_int width = super_first[s + 1] - super_first[s];
-    g[s].base = S->rows_begin[s] - width;
-    g[s].panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
-           (sl_off)width / SLI_TILE * SLI_TILE * width;
-    g[s].to = S->scatter_begin[s];
-    g[s].width = width;
-    g[s].local = 0;
-    g[s].mark = -1;
-    g[s].parent = S->super_parent[s];
-  }
-  for (k = 0; k < S->n; k++) {
-    const sl_int own = super_of[k], end = rows->begin[old_of[k] + 1];
+static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *queue) {
+  const sl_symbolic *S = w->S;
+  const sl_int *super_of = S->super_of, *super_first = S->super_first, *earlier = w->earlier;
+  const sl_int *begin = w->rows.begin, *to = w->rows.to, *new_of = w->new_of;
+  sli_growing *g = w->growing;
+  sl_int k, p;
+  for (k = super_first[first]; k < super_first[last + 1]; k++) {
+    const sl_int own = super_of[k], old = w->old_of[k];
     const sl_off at = S->panel_begin[own] + sli_panel_at(g[own].width, g[own].local, 0);
     sl_int length = sli_grow(g, own, k, queue, 0), c;
-    for (p = rows->begin[old_of[k]]; p < end; p++) {
-      const sl_int i = new_of[rows->to[p]];
+    for (p = begin[old]; p < begin[old + 1]; p++) {
+      const sl_int i = new_of[to[p]];
       sli_growing *home = &g[super_of[i]];
       sl_off row;
       length = sli_grow(g, super_of[i], k, queue, length);
       row = home->local - 1;
       row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
-      scatter_from[home->to] = rows->from[p];
-      scatter_to[home->to++] =
+      S->scatter_from[home->to] = w->rows.from[p];
+      S->scatter_to[home->to++] =
         (super_of[i] == own ? at : row) + SLI_TILE * (i - super_first[super_of[i]]);
     }
     if (earlier != NULL && earlier[own] != -1) {
@@ -11948,8 +11987,70 @@ static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl
       S->relative[row] = g[up].local - 1;
     }
   }
+}
+
+SLI_INLINE sl_off sli_structure_size(const sl_symbolic *S, sl_int first, sl_int last) {
+  return S->rows_begin[last + 1] - S->rows_begin[first] + S->scatter_begin[last + 1] -
+       S->scatter_begin[first];
+}
+
+static void sli_structure_divide(sli_analysis *w) {
+  const sl_symbolic *S = w->S;
+  const sl_off most = sli_structure_size(S, 0, S->n_supers - 1) / (4 * (sl_off)w->workers);
+  sl_int s = S->n_supers - 1, last = -1;
+  while (s >= 0) {
+    const sl_int first = S->first_descendant[s];
+    if (sli_structure_size(S, first, s) > most) {
+      last = -1;
+      s--;
+      continue;
+    }
+    if (last == -1 || sli_structure_size(S, first, last) > most) {
+      if (w->n_runs == SLI_ANALYSIS_RUNS) {
+        return;
+      }
+      last = w->last[w->n_runs++] = s;
+    }
+    w->first[w->n_runs - 1] = first;
+    s = first - 1;
+  }
+}
+
+static void sli_structure_item(void *data, sl_int item, sl_int worker) {
+  const sli_analysis *w = (const sli_analysis *)data;
+  (void)worker;
+  sli_structure_rows(w, w->first[item], w->last[item],
+             w->scratch + w->first[item] + w->n_runs - item);
+}
+
+static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) {
+  sl_int s, next = 0;
+  sli_scatter_map_count(S, &w->columns, w->old_of);
+  w->S = S;
   for (s = 0; s < S->n_supers; s++) {
-    SLI_ASSERT(g[s].base + g[s].local == S->rows_begin[s + 1]);
+    const sl_int width = S->super_first[s + 1] - S->super_first[s];
+    sli_growing *g = &w->growing[s];
+    g->base = S->rows_begin[s] - width;
+    g->panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
+           (sl_off)width / SLI_TILE * SLI_TILE * width;
+    g->to = S->scatter_begin[s];
+    g->width = width;
+    g->local = 0;
+    g->mark = -1;
+    g->parent = S->super_parent[s];
+  }
+  w->n_runs = 0;
+  if (w->workers > 1) {
+    sli_structure_divide(w);
+    sli_team_loop(team, w->n_runs, NULL, sli_structure_item, w);
+  }
+  for (; w->n_runs > 0; w->n_runs--) {
+    sli_structure_rows(w, next, w->first[w->n_runs - 1] - 1, w->scratch);
+    next = w->last[w->n_runs - 1] + 1;
+  }
+  sli_structure_rows(w, next, S->n_supers - 1, w->scratch);
+  for (s = 0; s < S->n_supers; s++) {
+    SLI_ASSERT(w->growing[s].base + w->growing[s].local == S->rows_begin[s + 1]);
   }
 }
 
@@ -12303,26 +12404,6 @@ static void sli_schedule_work_layout(sli_schedule_work *w, sli_block *b, sl_int 
 
 /* src/impl/analysis/symbolic.h: the analysis: from the pattern of A to the supernodes and the storage of L */
 
-typedef struct sli_analysis {
-  sl_int n;
-  sli_hash pattern;
-  sl_int *column;
-  sli_pattern rows, columns;
-  sli_amalgamation amalgamation;
-  sl_int *perm;
-  sli_order_choice choice;
-  sl_int *old_of, *new_of;
-  sl_int *parent, *counts, *super_of;
-  sl_int *scratch;
-  uint64_t *list;
-  sli_growing *growing;
-  const unsigned char *pairs;
-  unsigned char *is_first;
-  sl_int *earlier;
-  sli_septree septree;
-  size_t ordered;
-} sli_analysis;
-
 static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_int nnz) {
   const uint64_t n = (uint64_t)rows;
   w->n = rows;
@@ -12347,7 +12428,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
   w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->growing = SLI_TAKE(b, sli_growing, n);
+  w->growing = SLI_TAKE(b, sli_growing, n * (uint64_t)(w->workers / 5 + 1));
   if (w->growing != NULL) {
     w->list = (uint64_t *)(void *)w->growing;
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
@@ -12450,14 +12531,14 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
 }
 
-static void sli_analyze_order(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                 sl_stats *stats) {
   const double started = sli_seconds();
   sl_int k;
   for (k = 0; k < w->n; k++) {
     w->scratch[w->perm[k]] = k;
   }
-  sli_pattern_fill(A, w->column, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+  sli_pattern_fill(w, stats->symbolic.triangle, team);
   stats->symbolic.seconds_tree -= sli_seconds() - started;
   sli_analyze_tree(w, opt, stats);
   stats->symbolic.seconds_tree += sli_seconds() - started;
@@ -12479,19 +12560,19 @@ static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entr
   }
 }
 
-static void sli_analyze_choice(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+static void sli_analyze_choice(sli_analysis *w, const sl_options *opt, sli_team *team,
                  sl_stats *stats) {
   double entries[2], paths[2];
   sl_int *first = w->perm;
   sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
   w->perm = w->choice.other;
-  sli_analyze_order(w, A, opt, stats);
+  sli_analyze_order(w, opt, team, stats);
   sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
   if (entries[1] < entries[0] && paths[1] < paths[0]) {
     w->septree.count = 0;
   } else {
     w->perm = first;
-    sli_analyze_order(w, A, opt, stats);
+    sli_analyze_order(w, opt, team, stats);
   }
 }
 
@@ -12534,7 +12615,7 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
   }
 }
 
-static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
+static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, sl_stats *stats) {
   const size_t bytes = (size_t)S->n * sizeof(sl_int);
   sl_int s, k;
   for (k = 0; k < S->n; k++) {
@@ -12558,17 +12639,16 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
             : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
                           : SLI_PAIR_NONE;
   }
-  sli_scatter_map_count(S, &w->columns, w->old_of);
-  sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, w->growing, w->scratch);
-  sli_fill_steps(S);
   sli_fill_descendants(S);
+  sli_fill_structure(w, S, team);
+  sli_fill_steps(S);
   sli_fill_septree(S, &w->septree);
   sli_fill_identity(S, stats->symbolic.triangle);
   sli_analyze_stats(S, w->scratch, stats);
 }
 
-static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, const sli_analysis *w,
-                  sl_stats *stats) {
+static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
+                  sli_team *team, sl_stats *stats) {
   const double started = sli_seconds();
   sli_block b = {NULL, 0, 0};
   sl_off rows = 0;
@@ -12596,7 +12676,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, const
     return status;
   }
   stats->symbolic.seconds_structure = -sli_seconds();
-  sli_symbolic_fill(draft, w, stats);
+  sli_symbolic_fill(draft, w, team, stats);
   stats->symbolic.seconds_structure += sli_seconds();
   stats->symbolic.seconds_analyze += sli_seconds() - started;
   draft->stats = *stats;
@@ -12619,16 +12699,25 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     return status;
   }
   started = sli_seconds();
-  sli_analyze_order(w, A, opt, stats);
+  sli_analyze_order(w, opt, team, stats);
   if (w->choice.is_there) {
-    sli_analyze_choice(w, A, opt, stats);
+    sli_analyze_choice(w, opt, team, stats);
   }
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;
   draft.nnz_input = sli_nnz(A);
   draft.pattern = w->pattern;
   stats->symbolic.seconds_analyze += sli_seconds() - started;
-  return sli_symbolic_build(out, &draft, w, stats);
+  return sli_symbolic_build(out, &draft, w, team, stats);
+}
+
+#define SLI_ANALYSIS_FLOPS 300.0
+
+static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
+  return opt == NULL || opt->ordering == SL_ORDERING_METIS
+         ? 1
+         : sli_min(sli_workers_for(&opt->threads, SLI_ANALYSIS_FLOPS * sli_nnz(A)),
+             SLI_TEAM_MAX);
 }
 
 typedef struct sli_symbolic_job {
@@ -12682,7 +12771,9 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
     return SL_ERR_ARGUMENT;
   }
+  w.A = A;
   w.pairs = pairs;
+  w.workers = sli_analysis_workers(A, opt);
   memset(&found, 0, sizeof found);
   sli_stats_clear_error(&found);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -12698,7 +12789,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     found.symbolic.seconds_analyze = sli_seconds() - started;
     sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
     const sl_options none = sli_options_with(&a);
-    const sl_int workers = sli_order_workers(A, opt);
+    const sl_int workers = sli_max(sli_order_workers(A, opt), w.workers);
     job.for_order = workers > 1 ? &a : &lent;
     sli_team_run(opt != NULL ? &opt->threads : &none.threads, workers, sli_symbolic_lead, &job);
     status = job.status;
@@ -13950,6 +14041,7 @@ static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *
   given.perm = p->local;
   given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
   given.triangle = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
+  given.threads = opt == NULL ? given.threads : opt->threads;
   status = sli_symbolic_create(out, A, pairs > 0 ? p->is_first : NULL, &given, &found);
   if (status == SL_OK) {
     sl_symbolic_info *info = &(*out)->stats.symbolic;
@@ -25286,8 +25378,8 @@ static void sli_restriction_sort(sli_restriction *r) {
     rows->begin[r->entry_row[e]]++;
     columns->begin[r->entry_column[e]]++;
   }
-  sli_pattern_starts(rows, r->n_fresh);
-  sli_pattern_starts(columns, r->n_fresh);
+  sli_pattern_starts(rows, r->n_fresh, rows->begin, 1, 0);
+  sli_pattern_starts(columns, r->n_fresh, columns->begin, 1, 0);
   for (e = 0; e < r->n_entries; e++) {
     const sl_int at = rows->begin[r->entry_row[e]]++;
     rows->to[at] = r->entry_column[e];
@@ -25361,8 +25453,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->rows_begin[t + 1] = T->rows_begin[t] + below;
     T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
   }
-  sli_scatter_map_count(T, &w->columns, w->old_of);
-  sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, w->growing, w->scratch);
+  sli_fill_structure(w, T, NULL);
   return SL_OK;
 }
 
@@ -25574,7 +25665,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
     return status;
   }
   memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
-  return sli_symbolic_build(out, &draft, &r->w, stats);
+  return sli_symbolic_build(out, &draft, &r->w, NULL, stats);
 }
 
 static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
@@ -30437,6 +30528,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PIVOT_THRESHOLD
 #undef SLI_QUOTIENT_DENSE_ROW
 #undef SLI_ORDER_ND_FLOPS
+#undef SLI_ANALYSIS_FLOPS
+#undef SLI_ANALYSIS_RUNS
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_ENTRIES_AHEAD

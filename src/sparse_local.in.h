@@ -104,6 +104,7 @@ extern "C" {
 #include "impl/analysis/etree.h"
 #include "impl/analysis/counts.h"
 #include "impl/analysis/supernodes.h"
+#include "impl/analysis/pattern.h"
 #include "impl/analysis/structure.h"
 #include "impl/analysis/schedule.h"
 #include "impl/analysis/symbolic.h"

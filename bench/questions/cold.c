@@ -7,8 +7,8 @@
 
 /* Everything is created anew and released in every round, as in a program that solves one system.
  * Times are of the wall clock, which threads shorten. The ordering's is that of sl_symbolic_create
- * without the processor seconds that the library reports for the analysis, which has one thread;
- * where these are rounded up, at least its own processor seconds divided by the threads. */
+ * without the processor seconds that the library reports for the analysis, most of which has one
+ * thread; where these are rounded up, at least its own processor seconds divided by the threads. */
 enum { STAGES = 5, MAX_ROUNDS = 30 };
 
 static const char *const stages[STAGES] = {"order", "analyze", "first factor", "first solve",

@@ -1,5 +1,11 @@
 /* test_ordering_threads.c: analyses by several threads: the same order, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
+#if !defined(SL_NO_SIMD)
+#define SL_NO_SIMD /* analyses know no kernels: this compiles quickly */
+#endif
+#define SPARSE_LOCAL_IMPLEMENTATION
+#define SLI_SMALL_TASKS 1 /* small graphs are ordered by several workers, too */
+#include "tests/lib/kkt.h"
 #include "tests/lib/pools.h"
 #include "tests/lib/order_patterns.h"
 #include "tests/lib/ordering_meshes.h"
@@ -12,6 +18,12 @@ static void assert_same_order(const sl_symbolic *S, const sl_symbolic *T) {
     assert_memory_equal(v.perm, w.perm, n);
     assert_memory_equal(v.parent, w.parent, n);
     assert_memory_equal(v.rows, w.rows, (size_t)v.rows_begin[v.n_supers] * sizeof(sl_int));
+    assert_memory_equal(S->relative, T->relative,
+                        (size_t)v.rows_begin[v.n_supers] * sizeof(sl_int));
+    const size_t entries = (size_t)S->scatter_begin[v.n_supers];
+    assert_int_equal(entries, T->scatter_begin[v.n_supers]);
+    assert_memory_equal(S->scatter_from, T->scatter_from, entries * sizeof(sl_int));
+    assert_memory_equal(S->scatter_to, T->scatter_to, entries * sizeof(sl_off));
     if (v.n_nodes > 0) {
         assert_memory_equal(v.node_of, w.node_of, n);
     }
@@ -99,26 +111,68 @@ static void refined_separators_have_the_same_order(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Orderings without shared parts, and systems of one row, are analyzed by the caller alone. */
-static void other_orderings_use_one_thread(void **state) {
+/* Orderings without shared parts share the rest of the analysis, except for METIS, which is run by
+ * the caller's thread. */
+static void other_orderings_give_the_same_analysis(void **state) {
     (void)state;
-    const sl_ordering others[] = {SL_ORDERING_NATURAL, SL_ORDERING_MINDEG, SL_ORDERING_METIS};
+    for (int kind = 0; kind < ORDER_KINDS; kind++) {
+        gen_matrix_t M = pattern_matrix(kind);
+        sl_options opt = options_none();
+        sl_int *perm = test_ints((size_t)M.view.n_cols);
+        gen_permutation(perm, M.view.n_cols, 5);
+        opt.perm = perm;
+        for (int k = 0; k < 3; k++) {
+            opt.ordering = k == 0   ? SL_ORDERING_NATURAL
+                           : k == 1 ? SL_ORDERING_GIVEN
+                                    : SL_ORDERING_MINDEG;
+            opt.relaxation = kind % 2 ? SL_RELAXATION_NONE : SL_RELAXATION_DEFAULT;
+            assert_same_order_for_any_thread_count(&M.view, &opt);
+        }
+        free(perm);
+        gen_matrix_free(&M);
+    }
+}
+
+static void metis_is_run_by_the_caller(void **state) {
+    (void)state;
+    if (!ordering_is_present(SL_ORDERING_METIS)) {
+        skip();
+    }
     gen_matrix_t M = pattern_matrix(ORDER_FOREST);
-    for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+    int calls = 0;
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.ordering = SL_ORDERING_METIS;
+    opt.threads.count = 4;
+    opt.threads.run = run_threads;
+    opt.threads.context = &calls;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    assert_int_equal(calls, 0);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* Supernodes that are split for 2x2 pivots have rows of other parts. */
+static void pivoted_analyses_are_the_same(void **state) {
+    (void)state;
+    kkt_t y = kkt_make(400, 0, SL_ORDERING_ND);
+    sl_symbolic *one = NULL;
+    SL_CHECK(sl_symbolic_create_pivoted(&one, &y.M.view, NULL, NULL));
+    assert_true(one->n_pairs > 0);
+    for (sl_int count = 2; count <= 8; count *= 2) {
         int calls = 0;
         sl_options opt = options_none();
         sl_symbolic *S = NULL;
-        opt.ordering = others[k];
-        opt.threads.count = 4;
+        opt.threads.count = count;
         opt.threads.run = run_threads;
         opt.threads.context = &calls;
-        if (ordering_is_present(others[k])) {
-            SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-        }
-        assert_int_equal(calls, 0);
+        SL_CHECK(sl_symbolic_create_pivoted(&S, &y.M.view, &opt, NULL));
+        assert_same_order(S, one);
+        assert_int_equal(calls, 2);
         sl_symbolic_free(S);
     }
-    gen_matrix_free(&M);
+    sl_symbolic_free(one);
+    kkt_free(&y);
 }
 
 /* Whichever worker is out of memory, the status is that of one thread, and nothing is lost. */
@@ -175,7 +229,9 @@ int main(void) {
         cmocka_unit_test(small_matrices_have_the_same_order),
         cmocka_unit_test(points_and_blocks_have_the_same_order),
         cmocka_unit_test(refined_separators_have_the_same_order),
-        cmocka_unit_test(other_orderings_use_one_thread),
+        cmocka_unit_test(other_orderings_give_the_same_analysis),
+        cmocka_unit_test(metis_is_run_by_the_caller),
+        cmocka_unit_test(pivoted_analyses_are_the_same),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(unusual_thread_counts_are_handled),
     };

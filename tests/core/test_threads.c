@@ -297,15 +297,9 @@ static void many_trees_give_the_same_bits(void **state) {
     }
     factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
     sl_options opt = options_none();
-    sli_sweep_tasks tasks;
-    int calls = 0;
     opt.relaxation = SL_RELAXATION_NONE;
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
-    opt = options_with_threads(run_backwards, 8, &calls);
-    const sli_query q = sli_query_all(y.S);
-    sli_sweep_tasks_plan(&tasks, y.F, &q, 1, &opt.threads);
-    assert_int_equal(tasks.n_tasks, sizeof tasks.tasks / sizeof *tasks.tasks);
     check_workers(y.F, NULL, ROWS, 1, 8);
     check_workers(y.F, NULL, ROWS, 130, 2);
     for (int k = 0; k < 2; k++) {

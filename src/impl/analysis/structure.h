@@ -2,7 +2,7 @@
 #ifndef SLI_ANALYSIS_STRUCTURE_H
 #define SLI_ANALYSIS_STRUCTURE_H
 
-#include "symbolic_types.h"
+#include "pattern.h"
 
 /* scatter_begin := sums of the numbers of entries of A in each supernode's columns. */
 static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
@@ -18,17 +18,6 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
     S->scatter_begin[S->n_supers] = total;
 }
 
-/* A supernode while rows of L are added to it. */
-typedef struct sli_growing {
-    sl_off base;  /* rows and relative have local row r at base + r */
-    sl_off panel; /* where tile 0 would be in L if all tiles had all columns */
-    sl_off to;    /* the next position in the scatter map */
-    sl_int width;
-    sl_int local;  /* local rows so far: the columns, then the rows below */
-    sl_int mark;   /* the last row that was added */
-    sl_int parent; /* -1 at a root */
-} sli_growing;
-
 /* Adds row k to supernode s unless it is there, and s to a queue if not. Without a branch, which
  * nothing would predict. Returns the length of the queue. */
 SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *queue,
@@ -40,45 +29,31 @@ SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *qu
     return length + is_new;
 }
 
-/* Fills the rows of all supernodes, their relative indices and the scatter map in one pass over the
- * rows of L.
+/* Fills what the rows of L in supernodes first .. last contribute.
  *
  * Row k of L occupies the part of the supernode tree between row k's entries of A and k's own
  * supernode. k is appended to the row list of each of these supernodes; as k ascends, so do the
- * lists. The position in the list is the local row of k's entries. g: n_supers; queue: n + 1.
- * earlier: the part before each supernode if one was split, or NULL: a row of one part is also a
- * row of the parts before it.
- */
-static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl_int *old_of,
-                               const sl_int *new_of, const sl_int *earlier, sli_growing *g,
-                               sl_int *queue) {
-    const sl_int *super_of = S->super_of, *super_first = S->super_first;
-    sl_int *scatter_from = S->scatter_from, k, p, s;
-    sl_off *scatter_to = S->scatter_to;
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int width = super_first[s + 1] - super_first[s];
-        g[s].base = S->rows_begin[s] - width;
-        g[s].panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
-                     (sl_off)width / SLI_TILE * SLI_TILE * width;
-        g[s].to = S->scatter_begin[s];
-        g[s].width = width;
-        g[s].local = 0;
-        g[s].mark = -1;
-        g[s].parent = S->super_parent[s];
-    }
-    for (k = 0; k < S->n; k++) {
-        const sl_int own = super_of[k], end = rows->begin[old_of[k] + 1];
+ * lists. The position in the list is the local row of k's entries. A row of one part of a supernode
+ * that was split is also a row of the parts before it. */
+static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *queue) {
+    const sl_symbolic *S = w->S;
+    const sl_int *super_of = S->super_of, *super_first = S->super_first, *earlier = w->earlier;
+    const sl_int *begin = w->rows.begin, *to = w->rows.to, *new_of = w->new_of;
+    sli_growing *g = w->growing;
+    sl_int k, p;
+    for (k = super_first[first]; k < super_first[last + 1]; k++) {
+        const sl_int own = super_of[k], old = w->old_of[k];
         const sl_off at = S->panel_begin[own] + sli_panel_at(g[own].width, g[own].local, 0);
         sl_int length = sli_grow(g, own, k, queue, 0), c;
-        for (p = rows->begin[old_of[k]]; p < end; p++) {
-            const sl_int i = new_of[rows->to[p]];
+        for (p = begin[old]; p < begin[old + 1]; p++) {
+            const sl_int i = new_of[to[p]];
             sli_growing *home = &g[super_of[i]];
             sl_off row;
             length = sli_grow(g, super_of[i], k, queue, length);
             row = home->local - 1;
             row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
-            scatter_from[home->to] = rows->from[p];
-            scatter_to[home->to++] =
+            S->scatter_from[home->to] = w->rows.from[p];
+            S->scatter_to[home->to++] =
                 (super_of[i] == own ? at : row) + SLI_TILE * (i - super_first[super_of[i]]);
         }
         if (earlier != NULL && earlier[own] != -1) {
@@ -95,8 +70,75 @@ static void sli_fill_structure(sl_symbolic *S, const sli_pattern *rows, const sl
             S->relative[row] = g[up].local - 1;
         }
     }
+}
+
+/* The rows and entries of supernodes first .. last. */
+SLI_INLINE sl_off sli_structure_size(const sl_symbolic *S, sl_int first, sl_int last) {
+    return S->rows_begin[last + 1] - S->rows_begin[first] + S->scatter_begin[last + 1] -
+           S->scatter_begin[first];
+}
+
+/* Finds runs: each of whole subtrees, a quarter of a worker's share at most. */
+static void sli_structure_divide(sli_analysis *w) {
+    const sl_symbolic *S = w->S;
+    const sl_off most = sli_structure_size(S, 0, S->n_supers - 1) / (4 * (sl_off)w->workers);
+    sl_int s = S->n_supers - 1, last = -1; /* of the run under way */
+    while (s >= 0) {
+        const sl_int first = S->first_descendant[s];
+        if (sli_structure_size(S, first, s) > most) {
+            last = -1;
+            s--;
+            continue;
+        }
+        if (last == -1 || sli_structure_size(S, first, last) > most) {
+            if (w->n_runs == SLI_ANALYSIS_RUNS) {
+                return;
+            }
+            last = w->last[w->n_runs++] = s;
+        }
+        w->first[w->n_runs - 1] = first;
+        s = first - 1;
+    }
+}
+
+static void sli_structure_item(void *data, sl_int item, sl_int worker) {
+    const sli_analysis *w = (const sli_analysis *)data;
+    (void)worker;
+    sli_structure_rows(w, w->first[item], w->last[item],
+                       w->scratch + w->first[item] + w->n_runs - item);
+}
+
+/* Fills the rows of all supernodes, their relative indices and the scatter map in one pass over the
+ * rows of L: subtrees by the team, which needs first_descendant, then the rest. scratch holds the
+ * queues. Each has one element more than its run has supernodes. */
+static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) {
+    sl_int s, next = 0;
+    sli_scatter_map_count(S, &w->columns, w->old_of);
+    w->S = S;
     for (s = 0; s < S->n_supers; s++) {
-        SLI_ASSERT(g[s].base + g[s].local == S->rows_begin[s + 1]);
+        const sl_int width = S->super_first[s + 1] - S->super_first[s];
+        sli_growing *g = &w->growing[s];
+        g->base = S->rows_begin[s] - width;
+        g->panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
+                   (sl_off)width / SLI_TILE * SLI_TILE * width;
+        g->to = S->scatter_begin[s];
+        g->width = width;
+        g->local = 0;
+        g->mark = -1;
+        g->parent = S->super_parent[s];
+    }
+    w->n_runs = 0;
+    if (w->workers > 1) {
+        sli_structure_divide(w);
+        sli_team_loop(team, w->n_runs, NULL, sli_structure_item, w);
+    }
+    for (; w->n_runs > 0; w->n_runs--) {
+        sli_structure_rows(w, next, w->first[w->n_runs - 1] - 1, w->scratch);
+        next = w->last[w->n_runs - 1] + 1;
+    }
+    sli_structure_rows(w, next, S->n_supers - 1, w->scratch);
+    for (s = 0; s < S->n_supers; s++) {
+        SLI_ASSERT(w->growing[s].base + w->growing[s].local == S->rows_begin[s + 1]);
     }
 }
 

@@ -3,34 +3,8 @@
 #define SLI_ANALYSIS_SYMBOLIC_H
 
 #include "counts.h"
-#include "../ordering/graph.h"
-#include "../ordering/order.h"
 #include "structure.h"
-#include "supernodes.h"
 #include "../matrix/csc_triangle.h"
-
-/* Scratch of the analysis. Rows have three numberings: that of A; the order found or given, used
- * by rows, columns and perm; and the final postorder of supernodes, used by everything else. */
-typedef struct sli_analysis {
-    sl_int n;
-    sli_hash pattern; /* of A */
-    sl_int *column;   /* nnz: of each entry of A */
-    sli_pattern rows, columns;
-    sli_amalgamation amalgamation;
-    sl_int *perm;                       /* n: the order found or given */
-    sli_order_choice choice;            /* n: another order */
-    sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
-    sl_int *parent, *counts, *super_of; /* n each */
-    sl_int *scratch;                    /* 5n */
-    uint64_t *list;                     /* 2n */
-    sli_growing *growing;               /* n, later, in the memory of list and others */
-    /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
-    const unsigned char *pairs;
-    unsigned char *is_first; /* n: the same, by column */
-    sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
-    sli_septree septree;     /* n each: by rows of A */
-    size_t ordered;          /* bytes of the block that hold what the ordering fills */
-} sli_analysis;
 
 /* What the ordering fills comes first. Then follows memory that the ordering may use until it is
  * done: a graph and a quotient graph need some 64 n + 18 nnz bytes. */
@@ -58,7 +32,8 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    w->growing = SLI_TAKE(b, sli_growing, n);
+    /* before that, 2 n counters for each worker */
+    w->growing = SLI_TAKE(b, sli_growing, n * (uint64_t)(w->workers / 5 + 1));
     if (w->growing != NULL) { /* the next three are free when it is used, and 28 n bytes long */
         w->list = (uint64_t *)(void *)w->growing;
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
@@ -167,14 +142,14 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
 }
 
 /* Finds everything that depends on the order in w->perm. */
-static void sli_analyze_order(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                               sl_stats *stats) {
     const double started = sli_seconds();
     sl_int k;
     for (k = 0; k < w->n; k++) {
         w->scratch[w->perm[k]] = k;
     }
-    sli_pattern_fill(A, w->column, stats->symbolic.triangle, w->scratch, &w->rows, &w->columns);
+    sli_pattern_fill(w, stats->symbolic.triangle, team);
     stats->symbolic.seconds_tree -= sli_seconds() - started;
     sli_analyze_tree(w, opt, stats);
     stats->symbolic.seconds_tree += sli_seconds() - started;
@@ -198,19 +173,19 @@ static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entr
 }
 
 /* Takes the other order if it has fewer entries and shorter paths. */
-static void sli_analyze_choice(sli_analysis *w, const sl_csc *A, const sl_options *opt,
+static void sli_analyze_choice(sli_analysis *w, const sl_options *opt, sli_team *team,
                                sl_stats *stats) {
     double entries[2], paths[2];
     sl_int *first = w->perm;
     sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
     w->perm = w->choice.other;
-    sli_analyze_order(w, A, opt, stats);
+    sli_analyze_order(w, opt, team, stats);
     sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
     if (entries[1] < entries[0] && paths[1] < paths[0]) {
         w->septree.count = 0;
     } else {
         w->perm = first;
-        sli_analyze_order(w, A, opt, stats);
+        sli_analyze_order(w, opt, team, stats);
     }
 }
 
@@ -258,7 +233,7 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
 }
 
 /* Copies the tree out of the scratch and fills everything that depends on it. */
-static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *stats) {
+static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
     sl_int s, k;
     for (k = 0; k < S->n; k++) {
@@ -282,18 +257,17 @@ static void sli_symbolic_fill(sl_symbolic *S, const sli_analysis *w, sl_stats *s
                       : k > 0 && w->is_first[k - 1] ? SLI_PAIR_SECOND
                                                     : SLI_PAIR_NONE;
     }
-    sli_scatter_map_count(S, &w->columns, w->old_of);
-    sli_fill_structure(S, &w->rows, w->old_of, w->new_of, w->earlier, w->growing, w->scratch);
-    sli_fill_steps(S);
     sli_fill_descendants(S);
+    sli_fill_structure(w, S, team);
+    sli_fill_steps(S);
     sli_fill_septree(S, &w->septree);
     sli_fill_identity(S, stats->symbolic.triangle);
     sli_analyze_stats(S, w->scratch, stats);
 }
 
-/* Creates the analysis from the tree. draft has its allocator and its pattern. */
-static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, const sli_analysis *w,
-                                    sl_stats *stats) {
+/* Creates the analysis from the tree. draft has its allocator and its pattern. team: or NULL. */
+static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
+                                    sli_team *team, sl_stats *stats) {
     const double started = sli_seconds();
     sli_block b = {NULL, 0, 0};
     sl_off rows = 0;
@@ -321,7 +295,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, const
         return status;
     }
     stats->symbolic.seconds_structure = -sli_seconds();
-    sli_symbolic_fill(draft, w, stats);
+    sli_symbolic_fill(draft, w, team, stats);
     stats->symbolic.seconds_structure += sli_seconds();
     stats->symbolic.seconds_analyze += sli_seconds() - started;
     draft->stats = *stats;
@@ -344,16 +318,28 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
         return status;
     }
     started = sli_seconds();
-    sli_analyze_order(w, A, opt, stats);
+    sli_analyze_order(w, opt, team, stats);
     if (w->choice.is_there) {
-        sli_analyze_choice(w, A, opt, stats);
+        sli_analyze_choice(w, opt, team, stats);
     }
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
     draft.nnz_input = sli_nnz(A);
     draft.pattern = w->pattern;
     stats->symbolic.seconds_analyze += sli_seconds() - started;
-    return sli_symbolic_build(out, &draft, w, stats);
+    return sli_symbolic_build(out, &draft, w, team, stats);
+}
+
+/* An entry of A takes the analysis as long as so many operations of a factorization. */
+#define SLI_ANALYSIS_FLOPS 300.0
+
+/* The workers that share the analysis without the ordering. METIS traps signals of the caller's
+ * thread. */
+static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
+    return opt == NULL || opt->ordering == SL_ORDERING_METIS
+               ? 1
+               : sli_min(sli_workers_for(&opt->threads, SLI_ANALYSIS_FLOPS * sli_nnz(A)),
+                         SLI_TEAM_MAX);
 }
 
 /* The arguments of an analysis by a team. */
@@ -412,7 +398,9 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
         return SL_ERR_ARGUMENT;
     }
+    w.A = A;
     w.pairs = pairs;
+    w.workers = sli_analysis_workers(A, opt);
     memset(&found, 0, sizeof found);
     sli_stats_clear_error(&found);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -428,7 +416,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
         found.symbolic.seconds_analyze = sli_seconds() - started;
         sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
         const sl_options none = sli_options_with(&a);
-        const sl_int workers = sli_order_workers(A, opt);
+        const sl_int workers = sli_max(sli_order_workers(A, opt), w.workers);
         job.for_order = workers > 1 ? &a : &lent;
         sli_team_run(opt != NULL ? &opt->threads : &none.threads, workers, sli_symbolic_lead, &job);
         status = job.status;

@@ -257,8 +257,8 @@ static void sli_restriction_sort(sli_restriction *r) {
         rows->begin[r->entry_row[e]]++;
         columns->begin[r->entry_column[e]]++;
     }
-    sli_pattern_starts(rows, r->n_fresh);
-    sli_pattern_starts(columns, r->n_fresh);
+    sli_pattern_starts(rows, r->n_fresh, rows->begin, 1, 0);
+    sli_pattern_starts(columns, r->n_fresh, columns->begin, 1, 0);
     for (e = 0; e < r->n_entries; e++) { /* each begin advances to its end; shifted back below */
         const sl_int at = rows->begin[r->entry_row[e]]++;
         rows->to[at] = r->entry_column[e];
@@ -334,8 +334,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->rows_begin[t + 1] = T->rows_begin[t] + below;
         T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
     }
-    sli_scatter_map_count(T, &w->columns, w->old_of);
-    sli_fill_structure(T, &w->rows, w->old_of, w->new_of, NULL, w->growing, w->scratch);
+    sli_fill_structure(w, T, NULL);
     return SL_OK;
 }
 

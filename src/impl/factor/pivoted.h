@@ -21,6 +21,7 @@ static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *
     given.perm = p->local;
     given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
     given.triangle = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
+    given.threads = opt == NULL ? given.threads : opt->threads;
     status = sli_symbolic_create(out, A, pairs > 0 ? p->is_first : NULL, &given, &found);
     if (status == SL_OK) {
         sl_symbolic_info *info = &(*out)->stats.symbolic;

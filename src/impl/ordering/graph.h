@@ -102,49 +102,20 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
     G->begin[G->n] = count;
 }
 
-/* Turns counts into starting positions. */
-static void sli_pattern_starts(sli_pattern *h, sl_int n) {
-    sl_int k, total = 0;
-    for (k = 0; k <= n; k++) {
-        const sl_int here = h->begin[k];
-        h->begin[k] = total;
-        total += here;
-    }
-}
-
-/* Fills both triangles of P A P': rows (row k holds the columns up to k and their positions in A)
- * and columns (column k holds the rows from k on). Later passes walk them in elimination order, and
- * each pass reads only the triangle that it needs. */
-static void sli_pattern_fill(const sl_csc *A, const sl_int *column, sl_triangle triangle,
-                             const sl_int *iperm, sli_pattern *rows, sli_pattern *columns) {
-    const sl_int n = A->n_cols, nnz = sli_nnz(A), *row = A->i;
-    sl_int *row_at = rows->begin, *column_at = columns->begin, *to = rows->to, *from = rows->from;
-    /* an entry is read if side (row - column) >= 0: one comparison for every triangle */
-    const sl_int side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
-    sl_int p;
-    memset(row_at, 0, ((size_t)n + 1) * sizeof(sl_int));
-    memset(column_at, 0, ((size_t)n + 1) * sizeof(sl_int));
-    for (p = 0; p < nnz; p++) {
-        const sl_int a = iperm[row[p]], b = iperm[column[p]];
-        const sl_int is_read = side * (row[p] - column[p]) >= 0;
-        const sl_int k = sli_max(a, b);
-        row_at[k] += is_read;
-        column_at[a + b - k] += is_read;
-    }
-    sli_pattern_starts(rows, n);
-    sli_pattern_starts(columns, n);
-    for (p = 0; p < nnz; p++) {
-        if (side * (row[p] - column[p]) >= 0) {
-            const sl_int a = iperm[row[p]], b = iperm[column[p]];
-            const sl_int k = sli_max(a, b), i = a + b - k, at = row_at[k]++;
-            to[at] = i;
-            from[at] = p;
-            columns->to[column_at[i]++] = k;
+/* Turns counts of ranges of entries, `stride` apart, into the positions where each range begins,
+ * and fills h->begin. at may be h->begin. */
+static void sli_pattern_starts(sli_pattern *h, sl_int n, sl_int *at, sl_int ranges, size_t stride) {
+    sl_int k, r, total = 0;
+    for (k = 0; k < n; k++) {
+        const sl_int begin = total;
+        for (r = 0; r < ranges; r++) {
+            const sl_int here = at[(size_t)r * stride + (size_t)k];
+            at[(size_t)r * stride + (size_t)k] = total;
+            total += here;
         }
+        h->begin[k] = begin;
     }
-    memmove(row_at + 1, row_at, (size_t)n * sizeof(sl_int));
-    memmove(column_at + 1, column_at, (size_t)n * sizeof(sl_int));
-    row_at[0] = column_at[0] = 0;
+    h->begin[n] = total;
 }
 
 /* Hashes the pattern of A. Returns whether it is a pattern at all: positions ascending from 0 and
