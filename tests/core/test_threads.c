@@ -341,16 +341,20 @@ static void some_systems_are_left_to_one_worker(void **state) {
         opt.relaxation = SL_RELAXATION_NONE;
         gen_list_t t = gen_make(k == 0 ? GEN_PATH : GEN_SINGULAR, 400, 1, 3);
         factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
-        sli_sweep_tasks tasks;
+        sl_work *W = NULL;
+        double *B = test_reals(400), *X = test_reals(400);
         gen_list_free(&t);
         SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
         opt = options_none();
         opt.null_pivots = k == 0 ? SL_NULL_PIVOT_REFUSE : SL_NULL_PIVOT_SKIP;
         opt.consistency_tolerance = k == 1 ? -1.0 : 0.0;
         SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
-        const sli_query q = sli_query_all(y.S);
-        sli_sweep_tasks_plan(&tasks, y.F, &q, 1, &many.threads);
-        assert_int_equal(tasks.workers, 1);
+        SL_CHECK(sl_work_create(&W, &many));
+        SL_CHECK(sl_factor_solve(y.F, X, 400, B, 400, 1, W));
+        assert_int_equal(calls, 0);
+        sl_work_free(W);
+        free(B);
+        free(X);
         factored_free(&y);
     }
 }
