@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4ced2ac04b61d5a5
+ * FNV-1a of the lines after this comment, without the license: 103fc3737d8d52c3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -50,10 +50,10 @@
  *  11448 symbolic_types.h  11485 etree.h  11559 counts.h  11605 supernodes.h  11846 pattern.h
  *  11931 structure.h  12125 schedule.h  12405 symbolic.h  12851 reach.h
  * (factor: the numbers of L and D)
- *  13122 factor_types.h  13541 storage.h  13681 pivot_search.h  14027 pivoted.h  14096 scatter.h
- *  14254 uplooking.h  14326 null_product.h  14530 null_dense.h  14607 null_basis.h
- *  14915 null_vectors.h  15057 multifrontal.h  15251 gather.h  15299 kept.h  15469 front_tasks.h
- *  15812 nullspace.h  16015 growth.h  16091 factor_setup.h  16413 factor.h  16623 leftlooking.h
+ *  13122 factor_types.h  13540 storage.h  13680 pivot_search.h  14026 pivoted.h  14095 scatter.h
+ *  14253 uplooking.h  14325 null_product.h  14529 null_dense.h  14606 null_basis.h
+ *  14914 null_vectors.h  15056 multifrontal.h  15250 gather.h  15298 kept.h  15468 front_tasks.h
+ *  15811 nullspace.h  16014 growth.h  16090 factor_setup.h  16412 factor.h  16622 leftlooking.h
  *  16770 factor_query.h  16905 combination.h
  * (solve: full and local solves)
  *  16966 region_types.h  17070 work.h  17170 query.h  17386 singular.h  17660 backward.h
@@ -64,28 +64,28 @@
  *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
  *  21394 selected_query.h  21496 region_choose.h  21723 region.h
  * (change: a factor that follows changes of its matrix)
- *  21971 update.h  22318 path.h  22445 rank.h  22800 edges.h  22954 choose.h  23152 pins_types.h
- *  23231 pins_nulls.h  23414 pins_capacitance.h  23666 pins_balance.h  23844 pins_held.h
- *  24060 pins_choose.h  24119 pins_rebuild.h  24337 pins_matrix.h  24488 pins.h  24757 pins_solve.h
- *  25028 subset.h  25149 restrict_analysis.h  25502 restrict_symbolic.h  25699 restrict.h
- *  25921 edit_match.h  26120 edit_place.h  26369 edit_separate.h  26683 edit_order.h
- *  26838 edit_graph.h  26933 edit_join.h  27209 edit.h  27372 edit_factor.h
+ *  21971 update.h  22322 path.h  22449 rank.h  22821 edges.h  22975 choose.h  23173 pins_types.h
+ *  23252 pins_nulls.h  23435 pins_capacitance.h  23687 pins_balance.h  23865 pins_held.h
+ *  24081 pins_choose.h  24140 pins_rebuild.h  24358 pins_matrix.h  24509 pins.h  24778 pins_solve.h
+ *  25049 subset.h  25170 restrict_analysis.h  25523 restrict_symbolic.h  25720 restrict.h
+ *  25942 edit_match.h  26141 edit_place.h  26390 edit_separate.h  26704 edit_order.h
+ *  26859 edit_graph.h  26954 edit_join.h  27230 edit.h  27393 edit_factor.h
  * (save: factors in files)
- *  27655 format.h  27951 decode.h  28099 check.h  28429 write.h  28734 load.h  29002 load_inverse.h
- *  29332 load_calls.h
+ *  27676 format.h  27972 decode.h  28120 check.h  28450 write.h  28755 load.h  29023 load_inverse.h
+ *  29353 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29531 batch_solve.h  29740 batch_factor.h  29941 batch_diagonal.h
+ *  29552 batch_solve.h  29761 batch_factor.h  29962 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30081 hermitian.h  30243 complex_rows.h
+ *  30102 hermitian.h  30264 complex_rows.h
  * (last: undefine every internal macro)
- *  30411 undef.h
+ *  30432 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30680 front.inl.h  30682 product.inl.h  31193 words_undef.inl.h  31270 copy_rows.inl.h
- *  31308 multi_rhs.inl.h  31327 complex_groups.inl.h  31466 multi_rhs_small.inl.h
- *  31638 multi_rhs_tiles.inl.h  31915 sweeps.inl.h  31917 unit_triangle.inl.h  31954 two_rhs.inl.h
- *  32123 small_supernode.inl.h  32304 single_rhs.inl.h  32548 kernel_set.inl.h
- *  32550 complex_small.inl.h  32720 complex_rows.inl.h  32935 inverse_front.inl.h  33220 row.inl.h
- *  33250 change.inl.h  33402 interleave.inl.h  33533 lanes_undef.inl.h
+ *  30701 front.inl.h  30703 product.inl.h  31214 words_undef.inl.h  31291 copy_rows.inl.h
+ *  31329 multi_rhs.inl.h  31348 complex_groups.inl.h  31487 multi_rhs_small.inl.h
+ *  31659 multi_rhs_tiles.inl.h  31936 sweeps.inl.h  31938 unit_triangle.inl.h  31975 two_rhs.inl.h
+ *  32144 small_supernode.inl.h  32325 single_rhs.inl.h  32569 kernel_set.inl.h
+ *  32571 complex_small.inl.h  32741 complex_rows.inl.h  32956 inverse_front.inl.h  33241 row.inl.h
+ *  33271 change.inl.h  33423 interleave.inl.h  33554 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13168,8 +13168,7 @@ struct sl_factor {
   sli_hash identity;
   uint64_t generation;
   sl_off updates;
-  double drift;
-  double scale;
+  double drift, growth, scale;
   sli_hash analysis;
   sl_storage storage;
   void *values;
@@ -16763,6 +16762,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
   status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
   F->scale = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+  F->growth = F->stats.factor.growth;
   sli_free(&F->allocator, b.base);
   return status;
 }
@@ -22043,6 +22043,10 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
   return 2.0 * sum + fabs(F->D[k]);
 }
 
+SLI_INLINE double sli_update_fall(const sl_factor *F) {
+  return F->scale > 0.0 ? fmax(1.0, F->stats.factor.entry_max / F->scale) : 1.0;
+}
+
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
   const double tolerance = F->rule.null_tolerance;
   const double known = F->extents[F->S->super_of[k]].magnitude;
@@ -22660,6 +22664,19 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
   }
 }
 
+static void sli_rank_note(const sli_update *u) {
+  sl_factor *F = u->F;
+  sl_factor_info *info = &F->stats.factor;
+  const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
+  const double scale = fmax(fabs(F->scale - u->fall), least);
+  const double local = fmax(fmin(fabs(u->entry - u->fall), scale), least);
+  const double growth = local > 0.0 ? u->growth / local : 0.0;
+  F->scale = scale;
+  F->growth = fmax(F->growth, u->sign != 0.0 ? fmin(growth, 2.0) : growth);
+  F->drift += DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
+  info->growth = F->growth * (u->sign != 0.0 ? 1.0 : sli_update_fall(F));
+}
+
 static sl_status sli_rank_passes(sli_rank *q) {
   sl_factor *F = q->u.F;
   sl_factor_info *info = &F->stats.factor;
@@ -22682,10 +22699,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
       status = status == SL_OK ? sli_update_run(&q->u) : status;
     }
     if (status == SL_OK) {
-      const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
-      info->growth = fmax(info->growth, q->u.sign != 0.0 ? fmin(growth, 2.0) : growth);
-      F->scale = fmax(F->scale - q->u.fall, q->u.top / fmax(info->growth, 1.0));
-      F->drift += DBL_EPSILON * fmax(F->scale, q->u.most);
+      sli_rank_note(&q->u);
       if (info->growth > F->growth_limit) {
         q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
         q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
@@ -22700,12 +22714,18 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_stats before = F->stats;
-  const double drift = F->drift, scale = F->updates == 0 ? before.factor.entry_max : F->scale;
+  const double drift = F->drift;
+  double scale, growth;
   sl_status status;
   if (q->count == 0) {
     return SL_OK;
   }
-  F->scale = scale;
+  if (F->updates == 0) {
+    F->scale = before.factor.entry_max;
+    F->growth = before.factor.growth;
+  }
+  scale = F->scale;
+  growth = F->growth;
   if (q->has_log) {
     sli_reach R;
     sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -22723,6 +22743,7 @@ static sl_status sli_rank_run(sli_rank *q) {
     F->stats = before;
     F->drift = drift;
     F->scale = scale;
+    F->growth = growth;
   } else if (q->is_changed) {
     F->is_valid = 0;
     F->status = status;
@@ -22750,7 +22771,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
     stats->change.entries = q->entries;
     stats->change.flops_update = q->flops;
     stats->change.updates = F->updates;
-    stats->change.drift = F->drift > 0.0 ? F->drift / F->scale : 0.0;
+    stats->change.drift = F->drift * sli_update_fall(F);
     stats->change.seconds = sli_seconds() - started;
   }
 }
@@ -23022,7 +23043,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
   }
-  if (F->drift > SLI_CHANGE_DRIFT * F->scale) {
+  if (F->drift * sli_update_fall(F) > SLI_CHANGE_DRIFT) {
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }

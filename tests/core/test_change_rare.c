@@ -73,6 +73,28 @@ static void drift_is_relative_to_what_remains(void **state) {
     }
 }
 
+/* The growth of 1e10 of an indefinite block shows once the entry beside it that hid it is gone. */
+static void growth_is_relative_to_what_remains(void **state) {
+    (void)state;
+    static const sl_int p[4] = {0, 3, 4, 5}, i[5] = {0, 1, 2, 1, 2};
+    static const double x[5] = {1e-10, 1.0, 1.0, 1.0, 1e9};
+    const sl_csc A = {3, 3, p, i, x};
+    const sl_int last = 2;
+    const double down = 1.0 - 1e9;
+    sl_options natural = options_none();
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats;
+    natural.ordering = SL_ORDERING_NATURAL;
+    SL_CHECK(sl_symbolic_create(&S, &A, &natural, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, &stats));
+    assert_true(stats.factor.growth < 100.0);
+    SL_CHECK(sl_factor_update_entries(F, &last, &last, &down, 1, NULL, &stats));
+    assert_true(stats.factor.growth >= 1e10 && stats.factor.growth < 1e12);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 /* The last pivot becomes far smaller than the terms that it was computed from, though not than the
  * change: it is null. */
 static void a_pivot_of_rounding_is_null(void **state) {
@@ -129,6 +151,7 @@ static void entries_outside_of_L_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drift_is_relative_to_what_remains),
+        cmocka_unit_test(growth_is_relative_to_what_remains),
         cmocka_unit_test(zeros_change_nothing),
         cmocka_unit_test(matrices_of_zeros_are_changed),
         cmocka_unit_test(a_pivot_of_rounding_is_null),

@@ -237,6 +237,22 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
     }
 }
 
+/* Updates growth and drift after a pass. Of the largest |a| only a bound from below is known: a
+ * pivot, if all have one sign, and the difference of the bound before and what the pass changes.
+ * The pass is compared with its own columns, as other components may be larger. */
+static void sli_rank_note(const sli_update *u) {
+    sl_factor *F = u->F;
+    sl_factor_info *info = &F->stats.factor;
+    const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
+    const double scale = fmax(fabs(F->scale - u->fall), least);
+    const double local = fmax(fmin(fabs(u->entry - u->fall), scale), least);
+    const double growth = local > 0.0 ? u->growth / local : 0.0;
+    F->scale = scale;
+    F->growth = fmax(F->growth, u->sign != 0.0 ? fmin(growth, 2.0) : growth);
+    F->drift += DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
+    info->growth = F->growth * (u->sign != 0.0 ? 1.0 : sli_update_fall(F));
+}
+
 /* Runs all passes. */
 static sl_status sli_rank_passes(sli_rank *q) {
     sl_factor *F = q->u.F;
@@ -260,10 +276,7 @@ static sl_status sli_rank_passes(sli_rank *q) {
             status = status == SL_OK ? sli_update_run(&q->u) : status;
         }
         if (status == SL_OK) {
-            const double growth = q->u.entry > 0.0 ? q->u.growth / q->u.entry : 0.0;
-            info->growth = fmax(info->growth, q->u.sign != 0.0 ? fmin(growth, 2.0) : growth);
-            F->scale = fmax(F->scale - q->u.fall, q->u.top / fmax(info->growth, 1.0));
-            F->drift += DBL_EPSILON * fmax(F->scale, q->u.most);
+            sli_rank_note(&q->u);
             if (info->growth > F->growth_limit) {
                 q->u.pivot = F->extents[F->S->super_of[sli_key(seeds[0])]].pivot;
                 q->u.pivot = q->u.pivot < 0 ? sli_key(seeds[0]) : q->u.pivot;
@@ -279,12 +292,18 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sl_stats before = F->stats;
-    const double drift = F->drift, scale = F->updates == 0 ? before.factor.entry_max : F->scale;
+    const double drift = F->drift;
+    double scale, growth;
     sl_status status;
     if (q->count == 0) {
         return SL_OK;
     }
-    F->scale = scale;
+    if (F->updates == 0) {
+        F->scale = before.factor.entry_max;
+        F->growth = before.factor.growth;
+    }
+    scale = F->scale;
+    growth = F->growth;
     if (q->has_log) {
         sli_reach R;
         sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -302,6 +321,7 @@ static sl_status sli_rank_run(sli_rank *q) {
         F->stats = before;
         F->drift = drift;
         F->scale = scale;
+        F->growth = growth;
     } else if (q->is_changed) { /* an overflow */
         F->is_valid = 0;
         F->status = status;
@@ -331,7 +351,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
         stats->change.entries = q->entries;
         stats->change.flops_update = q->flops;
         stats->change.updates = F->updates;
-        stats->change.drift = F->drift > 0.0 ? F->drift / F->scale : 0.0;
+        stats->change.drift = F->drift * sli_update_fall(F);
         stats->change.seconds = sli_seconds() - started;
     }
 }

@@ -63,8 +63,9 @@ struct sl_factor {
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
     sl_off updates; /* rank-one changes since the last complete factorization */
-    double drift;   /* the rounding errors that they have added */
-    double scale;   /* at most the largest |a|, of the matrix as they have changed it */
+    /* the rounding errors that they have added, and growth, relative to the entries of the time;
+     * the largest |a| of the matrix as it is now, or less */
+    double drift, growth, scale;
     sli_hash analysis;  /* the identity of S */
     sl_storage storage; /* of L */
     void *values;       /* L: the panels of all supernodes, as they are stored */
