@@ -20,6 +20,9 @@ MESH ?=
 OPENMP ?= -fopenmp
 ## FUZZ_SECONDS  how long each fuzzer runs
 FUZZ_SECONDS ?= 20
+## JUDGE_COUNT  how many systems `make judge` tries; JUDGE_SEED is the first one
+JUDGE_COUNT ?= 100000
+JUDGE_SEED ?= 1
 ## FUZZ_SEED  the seed of the fuzzers' random numbers; 0 chooses one
 FUZZ_SEED ?= 0
 ## B        folder of objects, test programs and the bench; what is the same for all of them stays in build
@@ -72,7 +75,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: deps-locales all help header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
+.PHONY: deps-locales all help judge header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
 	figures bench-eigenpairs deps-arpack format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
 	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm test-exchange deps-mpi cluster test-cluster
@@ -249,6 +252,9 @@ run-tests: build-tests
 
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
 	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=$(B)/sparse-local
+
+judge: deps $(B)/tests/core/test_judge ## JUDGE_COUNT random systems from JUDGE_SEED on: wrong answers with SL_OK and without a signal
+	@JUDGE_COUNT=$(JUDGE_COUNT) JUDGE_SEED=$(JUDGE_SEED) $(B)/tests/core/test_judge
 
 test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
 	@echo '$(words $(CORE_TESTS)) programs of $(shell cat $(CORE_TESTS) | grep -c 'cmocka_unit_test') core tests'

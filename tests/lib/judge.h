@@ -1,0 +1,220 @@
+/* judge.h: a judge of answers: the backward error of each component, and what a caller was told */
+#ifndef SL_TEST_JUDGE_H
+#define SL_TEST_JUDGE_H
+
+#include "judge_systems.h"
+
+#define JUDGE_LIMIT 1e-8
+
+typedef enum judge_verdict_t {
+    JUDGE_GOOD,
+    JUDGE_REFUSED,     /* by a status */
+    JUDGE_UNSUPPORTED, /* by SL_ERR_UNSUPPORTED */
+    JUDGE_FLAGGED,     /* wrong, and a field of stats says so */
+    JUDGE_NOT_FINITE,  /* x itself says so */
+    JUDGE_SILENT,      /* wrong without a signal */
+    JUDGE_VERDICTS
+} judge_verdict_t;
+
+enum { JUDGE_WAYS_MOST = 24 };
+
+typedef struct judge_tally_t {
+    sl_off verdicts[JUDGE_WAYS_MOST][JUDGE_VERDICTS];
+    double worst[JUDGE_WAYS_MOST]; /* of the good ones */
+} judge_tally_t;
+
+/* A system under judgement. */
+typedef struct judge_t {
+    const judge_system_t *y;
+    sl_options opt; /* for the factorization */
+    sl_symbolic *S;
+    sl_factor *F;
+    sl_stats stats; /* of F */
+    size_t n;
+    int family, way;
+    uint64_t seed, state;
+    judge_tally_t *tally;
+} judge_t;
+
+static inline void judge_count(judge_t *t, judge_verdict_t verdict, double error,
+                               const char *what) {
+    double *worst = &t->tally->worst[t->way];
+    t->tally->verdicts[t->way][verdict]++;
+    if (verdict == JUDGE_GOOD) {
+        *worst = error > *worst ? error : *worst;
+    }
+    if (verdict == JUDGE_SILENT) {
+        print_error("silent: %s, family %d (%s), seed %llu, n %d, error %.3g, growth %.3g\n", what,
+                    t->family, judge_name(t->family), (unsigned long long)t->seed, (int)t->n, error,
+                    t->stats.factor.growth);
+    }
+}
+
+/* Counts a call that did not succeed; returns 1 if it did. SL_ERR_STATE and SL_ERR_ARGUMENT are no
+ * answers to a correct call. */
+static inline int judge_succeeded(judge_t *t, sl_status status, const char *what) {
+    if (status == SL_ERR_ARGUMENT || status == SL_ERR_STATE || status == SL_ERR_PATTERN ||
+        status == SL_ERR_MEMORY) {
+        print_error("%s: ", sl_status_string(status));
+        judge_count(t, JUDGE_SILENT, 0.0, what);
+    } else if (status != SL_OK) {
+        judge_count(t, status == SL_ERR_UNSUPPORTED ? JUDGE_UNSUPPORTED : JUDGE_REFUSED, 0.0, what);
+    }
+    return status == SL_OK;
+}
+
+/* What a caller reads, as sl_factor_create describes it. */
+static inline int judge_is_told(const sl_stats *stats) {
+    return stats->factor.regularized > 0 || DBL_EPSILON * stats->factor.growth > JUDGE_LIMIT;
+}
+
+/* The backward error that L alone allows: 1e-8, or that of float. */
+static inline double judge_limit(const sl_stats *stats) {
+    return stats->storage == SL_STORAGE_FLOAT || stats->storage == SL_STORAGE_FLOAT_FRONTS
+               ? 1e-4 * fmax(stats->factor.growth, 1.0)
+               : JUDGE_LIMIT;
+}
+
+/* A residual: of b - A x + C f for the best f, where C has `count` orthonormal columns, by
+ * components in the maximum norm, relative to |A| |x| + |b| + |c f| for columns c of several rows.
+ * Returns the largest, -1 if x is not finite. */
+static inline double judge_error(const sl_csc *A, const sl_int *of, const double *x,
+                                 const double *b, const double *extra, const double *C,
+                                 sl_int count) {
+    const size_t n = (size_t)A->n_cols;
+    double *D = ref_dense(A), worst = 0.0;
+    long double *r = (long double *)test_array(n + 1, sizeof *r);
+    long double *a = (long double *)test_array(4 * n + 1, sizeof *a);
+    long double *xs = a + n, *bs = xs + n, *rs = bs + n;
+    for (size_t i = 0; i < n; i++) {
+        long double row = 0.0L;
+        r[i] = b[i];
+        for (size_t j = 0; j < n; j++) {
+            r[i] -= (long double)D[i + j * n] * x[j];
+            row += fabs(D[i + j * n]);
+        }
+        if (!(fabs(x[i]) <= DBL_MAX)) {
+            worst = -1.0;
+        }
+        const size_t c = (size_t)of[i];
+        const long double size = fabs(b[i]) + (extra ? extra[i] : 0.0);
+        a[c] = row > a[c] ? row : a[c];
+        xs[c] = fabs(x[i]) > xs[c] ? (long double)fabs(x[i]) : xs[c];
+        bs[c] = size > bs[c] ? size : bs[c];
+    }
+    for (sl_int k = 0; k < count && worst == 0.0; k++) { /* least squares */
+        long double dot = 0.0L;
+        sl_int rows = 0;
+        for (size_t i = 0; i < n; i++) {
+            dot += C[i + (size_t)k * n] * r[i];
+            rows += C[i + (size_t)k * n] != 0.0;
+        }
+        for (size_t i = 0; i < n; i++) {
+            const long double part = dot * C[i + (size_t)k * n];
+            const long double size = part < 0.0L ? -part : part;
+            r[i] -= part;
+            bs[of[i]] = rows > 1 && size > bs[of[i]] ? size : bs[of[i]];
+        }
+    }
+    for (size_t i = 0; i < n && worst >= 0.0; i++) {
+        const size_t c = (size_t)of[i];
+        const long double e = r[i] < 0.0L ? -r[i] : r[i];
+        rs[c] = e > rs[c] ? e : rs[c];
+    }
+    for (size_t c = 0; c < n && worst >= 0.0; c++) {
+        const long double size = a[c] * xs[c] + bs[c];
+        if (rs[c] > 0.0L) {
+            worst = fmax(worst, (double)(rs[c] / size));
+        }
+    }
+    free(D);
+    free(r);
+    free(a);
+    return worst;
+}
+
+/* What two ways to one answer may differ by, relative to the largest entry. rcond: of A; 0: not
+ * known. */
+static inline double judge_forward(const judge_t *t, double rcond) {
+    const double growth = fmax(t->stats.factor.growth, 1e3);
+    return judge_limit(&t->stats) + (rcond > 0.0 ? 10.0 * growth * DBL_EPSILON / rcond : 1e-3);
+}
+
+/* Judges one answer that came with SL_OK. told: a field of stats has warned. */
+static inline void judge_answer(judge_t *t, double error, double limit, int told,
+                                const char *what) {
+    judge_count(t,
+                error == -1.0    ? JUDGE_NOT_FINITE
+                : error <= limit ? JUDGE_GOOD
+                : told           ? JUDGE_FLAGGED
+                                 : JUDGE_SILENT,
+                error, what);
+}
+
+/* A right-hand side: any one, a unit vector, or for semidefinite systems A z in long double. */
+static inline void judge_load(judge_t *t, double *b) {
+    const size_t n = t->n;
+    const sl_int kind = t->y->skips ? 2 : gen_below(&t->state, 4);
+    gen_reals(b, n, gen_bits(&t->state));
+    if (kind == 1) {
+        memset(b, 0, n * sizeof *b);
+        b[gen_below(&t->state, (sl_int)n)] = 1.0;
+    } else if (kind == 2) {
+        double *D = ref_dense(&t->y->M.view), *z = test_reals(n);
+        memcpy(z, b, n * sizeof *z);
+        for (size_t i = 0; i < n; i++) {
+            long double sum = 0.0L;
+            for (size_t j = 0; j < n; j++) {
+                sum += (long double)D[i + j * n] * z[j];
+            }
+            b[i] = (double)sum;
+        }
+        for (size_t i = 0; i < n; i++) {
+            if (!(fabs(b[i]) <= DBL_MAX)) {
+                b[i] = 0.0;
+            }
+        }
+        free(D);
+        free(z);
+    }
+}
+
+/* With weights and constants as null vectors: b := b - c m in each component; extra := |c m|. The
+ * worst mean, relative to sum |m| max |x|. In a row of zeros x has to be 0. */
+static inline double judge_center(const judge_t *t, double *b, double *extra, const double *x,
+                                  const unsigned char *is_regular) {
+    const size_t n = t->n;
+    const sl_int *of = t->y->of;
+    const double *m = t->y->mass;
+    double *D = ref_dense(&t->y->M.view), worst = 0.0;
+    long double *sums = (long double *)test_array(4 * n, sizeof *sums);
+    for (size_t i = 0; i < n; i++) {
+        long double *s = sums + 4 * of[i];
+        s[0] += b[i];
+        s[1] += m[i];
+        s[2] += (long double)m[i] * x[i];
+        s[3] = fabs(x[i]) > s[3] ? (long double)fabs(x[i]) : s[3];
+    }
+    for (size_t i = 0; i < n; i++) {
+        const long double *s = sums + 4 * of[i];
+        if (is_regular != NULL && is_regular[of[i]]) {
+            continue;
+        }
+        if (D[i + i * n] == 0.0) { /* a row of zeros: its x is 0 */
+            worst = fmax(worst, fabs(x[i]) > 1e-280 ? 1.0 : 0.0);
+            b[i] = 0.0;
+            continue;
+        }
+        const double c = (double)(s[0] / s[1] * m[i]);
+        extra[i] = fabs(c) + fabs(b[i]);
+        b[i] = (double)((long double)b[i] - s[0] / s[1] * m[i]);
+        if (s[3] > 0.0L) {
+            worst = fmax(worst, fabs((double)(s[2] / s[3] / s[1])));
+        }
+    }
+    free(D);
+    free(sums);
+    return worst;
+}
+
+#endif

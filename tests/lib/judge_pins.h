@@ -1,0 +1,269 @@
+/* judge_pins.h: judges of pins and of entries of the inverse */
+#ifndef SL_TEST_JUDGE_PINS_H
+#define SL_TEST_JUDGE_PINS_H
+
+#include "judge.h"
+
+enum { JUDGE_EQUALITIES = 3 };
+
+/* Pins, equalities and what they demand. */
+typedef struct judge_pins_t {
+    sl_pins *P;
+    sl_int count;
+    sl_int *row;   /* of pin k; -1: equality */
+    sl_int *which; /* equality k is column which[k] of C */
+    double *C;     /* n x JUDGE_EQUALITIES */
+    sl_int equalities;
+} judge_pins_t;
+
+static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *held) {
+    const sl_int n = (sl_int)t->n, many = 1 + gen_below(&t->state, 1 + n / 3);
+    sl_int *rows = test_ints(t->n), count = 0;
+    if (gen_below(&t->state, 4) == 0 && p->equalities < JUDGE_EQUALITIES) {
+        const sl_int size = 1 + gen_below(&t->state, n < 6 ? n : 6);
+        double *c = p->C + (size_t)p->equalities * t->n, values[6];
+        gen_permutation(rows, n, gen_bits(&t->state));
+        gen_reals(values, 6, gen_bits(&t->state));
+        const sl_status status = sl_pins_add_equality(p->P, rows, values, size, NULL);
+        if (status == SL_OK) {
+            memset(c, 0, t->n * sizeof *c);
+            for (sl_int k = 0; k < size; k++) {
+                c[rows[k]] = values[k];
+            }
+            p->row[p->count] = -1;
+            p->which[p->count++] = p->equalities++;
+        }
+    } else {
+        for (sl_int k = 0; k < many; k++) {
+            const sl_int row = gen_below(&t->state, n);
+            if (!held[row]) {
+                held[row] = 1;
+                rows[count++] = row;
+            }
+        }
+        const sl_status status = count == 1 ? sl_pins_add(p->P, rows[0], NULL)
+                                            : sl_pins_add_rows(p->P, rows, count, NULL);
+        for (sl_int k = 0; k < count; k++) {
+            if (status == SL_OK) {
+                p->row[p->count] = rows[k];
+                p->which[p->count++] = -1;
+            } else {
+                held[rows[k]] = 0;
+            }
+        }
+    }
+    free(rows);
+}
+
+static inline void judge_pins_release(judge_t *t, judge_pins_t *p, unsigned char *held) {
+    const sl_int at = gen_below(&t->state, p->count);
+    if (p->row[at] == -1 || sl_pins_release(p->P, at) != SL_OK) {
+        return; /* equalities stay: their columns are numbered */
+    }
+    held[p->row[at]] = 0;
+    for (sl_int k = at; k + 1 < p->count; k++) {
+        p->row[k] = p->row[k + 1];
+        p->which[k] = p->which[k + 1];
+    }
+    p->count--;
+}
+
+/* Orthonormal columns that span those of C and the unit vectors of held rows; returns how many. */
+static inline sl_int judge_pins_basis(const judge_t *t, const judge_pins_t *p, double *Q) {
+    const size_t n = t->n;
+    sl_int count = 0;
+    for (sl_int k = 0; k < p->count; k++) {
+        double *q = Q + (size_t)count * n, norm = 0.0;
+        memset(q, 0, n * sizeof *q);
+        if (p->row[k] >= 0) {
+            q[p->row[k]] = 1.0;
+        } else {
+            memcpy(q, p->C + (size_t)p->which[k] * n, n * sizeof *q);
+        }
+        for (sl_int j = 0; j < 2 * count; j++) {
+            const double *o = Q + (size_t)(j % count) * n;
+            double dot = 0.0;
+            for (size_t i = 0; i < n; i++) {
+                dot += o[i] * q[i];
+            }
+            for (size_t i = 0; i < n; i++) {
+                q[i] -= dot * o[i];
+            }
+        }
+        for (size_t i = 0; i < n; i++) {
+            norm += q[i] * q[i];
+        }
+        for (size_t i = 0; i < n && norm > 0.0; i++) {
+            q[i] /= sqrt(norm);
+        }
+        count += sqrt(norm) > 1e-9;
+    }
+    return count;
+}
+
+/* |C' x - g| relative to |C| |x| + |g| with the largest |x| of each component, the largest. */
+static inline double judge_pins_miss(const judge_t *t, const judge_pins_t *p, const double *x,
+                                     const double *g) {
+    double *most = test_reals(t->n), worst = 0.0;
+    for (size_t i = 0; i < t->n; i++) {
+        most[t->y->of[i]] = fmax(most[t->y->of[i]], fabs(x[i]));
+    }
+    for (sl_int k = 0; k < p->count; k++) {
+        double sum = -g[k], size = fabs(g[k]);
+        for (size_t i = 0; i < t->n; i++) {
+            const double c = p->row[k] >= 0 ? ((size_t)p->row[k] == i ? 1.0 : 0.0)
+                                            : p->C[(size_t)p->which[k] * t->n + i];
+            sum += c * x[i];
+            size += fabs(c) * most[t->y->of[i]];
+        }
+        worst = fmax(worst, size > 0.0 ? fabs(sum) / size : 0.0);
+    }
+    free(most);
+    return worst;
+}
+
+/* The components of A that equalities join. */
+static inline sl_int *judge_pins_join(const judge_t *t, const judge_pins_t *p) {
+    sl_int *of = test_ints(t->n);
+    memcpy(of, t->y->of, t->n * sizeof *of);
+    for (sl_int k = 0; k < p->count; k++) {
+        sl_int first = -1;
+        for (size_t i = 0; i < t->n && p->row[k] == -1; i++) {
+            if (p->C[(size_t)p->which[k] * t->n + i] != 0.0) {
+                const sl_int own = judge_root(of, (sl_int)i);
+                first = first == -1 ? own : judge_root(of, first);
+                of[own > first ? own : first] = own > first ? first : own;
+            }
+        }
+    }
+    for (size_t i = 0; i < t->n; i++) {
+        of[i] = judge_root(of, (sl_int)i);
+    }
+    return of;
+}
+
+static inline void judge_pins_solve(judge_t *t, const judge_pins_t *p) {
+    const size_t n = t->n;
+    double *b = test_reals(n), *x = test_reals(n), *g = test_reals(n + JUDGE_EQUALITIES);
+    double *Q = test_reals(n * (n + JUDGE_EQUALITIES)), *extra = test_reals(n);
+    unsigned char *is_held = (unsigned char *)test_array(n, 1);
+    const double scale = gen_below(&t->state, 3) ? 1.0 : system_scale(&t->state, -8.0, 8.0);
+    judge_load(t, b);
+    gen_reals(g, n + JUDGE_EQUALITIES, gen_bits(&t->state));
+    for (size_t i = 0; i < n; i++) {
+        g[i] *= scale;
+    }
+    for (sl_int k = 0; k < p->count; k++) {
+        for (size_t i = 0; i < n; i++) { /* any right-hand side where something is held */
+            const int holds =
+                p->row[k] >= 0 ? (size_t)p->row[k] == i : p->C[(size_t)p->which[k] * n + i] != 0.0;
+            is_held[t->y->of[i]] |= (unsigned char)holds;
+        }
+    }
+    const int is_any = p->equalities == 0 && t->y->constant && gen_below(&t->state, 2);
+    for (size_t i = 0; i < n && is_any; i++) {
+        if (is_held[t->y->of[i]] || t->y->mass != NULL) {
+            b[i] = gen_real(&t->state);
+        }
+    }
+    const sl_status status =
+        sl_pins_solve(p->P, NULL, x, n, b, n, g, n + JUDGE_EQUALITIES, 1, NULL);
+    if (judge_succeeded(t, status, "pins")) {
+        const sl_int rank = judge_pins_basis(t, p, Q);
+        double mean = 0.0;
+        if (t->y->mass != NULL && t->y->constant && p->equalities == 0) {
+            mean = judge_center(t, b, extra, x, is_held);
+        }
+        sl_int *of = judge_pins_join(t, p);
+        const double error = judge_error(&t->y->M.view, of, x, b, extra, Q, rank);
+        free(of);
+        judge_answer(t, error, judge_limit(&t->stats), judge_is_told(&t->stats), "pins, residual");
+        judge_answer(t, error == -1.0 ? error : judge_pins_miss(t, p, x, g), judge_limit(&t->stats),
+                     judge_is_told(&t->stats), "pins, values");
+        judge_answer(t, mean, judge_limit(&t->stats), judge_is_told(&t->stats), "pins, mean");
+    }
+    free(b);
+    free(x);
+    free(g);
+    free(Q);
+    free(extra);
+    free(is_held);
+}
+
+static inline void judge_way_pins(judge_t *t) {
+    judge_pins_t p;
+    unsigned char *held = (unsigned char *)test_array(t->n, 1);
+    memset(&p, 0, sizeof p);
+    p.row = test_ints(t->n + JUDGE_EQUALITIES);
+    p.which = test_ints(t->n + JUDGE_EQUALITIES);
+    p.C = test_reals(t->n * JUDGE_EQUALITIES);
+    if (judge_succeeded(t, sl_pins_create(&p.P, t->F, NULL), "pins create")) {
+        if (gen_below(&t->state, 2)) {
+            const sl_status status = sl_pins_set_matrix(p.P, &t->y->M.view, NULL);
+            if (status != SL_OK) { /* the test of the matrix may fail where digits are lost */
+                judge_count(t, JUDGE_REFUSED, 0.0, "pins matrix");
+            }
+        }
+        for (int k = 0; k < 1 + gen_below(&t->state, 6); k++) {
+            if (p.count > 0 && gen_below(&t->state, 4) == 0) {
+                judge_pins_release(t, &p, held);
+            } else {
+                judge_pins_add(t, &p, held);
+            }
+            judge_pins_solve(t, &p);
+        }
+    }
+    sl_pins_free(p.P);
+    free(held);
+    free(p.row);
+    free(p.which);
+    free(p.C);
+}
+
+/* Columns of the inverse are solutions, and all ways to its entries agree with them as far as the
+ * condition allows. */
+static inline void judge_way_inverse(judge_t *t) {
+    const size_t n = t->n;
+    const sl_int c = gen_below(&t->state, (sl_int)n);
+    double *Z = test_reals(n), *d = test_reals(n), *e = test_reals(n), *x = test_reals(n);
+    double most = 0.0, rcond = 0.0, worst = 0.0, pair = 0.0, form = 0.0;
+    sl_int *rows = test_ints(n);
+    sl_selected *selected = NULL;
+    gen_permutation(rows, (sl_int)n, gen_bits(&t->state));
+    if (judge_succeeded(t, sl_inverse_block(t->F, Z, n, rows, (sl_int)n, &c, 1, NULL, NULL),
+                        "inverse")) {
+        for (size_t k = 0; k < n; k++) {
+            x[rows[k]] = Z[k];
+        }
+        e[c] = 1.0;
+        const int told = judge_is_told(&t->stats);
+        if (!t->y->skips) {
+            judge_answer(t, judge_error(&t->y->M.view, t->y->of, x, e, NULL, NULL, 0),
+                         judge_limit(&t->stats), told, "column of the inverse");
+        }
+        SL_CHECK(sl_inverse_diagonal(t->F, d, NULL, 0, NULL, NULL));
+        SL_CHECK(sl_inverse_pairs(t->F, &pair, &c, &c, 1, NULL, NULL));
+        const double one = 1.0;
+        SL_CHECK(sl_inverse_bilinear(t->F, &form, &c, &one, 1, &c, &one, 1, NULL, NULL));
+        SL_CHECK(sl_factor_rcond(t->F, &t->y->M.view, &rcond, NULL));
+        for (size_t i = 0; i < n; i++) {
+            most = fmax(most, fabs(d[i]));
+        }
+        worst = fmax(fabs(d[c] - x[c]), fmax(fabs(pair - x[c]), fabs(form - x[c])));
+        if (sl_selected_create(&selected, t->F, &c, 1, NULL, NULL) == SL_OK) {
+            double own = 0.0;
+            SL_CHECK(sl_selected_diagonal(selected, &own, &c, 1, NULL));
+            worst = fmax(worst, fabs(own - x[c]));
+        }
+        judge_answer(t, most > 0.0 && most <= 1e300 ? worst / most : -1.0,
+                     judge_forward(t, t->y->skips ? 0.0 : rcond), told, "entries of the inverse");
+    }
+    sl_selected_free(selected);
+    free(rows);
+    free(Z);
+    free(d);
+    free(e);
+    free(x);
+}
+
+#endif
