@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 103fc3737d8d52c3
+ * FNV-1a of the lines after this comment, without the license: 4a9ccd56123cc98c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
  *  21394 selected_query.h  21496 region_choose.h  21723 region.h
  * (change: a factor that follows changes of its matrix)
- *  21971 update.h  22322 path.h  22449 rank.h  22821 edges.h  22975 choose.h  23173 pins_types.h
- *  23252 pins_nulls.h  23435 pins_capacitance.h  23687 pins_balance.h  23865 pins_held.h
- *  24081 pins_choose.h  24140 pins_rebuild.h  24358 pins_matrix.h  24509 pins.h  24778 pins_solve.h
- *  25049 subset.h  25170 restrict_analysis.h  25523 restrict_symbolic.h  25720 restrict.h
- *  25942 edit_match.h  26141 edit_place.h  26390 edit_separate.h  26704 edit_order.h
- *  26859 edit_graph.h  26954 edit_join.h  27230 edit.h  27393 edit_factor.h
+ *  21971 update.h  22322 path.h  22449 rank.h  22823 edges.h  22977 choose.h  23199 pins_types.h
+ *  23278 pins_nulls.h  23461 pins_capacitance.h  23713 pins_balance.h  23891 pins_held.h
+ *  24107 pins_choose.h  24165 pins_rebuild.h  24383 pins_matrix.h  24534 pins.h  24803 pins_solve.h
+ *  25074 subset.h  25195 restrict_analysis.h  25548 restrict_symbolic.h  25745 restrict.h
+ *  25967 edit_match.h  26166 edit_place.h  26415 edit_separate.h  26729 edit_order.h
+ *  26884 edit_graph.h  26979 edit_join.h  27255 edit.h  27418 edit_factor.h
  * (save: factors in files)
- *  27676 format.h  27972 decode.h  28120 check.h  28450 write.h  28755 load.h  29023 load_inverse.h
- *  29353 load_calls.h
+ *  27703 format.h  27999 decode.h  28147 check.h  28477 write.h  28782 load.h  29050 load_inverse.h
+ *  29380 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29552 batch_solve.h  29761 batch_factor.h  29962 batch_diagonal.h
+ *  29579 batch_solve.h  29788 batch_factor.h  29989 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30102 hermitian.h  30264 complex_rows.h
+ *  30129 hermitian.h  30291 complex_rows.h
  * (last: undefine every internal macro)
- *  30432 undef.h
+ *  30459 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30701 front.inl.h  30703 product.inl.h  31214 words_undef.inl.h  31291 copy_rows.inl.h
- *  31329 multi_rhs.inl.h  31348 complex_groups.inl.h  31487 multi_rhs_small.inl.h
- *  31659 multi_rhs_tiles.inl.h  31936 sweeps.inl.h  31938 unit_triangle.inl.h  31975 two_rhs.inl.h
- *  32144 small_supernode.inl.h  32325 single_rhs.inl.h  32569 kernel_set.inl.h
- *  32571 complex_small.inl.h  32741 complex_rows.inl.h  32956 inverse_front.inl.h  33241 row.inl.h
- *  33271 change.inl.h  33423 interleave.inl.h  33554 lanes_undef.inl.h
+ *  30733 front.inl.h  30735 product.inl.h  31246 words_undef.inl.h  31323 copy_rows.inl.h
+ *  31361 multi_rhs.inl.h  31380 complex_groups.inl.h  31519 multi_rhs_small.inl.h
+ *  31691 multi_rhs_tiles.inl.h  31968 sweeps.inl.h  31970 unit_triangle.inl.h  32007 two_rhs.inl.h
+ *  32176 small_supernode.inl.h  32357 single_rhs.inl.h  32601 kernel_set.inl.h
+ *  32603 complex_small.inl.h  32773 complex_rows.inl.h  32988 inverse_front.inl.h  33273 row.inl.h
+ *  33303 change.inl.h  33455 interleave.inl.h  33586 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22462,6 +22462,7 @@ typedef struct sli_rank {
   sl_int logged;
   int is_changed;
   double flops;
+  double pivots;
   sl_off entries;
   sli_reach whole;
   uint64_t *seeds, *scratch, *whole_seeds;
@@ -22541,7 +22542,7 @@ static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int 
 static void sli_rank_measure(sli_rank *q) {
   sl_int k, last, group[SLI_TILE];
   uint64_t seeds[SLI_TILE];
-  q->flops = 0.0;
+  q->flops = q->pivots = 0.0;
   q->entries = 0;
   for (k = 0; k < q->count; k = last) {
     sli_reach R;
@@ -22549,6 +22550,7 @@ static void sli_rank_measure(sli_rank *q) {
     sli_rank_group(q, k, last, group, seeds);
     sli_reach_measure(q->u.F->S, seeds, last - k, &R);
     q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
+    q->pivots += (double)R.columns * (double)(last - k);
     q->entries += R.entries;
   }
 }
@@ -22974,10 +22976,11 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
-#define SLI_CHANGE_ENTRY 0.9e-9
-#define SLI_CHANGE_FLOP 0.04e-9
-#define SLI_CHANGE_FRONT_FLOP 0.1e-9
-#define SLI_CHANGE_FRONT 400e-9
+#define SLI_CHANGE_ENTRY 0.3e-9
+#define SLI_CHANGE_PIVOT 5e-9
+#define SLI_CHANGE_FRONT 0.8e-6
+#define SLI_CHANGE_VISIT 0.45e-6
+#define SLI_CHANGE_INPUT 4e-9
 #define SLI_CHANGE_DRIFT 1e-11
 
 typedef struct sli_way {
@@ -22990,6 +22993,26 @@ typedef struct sli_way {
   double update, changed, refactor;
   sl_change_reason reason;
 } sli_way;
+
+static double sli_change_flop(sl_isa isa) {
+  switch (isa) {
+  case SL_ISA_AVX512:
+    return 0.0125e-9;
+  case SL_ISA_AVX2:
+    return 0.03e-9;
+  case SL_ISA_NEON:
+    return 0.08e-9;
+  default:
+    return 0.3e-9;
+  }
+}
+
+static double sli_way_refactor(const sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  return sli_change_flop(F->kernels->isa) * S->stats.symbolic.flops +
+       SLI_CHANGE_FRONT * S->n_supers +
+       SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
+}
 
 static double sli_way_front(const sl_symbolic *S, sl_int s) {
   const double w = S->steps[s].width, h = w + S->steps[s].below;
@@ -23015,14 +23038,15 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
   return flops;
 }
 
-static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
-  sl_int k = 0, s, next, fronts = 0, visits = 0;
+static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
+  const sl_symbolic *S = F->S;
+  sl_int k = 0, s, next, visits = 0;
   double flops = 0.0;
   while (k < c->n_seeds) {
     s = S->super_of[sli_key(c->seeds[k])];
     next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
-      fronts++;
+      visits++;
       flops += sli_way_front(S, s);
       if (gathers) {
         flops += sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
@@ -23030,7 +23054,8 @@ static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
     }
   }
   c->flops_changed = flops;
-  c->changed = SLI_CHANGE_FRONT_FLOP * flops + SLI_CHANGE_FRONT * fronts;
+  c->changed = sli_change_flop(F->kernels->isa) * flops + SLI_CHANGE_VISIT * visits +
+         SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
@@ -23038,7 +23063,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL &&
               F->storage == SL_STORAGE_DOUBLE;
   c->flops_refactor = S->stats.symbolic.flops;
-  c->refactor = SLI_CHANGE_FRONT_FLOP * c->flops_refactor + SLI_CHANGE_FRONT * S->n_supers;
+  c->refactor = sli_way_refactor(F);
   c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
@@ -23048,9 +23073,9 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     return SL_CHANGE_REFACTOR;
   }
   if (can_reach) {
-    sli_way_measure(c, S, 0);
+    sli_way_measure(c, F, 0);
     if (!can_update || c->update > c->changed) {
-      sli_way_measure(c, S, 1);
+      sli_way_measure(c, F, 1);
     }
   }
   if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
@@ -23080,7 +23105,8 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
   sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
   status = status == SL_OK ? q->status : status;
   c->flops_update = q->flops;
-  c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_FLOP * q->flops;
+  c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_PIVOT * q->pivots +
+        0.5 * sli_change_flop(q->u.F->kernels->isa) * q->flops;
   c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
   return status;
 }
@@ -24081,13 +24107,12 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
 /* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
 
 #define SLI_PINS_ENTRY 0.15e-9
-#define SLI_PINS_TERM 0.5e-9
-#define SLI_PINS_STEP 15e-9
-#define SLI_PINS_DENSE 0.5e-9
+#define SLI_PINS_TERM 0.35e-9
+#define SLI_PINS_STEP 10e-9
+#define SLI_PINS_DENSE 0.2e-9
 #define SLI_PINS_MAP 5e-9
-#define SLI_PINS_MEMORY 6e-9
-
-static const double sli_pins_flop[] = {0.0, 0.3e-9, 0.035e-9, 0.016e-9, 0.08e-9};
+#define SLI_PINS_COPY 0.6e-9
+#define SLI_PINS_MEMORY 3e-9
 
 static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                     sl_int others, sl_int *uses) {
@@ -24126,13 +24151,13 @@ static double sli_pins_least_cost(const sl_pins *P) {
 
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
   const sl_symbolic *S = P->F->S;
-  const double flop = sli_pins_flop[P->F->kernels->isa];
-  const double whole = flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT * S->n_supers;
+  const double whole = sli_way_refactor(P->F);
   double part;
   h->way.seeds = h->seeds;
   h->way.n_seeds = h->n_seeds;
-  sli_way_measure(&h->way, S, 1);
-  part = h->way.changed + (flop - SLI_CHANGE_FRONT_FLOP) * h->way.flops_changed;
+  sli_way_measure(&h->way, P->F, 1);
+  part = h->way.changed +
+       (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
   h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
   return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }
@@ -27392,6 +27417,8 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
 
 /* src/impl/change/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
 
+#define SLI_REUSE_FLOP 0.1e-9
+#define SLI_REUSE_FRONT 400e-9
 #define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
 #define SLI_REUSE_SHARE 0.97
@@ -27535,10 +27562,10 @@ static int sli_reuse_choose(sli_reuse *r) {
     }
   }
   info->computed = T->n - info->kept;
-  seconds = SLI_CHANGE_FRONT_FLOP * info->flops + SLI_CHANGE_FRONT * visits +
+  seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits +
         SLI_REUSE_SUPER * supers + SLI_REUSE_ENTRY * (double)info->entries;
-  return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * r->flops_anew +
-                    SLI_CHANGE_FRONT * (double)T->n_supers);
+  return seconds < SLI_REUSE_SHARE * (SLI_REUSE_FLOP * r->flops_anew +
+                    SLI_REUSE_FRONT * (double)T->n_supers);
 }
 
 static void sli_reuse_drop(sli_reuse *r, sl_int s) {
@@ -30579,6 +30606,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_EDIT_LEAST
 #undef SLI_EDIT_SHARE
 #undef SLI_EDIT_DUE
+#undef SLI_REUSE_FLOP
+#undef SLI_REUSE_FRONT
 #undef SLI_REUSE_SUPER
 #undef SLI_REUSE_SAMPLE
 #undef SLI_REUSE_SAMPLED
@@ -30652,10 +30681,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_COST_WIDE
 #undef SLI_COST_SUPER_ONE_FACTOR
 #undef SLI_COST_WIDE_ONE_FACTOR
+#undef SLI_UPDATE_COLUMNS
 #undef SLI_CHANGE_ENTRY
-#undef SLI_CHANGE_FLOP
-#undef SLI_CHANGE_FRONT_FLOP
+#undef SLI_CHANGE_PIVOT
 #undef SLI_CHANGE_FRONT
+#undef SLI_CHANGE_VISIT
+#undef SLI_CHANGE_INPUT
 #undef SLI_CHANGE_DRIFT
 #undef SLI_CELLS
 #undef SLI_CELLS_AS_GOOD
@@ -30673,6 +30704,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PINS_STEP
 #undef SLI_PINS_DENSE
 #undef SLI_PINS_MAP
+#undef SLI_PINS_COPY
 #undef SLI_PINS_MEMORY
 #undef SLI_PINS_LOST
 #undef SLI_PINS_OTHER

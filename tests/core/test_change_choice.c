@@ -136,8 +136,8 @@ static void repeated_entries_have_the_reach_of_one(void **state) {
     list_add(l, &g, 1830, 1830, 0.5);
     assert_int_equal(change(&g, l, &stats), SL_CHANGE_UPDATE);
     l->count = 0;
-    for (sl_int k = 0; k < 40 * 100; k++) {
-        const sl_int v = 60 * (k % 10) + k / 10 % 10;
+    for (sl_int k = 0; k < 10 * 400; k++) {
+        const sl_int v = 60 * (k % 20) + k / 20 % 20;
         list_add(l, &g, v, v, 0.01);
     }
     assert_int_equal(change(&g, l, &stats), SL_CHANGE_REACH);

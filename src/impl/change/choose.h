@@ -5,12 +5,12 @@
 #include "../factor/leftlooking.h"
 #include "edges.h"
 
-/* Seconds of the three ways, from their counts. Rank-one changes are bound by memory: reading and
- * writing an entry of L takes as long as the flops of 4 vectors. Fronts have a fixed cost, too. */
-#define SLI_CHANGE_ENTRY 0.9e-9
-#define SLI_CHANGE_FLOP 0.04e-9
-#define SLI_CHANGE_FRONT_FLOP 0.1e-9
-#define SLI_CHANGE_FRONT 400e-9
+/* Seconds of the parts of the three ways, measured on grids of 1e4 to 1e6 rows. */
+#define SLI_CHANGE_ENTRY 0.3e-9  /* an entry of L that a pass of rank-one changes reads and writes */
+#define SLI_CHANGE_PIVOT 5e-9    /* a pivot that one vector changes */
+#define SLI_CHANGE_FRONT 0.8e-6  /* a front, beside its flops */
+#define SLI_CHANGE_VISIT 0.45e-6 /* a descendant that updates a front again */
+#define SLI_CHANGE_INPUT 4e-9    /* an entry of A */
 /* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
 #define SLI_CHANGE_DRIFT 1e-11
 
@@ -25,6 +25,28 @@ typedef struct sli_way {
     double update, changed, refactor; /* seconds */
     sl_change_reason reason;
 } sli_way;
+
+/* Seconds of a flop in a front. In a pass of rank-one changes it takes half of this. */
+static double sli_change_flop(sl_isa isa) {
+    switch (isa) {
+    case SL_ISA_AVX512:
+        return 0.0125e-9;
+    case SL_ISA_AVX2:
+        return 0.03e-9;
+    case SL_ISA_NEON:
+        return 0.08e-9;
+    default:
+        return 0.3e-9;
+    }
+}
+
+/* Seconds of a refactorization. */
+static double sli_way_refactor(const sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    return sli_change_flop(F->kernels->isa) * S->stats.symbolic.flops +
+           SLI_CHANGE_FRONT * S->n_supers +
+           SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
+}
 
 /* Flops of the elimination of supernode s alone. */
 static double sli_way_front(const sl_symbolic *S, sl_int s) {
@@ -54,14 +76,15 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
 }
 
 /* Counts the reach of the change: of the fronts alone, or with what they gather. */
-static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
-    sl_int k = 0, s, next, fronts = 0, visits = 0;
+static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
+    const sl_symbolic *S = F->S;
+    sl_int k = 0, s, next, visits = 0;
     double flops = 0.0;
     while (k < c->n_seeds) {
         s = S->super_of[sli_key(c->seeds[k])];
         next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
-            fronts++;
+            visits++;
             flops += sli_way_front(S, s);
             if (gathers) {
                 flops += sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
@@ -69,7 +92,8 @@ static void sli_way_measure(sli_way *c, const sl_symbolic *S, int gathers) {
         }
     }
     c->flops_changed = flops;
-    c->changed = SLI_CHANGE_FRONT_FLOP * flops + SLI_CHANGE_FRONT * fronts;
+    c->changed = sli_change_flop(F->kernels->isa) * flops + SLI_CHANGE_VISIT * visits +
+                 SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
 /* Chooses. can_update: rank-one changes are possible. */
@@ -78,7 +102,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL &&
                           F->storage == SL_STORAGE_DOUBLE;
     c->flops_refactor = S->stats.symbolic.flops;
-    c->refactor = SLI_CHANGE_FRONT_FLOP * c->flops_refactor + SLI_CHANGE_FRONT * S->n_supers;
+    c->refactor = sli_way_refactor(F);
     c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
     if (!F->is_valid) {
         return SL_CHANGE_REFACTOR;
@@ -88,9 +112,9 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
         return SL_CHANGE_REFACTOR;
     }
     if (can_reach) {
-        sli_way_measure(c, S, 0); /* a lower bound: to count the descendants takes time */
+        sli_way_measure(c, F, 0); /* a lower bound: to count the descendants takes time */
         if (!can_update || c->update > c->changed) {
-            sli_way_measure(c, S, 1);
+            sli_way_measure(c, F, 1);
         }
     }
     if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
@@ -122,7 +146,8 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
     sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
     status = status == SL_OK ? q->status : status;
     c->flops_update = q->flops;
-    c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_FLOP * q->flops;
+    c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_PIVOT * q->pivots +
+                0.5 * sli_change_flop(q->u.F->kernels->isa) * q->flops;
     c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
     return status;
 }

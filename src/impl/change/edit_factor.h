@@ -7,6 +7,8 @@
 #include "edit_match.h"
 
 /* Seconds to copy a supernode and each entry of it. */
+#define SLI_REUSE_FLOP 0.1e-9
+#define SLI_REUSE_FRONT 400e-9
 #define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
 /* A whole factorization is taken if the estimates differ by less. */
@@ -168,10 +170,10 @@ static int sli_reuse_choose(sli_reuse *r) {
         }
     }
     info->computed = T->n - info->kept;
-    seconds = SLI_CHANGE_FRONT_FLOP * info->flops + SLI_CHANGE_FRONT * visits +
+    seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits +
               SLI_REUSE_SUPER * supers + SLI_REUSE_ENTRY * (double)info->entries;
-    return seconds < SLI_REUSE_SHARE * (SLI_CHANGE_FRONT_FLOP * r->flops_anew +
-                                        SLI_CHANGE_FRONT * (double)T->n_supers);
+    return seconds < SLI_REUSE_SHARE * (SLI_REUSE_FLOP * r->flops_anew +
+                                        SLI_REUSE_FRONT * (double)T->n_supers);
 }
 
 /* Supernode s is not kept, nor are its ancestors. */

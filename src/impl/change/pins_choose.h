@@ -4,16 +4,14 @@
 
 #include "pins_held.h"
 
-/* Seconds of the parts of both ways, from their counts; measured on grids of 1e5 and 1e6 rows. */
+/* Seconds of the parts of both ways, measured on grids of 1e4 to 1e6 rows. */
 #define SLI_PINS_ENTRY 0.15e-9 /* an entry of L in a forward sweep */
-#define SLI_PINS_TERM 0.5e-9   /* a product of a sum over shared columns */
-#define SLI_PINS_STEP 15e-9    /* a supernode of the same */
-#define SLI_PINS_DENSE 0.5e-9  /* a product in the factor of K */
+#define SLI_PINS_TERM 0.35e-9  /* a product of a sum over shared columns */
+#define SLI_PINS_STEP 10e-9    /* a supernode of the same */
+#define SLI_PINS_DENSE 0.2e-9  /* a product in the factor of K */
 #define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
-#define SLI_PINS_MEMORY 6e-9   /* an entry of a new factor */
-
-/* Seconds of a flop in a front, by sl_isa. */
-static const double sli_pins_flop[] = {0.0, 0.3e-9, 0.035e-9, 0.016e-9, 0.08e-9};
+#define SLI_PINS_COPY 0.6e-9   /* an entry of F that is copied */
+#define SLI_PINS_MEMORY 3e-9   /* an entry of a new factor: 0.5 ns in recycled memory, 5 in new pages */
 
 /* Seconds of new pins by the capacitance matrix, beside `others` that are there. seeds: their
  * columns, ascending; uses: n_supers of scratch, 0 before and after; NULL: for one pin, whose path
@@ -57,13 +55,13 @@ static double sli_pins_least_cost(const sl_pins *P) {
 /* Seconds of elimination. Decides whether it is computed in the reach of the changes. */
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
     const sl_symbolic *S = P->F->S;
-    const double flop = sli_pins_flop[P->F->kernels->isa];
-    const double whole = flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT * S->n_supers;
+    const double whole = sli_way_refactor(P->F);
     double part;
     h->way.seeds = h->seeds;
     h->way.n_seeds = h->n_seeds;
-    sli_way_measure(&h->way, S, 1);
-    part = h->way.changed + (flop - SLI_CHANGE_FRONT_FLOP) * h->way.flops_changed;
+    sli_way_measure(&h->way, P->F, 1);
+    part = h->way.changed +
+           (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
     h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
     return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }

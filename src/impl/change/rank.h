@@ -21,6 +21,7 @@ typedef struct sli_rank {
     sl_int logged;   /* steps in the log */
     int is_changed;  /* a pass has begun to change F */
     double flops;    /* entries of L that the passes change, times their vectors' cost */
+    double pivots;   /* pivots that they change, times their vectors */
     sl_off entries;  /* entries of L that the passes change */
     sli_reach whole; /* of all vectors */
     uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
@@ -109,7 +110,7 @@ static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int 
 static void sli_rank_measure(sli_rank *q) {
     sl_int k, last, group[SLI_TILE];
     uint64_t seeds[SLI_TILE];
-    q->flops = 0.0;
+    q->flops = q->pivots = 0.0;
     q->entries = 0;
     for (k = 0; k < q->count; k = last) {
         sli_reach R;
@@ -117,6 +118,7 @@ static void sli_rank_measure(sli_rank *q) {
         sli_rank_group(q, k, last, group, seeds);
         sli_reach_measure(q->u.F->S, seeds, last - k, &R);
         q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
+        q->pivots += (double)R.columns * (double)(last - k);
         q->entries += R.entries;
     }
 }
