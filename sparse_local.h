@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4a9ccd56123cc98c
+ * FNV-1a of the lines after this comment, without the license: 4794eb6c005b5b3c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,51 +41,51 @@
  *   5910 csc.h   6053 csc_build.h   6187 csc64.h   6258 csc_triangle.h   6323 csc_products.h
  *   6440 permute.h   6506 sum.h   6588 output_file.h   6797 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7243 graph.h   7361 contract.h   7615 coarsen.h   7778 labels.h   7999 subgraph.h   8194 heap.h
- *   8254 bisect.h   8481 separator.h   8743 mindeg.h   8926 dissect.h   9250 tree_cost.h
- *   9302 levelset.h   9408 geometric.h   9583 cells.h   9763 septree.h   9839 metis.h
- *   9988 metis_refined.h  10102 nd.h  10302 compress.h  10423 levels.h  10475 peel.h
- *  10681 quotient.h  11094 order.h
+ *   7243 graph.h   7361 contract.h   7615 coarsen.h   7778 labels.h   7999 subgraph.h   8193 heap.h
+ *   8253 bisect.h   8480 separator.h   8742 mindeg.h   8925 dissect.h   9249 tree_cost.h
+ *   9301 levelset.h   9407 geometric.h   9582 cells.h   9762 septree.h   9838 metis.h
+ *   9987 metis_refined.h  10101 nd.h  10301 compress.h  10422 levels.h  10474 peel.h
+ *  10680 quotient.h  11093 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11448 symbolic_types.h  11485 etree.h  11559 counts.h  11605 supernodes.h  11846 pattern.h
- *  11931 structure.h  12125 schedule.h  12405 symbolic.h  12851 reach.h
+ *  11447 symbolic_types.h  11484 etree.h  11558 counts.h  11604 supernodes.h  11845 pattern.h
+ *  11930 structure.h  12124 schedule.h  12404 symbolic.h  12850 reach.h
  * (factor: the numbers of L and D)
- *  13122 factor_types.h  13540 storage.h  13680 pivot_search.h  14026 pivoted.h  14095 scatter.h
- *  14253 uplooking.h  14325 null_product.h  14529 null_dense.h  14606 null_basis.h
- *  14914 null_vectors.h  15056 multifrontal.h  15250 gather.h  15298 kept.h  15468 front_tasks.h
- *  15811 nullspace.h  16014 growth.h  16090 factor_setup.h  16412 factor.h  16622 leftlooking.h
- *  16770 factor_query.h  16905 combination.h
+ *  13121 factor_types.h  13539 storage.h  13679 pivot_search.h  14025 pivoted.h  14094 scatter.h
+ *  14252 uplooking.h  14324 null_product.h  14528 null_dense.h  14605 null_basis.h
+ *  14913 null_vectors.h  15055 multifrontal.h  15249 gather.h  15297 kept.h  15467 front_tasks.h
+ *  15810 nullspace.h  16013 growth.h  16089 factor_setup.h  16411 factor.h  16621 leftlooking.h
+ *  16769 factor_query.h  16904 combination.h
  * (solve: full and local solves)
- *  16966 region_types.h  17070 work.h  17170 query.h  17386 singular.h  17660 backward.h
- *  17690 sweep_tasks.h  18021 sweep.h  18232 compile.h  18425 plan.h  18532 local.h  18684 parts.h
- *  18973 refine.h  19152 refine_local.h  19368 rcond.h  19527 defects.h
+ *  16965 region_types.h  17069 work.h  17169 query.h  17385 singular.h  17659 backward.h
+ *  17689 sweep_tasks.h  18020 sweep.h  18231 compile.h  18424 plan.h  18531 local.h  18683 parts.h
+ *  18972 refine.h  19151 refine_local.h  19367 rcond.h  19526 defects.h
  * (inverse: entries of the inverse, regions)
- *  19605 traversal.h  19854 traversal_run.h  20047 row_sets.h  20081 unit_vectors.h
- *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
- *  21394 selected_query.h  21496 region_choose.h  21723 region.h
+ *  19604 traversal.h  19853 traversal_run.h  20046 row_sets.h  20080 unit_vectors.h
+ *  20307 bilinear.h  20479 entries.h  20756 block.h  20991 reserve.h  21183 selected.h
+ *  21393 selected_query.h  21495 region_choose.h  21722 region.h
  * (change: a factor that follows changes of its matrix)
- *  21971 update.h  22322 path.h  22449 rank.h  22823 edges.h  22977 choose.h  23199 pins_types.h
- *  23278 pins_nulls.h  23461 pins_capacitance.h  23713 pins_balance.h  23891 pins_held.h
- *  24107 pins_choose.h  24165 pins_rebuild.h  24383 pins_matrix.h  24534 pins.h  24803 pins_solve.h
- *  25074 subset.h  25195 restrict_analysis.h  25548 restrict_symbolic.h  25745 restrict.h
- *  25967 edit_match.h  26166 edit_place.h  26415 edit_separate.h  26729 edit_order.h
- *  26884 edit_graph.h  26979 edit_join.h  27255 edit.h  27418 edit_factor.h
+ *  21970 update.h  22321 path.h  22448 rank.h  22822 edges.h  22976 choose.h  23198 pins_types.h
+ *  23277 pins_nulls.h  23460 pins_capacitance.h  23712 pins_balance.h  23890 pins_held.h
+ *  24106 pins_choose.h  24164 pins_rebuild.h  24382 pins_matrix.h  24533 pins.h  24802 pins_solve.h
+ *  25073 subset.h  25194 restrict_analysis.h  25547 restrict_symbolic.h  25744 restrict.h
+ *  25966 edit_match.h  26165 edit_place.h  26414 edit_separate.h  26728 edit_order.h
+ *  26883 edit_graph.h  26978 edit_join.h  27254 edit.h  27417 edit_factor.h
  * (save: factors in files)
- *  27703 format.h  27999 decode.h  28147 check.h  28477 write.h  28782 load.h  29050 load_inverse.h
- *  29380 load_calls.h
+ *  27702 format.h  27998 decode.h  28146 check.h  28476 write.h  28781 load.h  29049 load_inverse.h
+ *  29379 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29579 batch_solve.h  29788 batch_factor.h  29989 batch_diagonal.h
+ *  29578 batch_solve.h  29787 batch_factor.h  29988 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30129 hermitian.h  30291 complex_rows.h
+ *  30128 hermitian.h  30290 complex_rows.h
  * (last: undefine every internal macro)
- *  30459 undef.h
+ *  30458 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30733 front.inl.h  30735 product.inl.h  31246 words_undef.inl.h  31323 copy_rows.inl.h
- *  31361 multi_rhs.inl.h  31380 complex_groups.inl.h  31519 multi_rhs_small.inl.h
- *  31691 multi_rhs_tiles.inl.h  31968 sweeps.inl.h  31970 unit_triangle.inl.h  32007 two_rhs.inl.h
- *  32176 small_supernode.inl.h  32357 single_rhs.inl.h  32601 kernel_set.inl.h
- *  32603 complex_small.inl.h  32773 complex_rows.inl.h  32988 inverse_front.inl.h  33273 row.inl.h
- *  33303 change.inl.h  33455 interleave.inl.h  33586 lanes_undef.inl.h
+ *  30732 front.inl.h  30734 product.inl.h  31245 words_undef.inl.h  31322 copy_rows.inl.h
+ *  31360 multi_rhs.inl.h  31379 complex_groups.inl.h  31518 multi_rhs_small.inl.h
+ *  31690 multi_rhs_tiles.inl.h  31967 sweeps.inl.h  31969 unit_triangle.inl.h  32006 two_rhs.inl.h
+ *  32175 small_supernode.inl.h  32356 single_rhs.inl.h  32600 kernel_set.inl.h
+ *  32602 complex_small.inl.h  32772 complex_rows.inl.h  32987 inverse_front.inl.h  33272 row.inl.h
+ *  33302 change.inl.h  33454 interleave.inl.h  33585 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5956,7 +5956,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
   for (p = 0; p < sli_nnz(A); p++) {
     beyond |= (uint32_t)A->i[p] >= (uint32_t)A->n_rows;
   }
-  for (j = 0; beyond && j < A->n_cols; j++) {
+  for (j = 0; beyond; j++) {
     for (p = A->p[j]; p < A->p[j + 1]; p++) {
       if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
         return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);
@@ -7946,7 +7946,7 @@ static int sli_borders_take(sli_borders *l) {
   sli_lock(&p->lock);
   chunk = p->failed ? 0 : sli_border_chunk(p->count, &first);
   if (!p->failed && chunk == SLI_BORDERS_CHUNKS) { /* untested: 2^31 */
-    p->failed = 1;
+    p->failed = 1; /* untested: the same */
   }
   if (!p->failed && p->chunk[chunk] == NULL) {
     p->chunk[chunk] = (sli_border *)sli_alloc(p->a, ((size_t)SLI_BORDERS_FIRST << chunk) *
@@ -8093,13 +8093,12 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
     const sl_int v = sli_border_at(l->pool, entry)->vertex, own = sli_shared_read(label + v);
     const int side = own > node;
     int crosses = 0;
-    if (sub->local[v] != -1 || own == node || !sli_label_tree_is_below(t, node, own)) {
+    if (sub->local[v] != -1 || !sli_label_tree_is_below(t, node, own)) {
       continue;
     }
     for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
       const sl_int other = sli_shared_read(label + g->to[e]);
-      crosses =
-        other != node && sli_label_tree_is_below(t, node, other) && (other > node) != side;
+      crosses = sli_label_tree_is_below(t, node, other) && (other > node) != side;
     }
     if (crosses) {
       sli_subgraph_add(sub, v, 0);
@@ -9566,7 +9565,7 @@ static void sli_dissect_points(sli_dissection *d, const sl_int *sorted, sl_int l
   for (node = 0; node < d->tree.count; node++) {
     const sl_int first = begin[node], count = end[node] - first;
     d->tree.weight[node] = count;
-    if (count <= leaf || d->tree.count >= d->tree.room - 1) {
+    if (count <= leaf) {
       for (k = first; k < end[node]; k++) {
         d->label[sorted[k]] = node;
       }

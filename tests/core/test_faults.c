@@ -182,6 +182,112 @@ static void instruction_sets_are_recognized(void **state) {
 
 #endif
 
+/* A graph of triangles or tetrahedra, w rows in each direction, and the coordinates of its rows. */
+static gen_list_t lattice(sl_int w, int dimensions, double *xyz) {
+    const sl_int n = dimensions == 2 ? w * w : w * w * w, step[3] = {1, w, w * w};
+    gen_list_t t = gen_list(n);
+    for (sl_int k = 0; k < n; k++) {
+        const sl_int at[3] = {k % w, k / w % w, k / (w * w)};
+        gen_add(&t, k, k, 1.0);
+        for (int c = 0; c < dimensions; c++) {
+            xyz[dimensions * k + c] = at[c];
+        }
+        for (int way = 1; way < 1 << dimensions; way++) {
+            sl_int other = k;
+            for (int c = 0; c < dimensions; c++) {
+                other = (way >> c & 1) == 0 || other == -1 ? other
+                        : at[c] + 1 < w                    ? other + step[c]
+                                                           : -1;
+            }
+            if (other != -1) {
+                gen_add(&t, other, k, -1.0);
+            }
+        }
+    }
+    return t;
+}
+
+/* Each allocation of an ordering fails once, also of those that otherwise use borrowed memory.
+ * Returns how many there are. */
+static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering, const double *xyz,
+                          int dimensions) {
+    gen_matrix_t M = gen_store(t, gen_style(style), 1);
+    const sl_csc *A = &M.view;
+    const sl_int n = A->n_cols;
+    sl_int *column = test_ints((size_t)A->p[n] + 1), *perm = test_ints((size_t)n),
+           *scratch = test_ints((size_t)n), *seen = test_ints((size_t)n);
+    sli_septree septree = {0, test_ints((size_t)n), test_ints((size_t)n + 1)};
+    sli_order_choice choice = {test_ints((size_t)n), 0, 0};
+    sl_status status = SL_ERR_MEMORY;
+    int k = 0;
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
+            column[p] = j;
+        }
+    }
+    for (; status != SL_OK; k++) {
+        counter_t counter = counter_make();
+        sl_options opt = options_counted(&counter);
+        sli_team alone = sli_team_of(1);
+        opt.ordering = ordering;
+        opt.coordinates = xyz;
+        opt.dimensions = xyz != NULL ? dimensions : 0;
+        counter.fail_at = k;
+        status = sli_order(A, column, gen_style(style).triangle, &opt, perm, scratch, &septree,
+                           &choice, &alone, &opt.allocator, NULL);
+        assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+        assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
+        COUNTER_CLEAN(&counter);
+    }
+    for (sl_int j = 0; j < n; j++) {
+        seen[perm[j]]++;
+    }
+    for (sl_int j = 0; j < n; j++) {
+        assert_int_equal(seen[j], 1);
+    }
+    free(column);
+    free(perm);
+    free(scratch);
+    free(seen);
+    free(septree.node_of);
+    free(septree.parent);
+    free(choice.other);
+    gen_matrix_free(&M);
+    return k - 1;
+}
+
+static void orderings_may_lack_memory(void **state) {
+    (void)state;
+    static const struct {
+        gen_kind_t kind;
+        sl_int size;
+    } kinds[4] = {{GEN_GRID2, 900}, {GEN_FOREST, 300}, {GEN_COMPONENTS, 900}, {GEN_STAR, 300}};
+    static const sl_ordering orderings[4] = {SL_ORDERING_ND, SL_ORDERING_MINDEG, SL_ORDERING_METIS,
+                                             SL_ORDERING_METIS_REFINED};
+    for (int k = 0; k < 4; k++) {
+        gen_list_t t = gen_make(kinds[k].kind, kinds[k].size, 1, 3);
+        for (sl_int row = 1; row < t.n && k == 0; row++) { /* a dense row */
+            gen_add(&t, row, 0, 1.0);
+        }
+        for (int m = 0; m < 4; m++) {
+            if (ordering_is_present(orderings[m])) {
+                assert_true(allocations_of(&t, 11 * (m % 2), orderings[m], NULL, 0) > 0);
+            }
+        }
+        gen_list_free(&t);
+    }
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const sl_int w = dimensions == 2 ? 100 : 26;
+        double *xyz = test_reals((size_t)(3 * w * w * w));
+        gen_list_t t = lattice(w, dimensions, xyz);
+        assert_true(allocations_of(&t, 0, SL_ORDERING_ND, xyz, dimensions) > 0);
+        gen_reals(xyz, (size_t)(dimensions * t.n), 4); /* coordinates that mislead */
+        assert_true(allocations_of(&t, 0, SL_ORDERING_ND, xyz, dimensions) > 0);
+        free(xyz);
+        gen_list_free(&t);
+    }
+}
+
 /* Sums of sizes that no memory holds are noticed: they are reached where size_t has 32 bits. */
 static void sizes_beyond_memory_are_refused(void **state) {
     (void)state;
@@ -214,6 +320,7 @@ int main(void) {
 #if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
         cmocka_unit_test(instruction_sets_are_recognized),
 #endif
+        cmocka_unit_test(orderings_may_lack_memory),
         cmocka_unit_test(sizes_beyond_memory_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -123,6 +123,28 @@ static void hostile_graphs_are_ordered(void **state) {
     }
 }
 
+/* Two hubs have too many neighbors for a search, so that two rows between them leave their edge
+ * twice. In time they have no other one. A long ring keeps the rows of one neighbor few. */
+static void an_edge_may_be_there_twice(void **state) {
+    (void)state;
+    enum { RING = 20000, HUB = RING, BETWEEN = HUB + 2, LEAVES = BETWEEN + 2, N = LEAVES + 66 };
+    for (int way = 0; way < 2; way++) {
+        gen_list_t t = gen_list(N);
+        for (sl_int k = 0; k < RING; k++) {
+            gen_add(&t, k, (k + RING - 1) % RING, 1.0);
+        }
+        for (sl_int k = 0; k < 4; k++) {
+            gen_add(&t, BETWEEN + k / 2, HUB + k % 2, 1.0);
+        }
+        for (sl_int k = LEAVES; k < N; k++) {
+            gen_add(&t, k, HUB + k % 2, 1.0);
+        }
+        const costs_t c = costs_of(&t, way ? SL_ORDERING_MINDEG : SL_ORDERING_ND);
+        assert_true(c.fill < 3.0 * N);
+        assert_true(way || c.height < 60);
+    }
+}
+
 static void memory_fails_at_every_point(void **state) {
     (void)state;
     gen_list_t t = gen_list(600);
@@ -154,6 +176,7 @@ int main(void) {
         cmocka_unit_test(trees_and_chains_are_halved),
         cmocka_unit_test(chains_of_a_grid_are_eliminated_first),
         cmocka_unit_test(hostile_graphs_are_ordered),
+        cmocka_unit_test(an_edge_may_be_there_twice),
         cmocka_unit_test(memory_fails_at_every_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

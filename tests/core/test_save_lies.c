@@ -6,6 +6,7 @@
  * places that agree with each other, so that one condition alone refuses it. */
 
 enum { PARENT = 18, SUPER_PARENT = 22, ROWS = 24, STEPS = 26, FIRST_DESCENDANT = 27, PAIRS = 28 };
+enum { NODE_OF = 33, NODE_PARENT, NODE_LEVEL };
 enum { D = 64, NULLS = 71, ANCHORS = 75 };
 enum { STEP_BYTES = 32, STEP_UP = 28 };
 
@@ -122,6 +123,31 @@ static void pairs_must_be_in_a_tile_of_a_supernodal_factor(void **state) {
     saved_case_free(&c);
 }
 
+/* The separator tree: a row of no node, a separator that is not above its parts, another level. */
+static void separators_must_be_a_tree(void **state) {
+    (void)state;
+    saved_case_t c = saved_case_make(SAVED_DEFINITE, GEN_GRID2, 900, 0, NULL);
+    saved_t m = saved_make(c.y.S, c.y.F);
+    const sl_int nodes = sl_symbolic_view(c.y.S).n_nodes;
+    assert_true(nodes > 2);
+    assert_status(SL_OK, &m);
+    const struct {
+        uint32_t id;
+        sl_int at, value;
+    } lies[] = {{NODE_OF, 5, -1},          {NODE_OF, 5, nodes},  {NODE_PARENT, 0, 0},
+                {NODE_PARENT, 0, nodes},   {NODE_PARENT, 0, -1}, {NODE_LEVEL, 0, 0},
+                {NODE_LEVEL, nodes - 1, 1}};
+    for (size_t k = 0; k < sizeof lies / sizeof *lies; k++) {
+        saved_t lie = copy_of(&m);
+        sl_int *word = (sl_int *)array(&lie, lies[k].id) + lies[k].at;
+        assert_int_not_equal(*word, lies[k].value);
+        *word = lies[k].value;
+        refuse(&lie);
+    }
+    saved_free(&m);
+    saved_case_free(&c);
+}
+
 /* Each count alone is in its range. */
 static void sizes_must_not_overflow(void **state) {
     (void)state;
@@ -141,7 +167,7 @@ static void a_tree_must_have_one_anchor(void **state) {
     const sl_int *parent = (const sl_int *)array(&k, PARENT);
     sl_int *anchors = (sl_int *)array(&k, ANCHORS), root, tree = 0;
     assert_status(SL_OK, &m);
-    do { /* a tree whose anchor is not its first column */
+    do {                          /* a tree whose anchor is not its first column */
         assert_true(++tree < 10); /* trees */
         for (root = anchors[tree] - 1; parent[root] != -1; root--) {
             assert_true(root > anchors[tree - 1]);
@@ -295,6 +321,7 @@ int main(void) {
         cmocka_unit_test(subtrees_must_be_those_of_the_tree),
         cmocka_unit_test(rows_must_begin_in_the_parent),
         cmocka_unit_test(pairs_must_be_in_a_tile_of_a_supernodal_factor),
+        cmocka_unit_test(separators_must_be_a_tree),
         cmocka_unit_test(sizes_must_not_overflow),
         cmocka_unit_test(a_tree_must_have_one_anchor),
         cmocka_unit_test(null_pivots_must_be_those_that_are_listed),

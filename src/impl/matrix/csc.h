@@ -55,7 +55,7 @@ SL_API sl_status sl_csc_check(const sl_csc *A, sl_stats *stats) {
     for (p = 0; p < sli_nnz(A); p++) { /* without branches: usually all are in range */
         beyond |= (uint32_t)A->i[p] >= (uint32_t)A->n_rows;
     }
-    for (j = 0; beyond && j < A->n_cols; j++) {
+    for (j = 0; beyond; j++) {
         for (p = A->p[j]; p < A->p[j + 1]; p++) {
             if (A->i[p] < 0 || A->i[p] >= A->n_rows) {
                 return sli_fail_at(stats, SL_ERR_PATTERN, A->i[p], j, 0.0);

@@ -181,7 +181,7 @@ static void sli_dissect_points(sli_dissection *d, const sl_int *sorted, sl_int l
     for (node = 0; node < d->tree.count; node++) { /* tree.count grows in the loop */
         const sl_int first = begin[node], count = end[node] - first;
         d->tree.weight[node] = count;
-        if (count <= leaf || d->tree.count >= d->tree.room - 1) {
+        if (count <= leaf) {
             for (k = first; k < end[node]; k++) {
                 d->label[sorted[k]] = node;
             }

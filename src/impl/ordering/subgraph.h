@@ -102,8 +102,9 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_l
  * would be unbalanced. */
 #define SLI_BAND_SHARE 30
 
-/* Makes the band of a node: the vertices at its border, and up to `layers` layers on each side of
- * them. The first layer is added regardless of SLI_BAND_SHARE. */
+/* Makes the band of a node, which has no vertices of its own yet: the vertices at its border, and
+ * up to `layers` layers on each side of them. The first layer is added regardless of
+ * SLI_BAND_SHARE. */
 static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
                               sl_int node, const sl_int *label, const sli_borders *l, int layers) {
     const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
@@ -115,13 +116,12 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
         const sl_int v = sli_border_at(l->pool, entry)->vertex, own = sli_shared_read(label + v);
         const int side = own > node;
         int crosses = 0;
-        if (sub->local[v] != -1 || own == node || !sli_label_tree_is_below(t, node, own)) {
+        if (sub->local[v] != -1 || !sli_label_tree_is_below(t, node, own)) {
             continue;
         }
         for (e = g->begin[v]; e < g->begin[v + 1] && !crosses; e++) {
             const sl_int other = sli_shared_read(label + g->to[e]);
-            crosses =
-                other != node && sli_label_tree_is_below(t, node, other) && (other > node) != side;
+            crosses = sli_label_tree_is_below(t, node, other) && (other > node) != side;
         }
         if (crosses) {
             sli_subgraph_add(sub, v, 0);
