@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4794eb6c005b5b3c
+ * FNV-1a of the lines after this comment, without the license: a11f00fa0f7e4113
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -50,42 +50,42 @@
  *  11447 symbolic_types.h  11484 etree.h  11558 counts.h  11604 supernodes.h  11845 pattern.h
  *  11930 structure.h  12124 schedule.h  12404 symbolic.h  12850 reach.h
  * (factor: the numbers of L and D)
- *  13121 factor_types.h  13539 storage.h  13679 pivot_search.h  14025 pivoted.h  14094 scatter.h
- *  14252 uplooking.h  14324 null_product.h  14528 null_dense.h  14605 null_basis.h
- *  14913 null_vectors.h  15055 multifrontal.h  15249 gather.h  15297 kept.h  15467 front_tasks.h
- *  15810 nullspace.h  16013 growth.h  16089 factor_setup.h  16411 factor.h  16621 leftlooking.h
- *  16769 factor_query.h  16904 combination.h
+ *  13121 factor_types.h  13541 storage.h  13681 pivot_search.h  14027 pivoted.h  14096 scatter.h
+ *  14254 uplooking.h  14326 null_product.h  14530 null_dense.h  14607 null_basis.h
+ *  14915 null_vectors.h  15057 multifrontal.h  15251 gather.h  15299 kept.h  15469 front_tasks.h
+ *  15812 nullspace.h  16015 growth.h  16091 factor_setup.h  16413 factor.h  16623 leftlooking.h
+ *  16770 factor_query.h  16905 combination.h
  * (solve: full and local solves)
- *  16965 region_types.h  17069 work.h  17169 query.h  17385 singular.h  17659 backward.h
- *  17689 sweep_tasks.h  18020 sweep.h  18231 compile.h  18424 plan.h  18531 local.h  18683 parts.h
- *  18972 refine.h  19151 refine_local.h  19367 rcond.h  19526 defects.h
+ *  16966 region_types.h  17070 work.h  17170 query.h  17386 singular.h  17660 backward.h
+ *  17690 sweep_tasks.h  18021 sweep.h  18232 compile.h  18425 plan.h  18532 local.h  18684 parts.h
+ *  18973 refine.h  19152 refine_local.h  19368 rcond.h  19527 defects.h
  * (inverse: entries of the inverse, regions)
- *  19604 traversal.h  19853 traversal_run.h  20046 row_sets.h  20080 unit_vectors.h
- *  20307 bilinear.h  20479 entries.h  20756 block.h  20991 reserve.h  21183 selected.h
- *  21393 selected_query.h  21495 region_choose.h  21722 region.h
+ *  19605 traversal.h  19854 traversal_run.h  20047 row_sets.h  20081 unit_vectors.h
+ *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
+ *  21394 selected_query.h  21496 region_choose.h  21723 region.h
  * (change: a factor that follows changes of its matrix)
- *  21970 update.h  22321 path.h  22448 rank.h  22822 edges.h  22976 choose.h  23198 pins_types.h
- *  23277 pins_nulls.h  23460 pins_capacitance.h  23712 pins_balance.h  23890 pins_held.h
- *  24106 pins_choose.h  24164 pins_rebuild.h  24382 pins_matrix.h  24533 pins.h  24802 pins_solve.h
- *  25073 subset.h  25194 restrict_analysis.h  25547 restrict_symbolic.h  25744 restrict.h
- *  25966 edit_match.h  26165 edit_place.h  26414 edit_separate.h  26728 edit_order.h
- *  26883 edit_graph.h  26978 edit_join.h  27254 edit.h  27417 edit_factor.h
+ *  21971 update.h  22318 path.h  22445 rank.h  22820 edges.h  22974 choose.h  23196 pins_types.h
+ *  23275 pins_nulls.h  23458 pins_capacitance.h  23710 pins_balance.h  23888 pins_held.h
+ *  24104 pins_choose.h  24162 pins_rebuild.h  24380 pins_matrix.h  24531 pins.h  24800 pins_solve.h
+ *  25071 subset.h  25192 restrict_analysis.h  25545 restrict_symbolic.h  25742 restrict.h
+ *  25964 edit_match.h  26163 edit_place.h  26412 edit_separate.h  26726 edit_order.h
+ *  26881 edit_graph.h  26976 edit_join.h  27252 edit.h  27415 edit_factor.h
  * (save: factors in files)
- *  27702 format.h  27998 decode.h  28146 check.h  28476 write.h  28781 load.h  29049 load_inverse.h
- *  29379 load_calls.h
+ *  27700 format.h  27996 decode.h  28144 check.h  28474 write.h  28779 load.h  29047 load_inverse.h
+ *  29377 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29578 batch_solve.h  29787 batch_factor.h  29988 batch_diagonal.h
+ *  29576 batch_solve.h  29785 batch_factor.h  29986 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30128 hermitian.h  30290 complex_rows.h
+ *  30126 hermitian.h  30288 complex_rows.h
  * (last: undefine every internal macro)
- *  30458 undef.h
+ *  30456 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30732 front.inl.h  30734 product.inl.h  31245 words_undef.inl.h  31322 copy_rows.inl.h
- *  31360 multi_rhs.inl.h  31379 complex_groups.inl.h  31518 multi_rhs_small.inl.h
- *  31690 multi_rhs_tiles.inl.h  31967 sweeps.inl.h  31969 unit_triangle.inl.h  32006 two_rhs.inl.h
- *  32175 small_supernode.inl.h  32356 single_rhs.inl.h  32600 kernel_set.inl.h
- *  32602 complex_small.inl.h  32772 complex_rows.inl.h  32987 inverse_front.inl.h  33272 row.inl.h
- *  33302 change.inl.h  33454 interleave.inl.h  33585 lanes_undef.inl.h
+ *  30730 front.inl.h  30732 product.inl.h  31243 words_undef.inl.h  31320 copy_rows.inl.h
+ *  31358 multi_rhs.inl.h  31377 complex_groups.inl.h  31516 multi_rhs_small.inl.h
+ *  31688 multi_rhs_tiles.inl.h  31965 sweeps.inl.h  31967 unit_triangle.inl.h  32004 two_rhs.inl.h
+ *  32173 small_supernode.inl.h  32354 single_rhs.inl.h  32598 kernel_set.inl.h
+ *  32600 complex_small.inl.h  32770 complex_rows.inl.h  32985 inverse_front.inl.h  33270 row.inl.h
+ *  33300 change.inl.h  33452 interleave.inl.h  33583 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13167,7 +13167,9 @@ struct sl_factor {
   sli_hash identity;
   uint64_t generation;
   sl_off updates;
-  double drift, growth, scale;
+  double drift;
+  double scale;
+  double lowest;
   sli_hash analysis;
   sl_storage storage;
   void *values;
@@ -16760,8 +16762,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   }
   count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
   status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
-  F->scale = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
-  F->growth = F->stats.factor.growth;
+  F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
   sli_free(&F->allocator, b.base);
   return status;
 }
@@ -22042,10 +22043,6 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
   return 2.0 * sum + fabs(F->D[k]);
 }
 
-SLI_INLINE double sli_update_fall(const sl_factor *F) {
-  return F->scale > 0.0 ? fmax(1.0, F->stats.factor.entry_max / F->scale) : 1.0;
-}
-
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
   const double tolerance = F->rule.null_tolerance;
   const double known = F->extents[F->S->super_of[k]].magnitude;
@@ -22671,11 +22668,13 @@ static void sli_rank_note(const sli_update *u) {
   const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
   const double scale = fmax(fabs(F->scale - u->fall), least);
   const double local = fmax(fmin(fabs(u->entry - u->fall), scale), least);
+  const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
+  info->growth = u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0))
+                  : fmax(info->growth * rise, growth);
+  F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
+  F->lowest = fmin(F->lowest, scale);
   F->scale = scale;
-  F->growth = fmax(F->growth, u->sign != 0.0 ? fmin(growth, 2.0) : growth);
-  F->drift += DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
-  info->growth = F->growth * (u->sign != 0.0 ? 1.0 : sli_update_fall(F));
 }
 
 static sl_status sli_rank_passes(sli_rank *q) {
@@ -22716,17 +22715,16 @@ static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_stats before = F->stats;
   const double drift = F->drift;
-  double scale, growth;
+  double scale, lowest;
   sl_status status;
   if (q->count == 0) {
     return SL_OK;
   }
   if (F->updates == 0) {
-    F->scale = before.factor.entry_max;
-    F->growth = before.factor.growth;
+    F->scale = F->lowest = before.factor.entry_max;
   }
   scale = F->scale;
-  growth = F->growth;
+  lowest = F->lowest;
   if (q->has_log) {
     sli_reach R;
     sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -22744,7 +22742,7 @@ static sl_status sli_rank_run(sli_rank *q) {
     F->stats = before;
     F->drift = drift;
     F->scale = scale;
-    F->growth = growth;
+    F->lowest = lowest;
   } else if (q->is_changed) {
     F->is_valid = 0;
     F->status = status;
@@ -22772,7 +22770,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
     stats->change.entries = q->entries;
     stats->change.flops_update = q->flops;
     stats->change.updates = F->updates;
-    stats->change.drift = F->drift * sli_update_fall(F);
+    stats->change.drift = F->drift;
     stats->change.seconds = sli_seconds() - started;
   }
 }
@@ -23067,7 +23065,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
   }
-  if (F->drift * sli_update_fall(F) > SLI_CHANGE_DRIFT) {
+  if (F->drift > SLI_CHANGE_DRIFT) {
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }

@@ -107,7 +107,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     if (!F->is_valid) {
         return SL_CHANGE_REFACTOR;
     }
-    if (F->drift * sli_update_fall(F) > SLI_CHANGE_DRIFT) {
+    if (F->drift > SLI_CHANGE_DRIFT) {
         c->reason = SL_CHANGE_DRIFT;
         return SL_CHANGE_REFACTOR;
     }

@@ -239,20 +239,23 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
     }
 }
 
-/* Updates growth and drift after a pass. Of the largest |a| only a bound from below is known: a
- * pivot, if all have one sign, and the difference of the bound before and what the pass changes.
- * The pass is compared with its own columns, as other components may be larger. */
+/* Updates growth and drift after a pass. They are relative to the largest |a|: where that becomes
+ * less than it ever was they rise. Only a bound from below is known of it: a pivot, if all have one
+ * sign, and the difference of the bound before and what the pass changes. The pass is compared with
+ * its own columns, as other components may be larger. */
 static void sli_rank_note(const sli_update *u) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
     const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
     const double scale = fmax(fabs(F->scale - u->fall), least);
     const double local = fmax(fmin(fabs(u->entry - u->fall), scale), least);
+    const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
+    info->growth = u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0))
+                                  : fmax(info->growth * rise, growth);
+    F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
+    F->lowest = fmin(F->lowest, scale);
     F->scale = scale;
-    F->growth = fmax(F->growth, u->sign != 0.0 ? fmin(growth, 2.0) : growth);
-    F->drift += DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
-    info->growth = F->growth * (u->sign != 0.0 ? 1.0 : sli_update_fall(F));
 }
 
 /* Runs all passes. */
@@ -295,17 +298,16 @@ static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sl_stats before = F->stats;
     const double drift = F->drift;
-    double scale, growth;
+    double scale, lowest;
     sl_status status;
     if (q->count == 0) {
         return SL_OK;
     }
     if (F->updates == 0) {
-        F->scale = before.factor.entry_max;
-        F->growth = before.factor.growth;
+        F->scale = F->lowest = before.factor.entry_max;
     }
     scale = F->scale;
-    growth = F->growth;
+    lowest = F->lowest;
     if (q->has_log) {
         sli_reach R;
         sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -323,7 +325,7 @@ static sl_status sli_rank_run(sli_rank *q) {
         F->stats = before;
         F->drift = drift;
         F->scale = scale;
-        F->growth = growth;
+        F->lowest = lowest;
     } else if (q->is_changed) { /* an overflow */
         F->is_valid = 0;
         F->status = status;
@@ -353,7 +355,7 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
         stats->change.entries = q->entries;
         stats->change.flops_update = q->flops;
         stats->change.updates = F->updates;
-        stats->change.drift = F->drift * sli_update_fall(F);
+        stats->change.drift = F->drift;
         stats->change.seconds = sli_seconds() - started;
     }
 }

@@ -93,11 +93,6 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
     return 2.0 * sum + fabs(F->D[k]);
 }
 
-/* By how much the largest |a| has become smaller since the last factorization, 1 or more. */
-SLI_INLINE double sli_update_fall(const sl_factor *F) {
-    return F->scale > 0.0 ? fmax(1.0, F->stats.factor.entry_max / F->scale) : 1.0;
-}
-
 /* Is pivot k, now d, null? magnitude: of its change alone. */
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
     const double tolerance = F->rule.null_tolerance;

@@ -63,9 +63,9 @@ struct sl_factor {
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
     sl_off updates; /* rank-one changes since the last complete factorization */
-    /* the rounding errors that they have added, and growth, relative to the entries of the time;
-     * the largest |a| of the matrix as it is now, or less */
-    double drift, growth, scale;
+    double drift;   /* the rounding errors that they have added, relative to the largest entry */
+    double scale;   /* of the matrix as they have changed it: the largest entry, or less */
+    double lowest;  /* the least that it has been */
     sli_hash analysis;  /* the identity of S */
     sl_storage storage; /* of L */
     void *values;       /* L: the panels of all supernodes, as they are stored */

@@ -157,8 +157,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     }
     count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
     status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
-    F->scale = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
-    F->growth = F->stats.factor.growth;
+    F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
     sli_free(&F->allocator, b.base);
     return status;
 }
