@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a11f00fa0f7e4113
+ * FNV-1a of the lines after this comment, without the license: 82b6231967a6f93a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
  *  21394 selected_query.h  21496 region_choose.h  21723 region.h
  * (change: a factor that follows changes of its matrix)
- *  21971 update.h  22318 path.h  22445 rank.h  22820 edges.h  22974 choose.h  23196 pins_types.h
- *  23275 pins_nulls.h  23458 pins_capacitance.h  23710 pins_balance.h  23888 pins_held.h
- *  24104 pins_choose.h  24162 pins_rebuild.h  24380 pins_matrix.h  24531 pins.h  24800 pins_solve.h
- *  25071 subset.h  25192 restrict_analysis.h  25545 restrict_symbolic.h  25742 restrict.h
- *  25964 edit_match.h  26163 edit_place.h  26412 edit_separate.h  26726 edit_order.h
- *  26881 edit_graph.h  26976 edit_join.h  27252 edit.h  27415 edit_factor.h
+ *  21971 update.h  22318 path.h  22445 rank.h  22821 edges.h  22975 choose.h  23197 pins_types.h
+ *  23276 pins_nulls.h  23459 pins_capacitance.h  23711 pins_balance.h  23889 pins_held.h
+ *  24105 pins_choose.h  24163 pins_rebuild.h  24381 pins_matrix.h  24532 pins.h  24801 pins_solve.h
+ *  25072 subset.h  25193 restrict_analysis.h  25546 restrict_symbolic.h  25743 restrict.h
+ *  25965 edit_match.h  26164 edit_place.h  26413 edit_separate.h  26727 edit_order.h
+ *  26882 edit_graph.h  26977 edit_join.h  27253 edit.h  27416 edit_factor.h
  * (save: factors in files)
- *  27700 format.h  27996 decode.h  28144 check.h  28474 write.h  28779 load.h  29047 load_inverse.h
- *  29377 load_calls.h
+ *  27701 format.h  27997 decode.h  28145 check.h  28475 write.h  28780 load.h  29048 load_inverse.h
+ *  29378 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29576 batch_solve.h  29785 batch_factor.h  29986 batch_diagonal.h
+ *  29577 batch_solve.h  29786 batch_factor.h  29987 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30126 hermitian.h  30288 complex_rows.h
+ *  30127 hermitian.h  30289 complex_rows.h
  * (last: undefine every internal macro)
- *  30456 undef.h
+ *  30457 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30730 front.inl.h  30732 product.inl.h  31243 words_undef.inl.h  31320 copy_rows.inl.h
- *  31358 multi_rhs.inl.h  31377 complex_groups.inl.h  31516 multi_rhs_small.inl.h
- *  31688 multi_rhs_tiles.inl.h  31965 sweeps.inl.h  31967 unit_triangle.inl.h  32004 two_rhs.inl.h
- *  32173 small_supernode.inl.h  32354 single_rhs.inl.h  32598 kernel_set.inl.h
- *  32600 complex_small.inl.h  32770 complex_rows.inl.h  32985 inverse_front.inl.h  33270 row.inl.h
- *  33300 change.inl.h  33452 interleave.inl.h  33583 lanes_undef.inl.h
+ *  30731 front.inl.h  30733 product.inl.h  31244 words_undef.inl.h  31321 copy_rows.inl.h
+ *  31359 multi_rhs.inl.h  31378 complex_groups.inl.h  31517 multi_rhs_small.inl.h
+ *  31689 multi_rhs_tiles.inl.h  31966 sweeps.inl.h  31968 unit_triangle.inl.h  32005 two_rhs.inl.h
+ *  32174 small_supernode.inl.h  32355 single_rhs.inl.h  32599 kernel_set.inl.h
+ *  32601 complex_small.inl.h  32771 complex_rows.inl.h  32986 inverse_front.inl.h  33271 row.inl.h
+ *  33301 change.inl.h  33453 interleave.inl.h  33584 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22667,7 +22667,8 @@ static void sli_rank_note(const sli_update *u) {
   sl_factor_info *info = &F->stats.factor;
   const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
   const double scale = fmax(fabs(F->scale - u->fall), least);
-  const double local = fmax(fmin(fabs(u->entry - u->fall), scale), least);
+  const double own = fmin(u->entry, fabs(u->entry - u->fall));
+  const double local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
   info->growth = u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0))

@@ -248,7 +248,8 @@ static void sli_rank_note(const sli_update *u) {
     sl_factor_info *info = &F->stats.factor;
     const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
     const double scale = fmax(fabs(F->scale - u->fall), least);
-    const double local = fmax(fmin(fabs(u->entry - u->fall), scale), least);
+    const double own = fmin(u->entry, fabs(u->entry - u->fall));
+    const double local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
     info->growth = u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0))
