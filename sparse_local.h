@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 82b6231967a6f93a
+ * FNV-1a of the lines after this comment, without the license: 0d88e6fd113b97e1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,54 +38,54 @@
  *   4888 simd_scalar.h   5026 simd_avx2_single.h   5080 simd_avx2.h   5321 simd_avx512_single.h
  *   5376 simd_avx512.h   5552 simd_neon_single.h   5594 simd_neon.h   5829 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5910 csc.h   6053 csc_build.h   6187 csc64.h   6258 csc_triangle.h   6323 csc_products.h
- *   6440 permute.h   6506 sum.h   6588 output_file.h   6797 matrix_market.h
+ *   5921 csc.h   6064 csc_build.h   6198 csc64.h   6269 csc_triangle.h   6334 csc_products.h
+ *   6451 permute.h   6517 sum.h   6599 output_file.h   6808 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7243 graph.h   7361 contract.h   7615 coarsen.h   7778 labels.h   7999 subgraph.h   8193 heap.h
- *   8253 bisect.h   8480 separator.h   8742 mindeg.h   8925 dissect.h   9249 tree_cost.h
- *   9301 levelset.h   9407 geometric.h   9582 cells.h   9762 septree.h   9838 metis.h
- *   9987 metis_refined.h  10101 nd.h  10301 compress.h  10422 levels.h  10474 peel.h
- *  10680 quotient.h  11093 order.h
+ *   7254 graph.h   7372 contract.h   7626 coarsen.h   7789 labels.h   8010 subgraph.h   8204 heap.h
+ *   8264 bisect.h   8491 separator.h   8753 mindeg.h   8936 dissect.h   9260 tree_cost.h
+ *   9312 levelset.h   9418 geometric.h   9593 cells.h   9773 septree.h   9849 metis.h
+ *   9998 metis_refined.h  10112 nd.h  10312 compress.h  10433 levels.h  10485 peel.h
+ *  10691 quotient.h  11104 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11447 symbolic_types.h  11484 etree.h  11558 counts.h  11604 supernodes.h  11845 pattern.h
- *  11930 structure.h  12124 schedule.h  12404 symbolic.h  12850 reach.h
+ *  11458 symbolic_types.h  11495 etree.h  11569 counts.h  11615 supernodes.h  11856 pattern.h
+ *  11941 structure.h  12135 schedule.h  12415 symbolic.h  12861 reach.h
  * (factor: the numbers of L and D)
- *  13121 factor_types.h  13541 storage.h  13681 pivot_search.h  14027 pivoted.h  14096 scatter.h
- *  14254 uplooking.h  14326 null_product.h  14530 null_dense.h  14607 null_basis.h
- *  14915 null_vectors.h  15057 multifrontal.h  15251 gather.h  15299 kept.h  15469 front_tasks.h
- *  15812 nullspace.h  16015 growth.h  16091 factor_setup.h  16413 factor.h  16623 leftlooking.h
- *  16770 factor_query.h  16905 combination.h
+ *  13132 factor_types.h  13552 storage.h  13692 pivot_search.h  14038 pivoted.h  14107 scatter.h
+ *  14265 uplooking.h  14337 null_product.h  14541 null_dense.h  14618 null_basis.h
+ *  14926 null_vectors.h  15068 multifrontal.h  15262 gather.h  15310 kept.h  15480 front_tasks.h
+ *  15823 nullspace.h  16026 growth.h  16103 factor_setup.h  16425 factor.h  16635 leftlooking.h
+ *  16782 factor_query.h  16917 combination.h
  * (solve: full and local solves)
- *  16966 region_types.h  17070 work.h  17170 query.h  17386 singular.h  17660 backward.h
- *  17690 sweep_tasks.h  18021 sweep.h  18232 compile.h  18425 plan.h  18532 local.h  18684 parts.h
- *  18973 refine.h  19152 refine_local.h  19368 rcond.h  19527 defects.h
+ *  16978 region_types.h  17082 work.h  17182 query.h  17398 singular.h  17672 backward.h
+ *  17702 sweep_tasks.h  18033 sweep.h  18244 compile.h  18437 plan.h  18544 local.h  18696 parts.h
+ *  18985 refine.h  19164 refine_local.h  19380 rcond.h  19539 defects.h
  * (inverse: entries of the inverse, regions)
- *  19605 traversal.h  19854 traversal_run.h  20047 row_sets.h  20081 unit_vectors.h
- *  20308 bilinear.h  20480 entries.h  20757 block.h  20992 reserve.h  21184 selected.h
- *  21394 selected_query.h  21496 region_choose.h  21723 region.h
+ *  19617 traversal.h  19866 traversal_run.h  20059 row_sets.h  20093 unit_vectors.h
+ *  20320 bilinear.h  20492 entries.h  20769 block.h  21004 reserve.h  21196 selected.h
+ *  21406 selected_query.h  21508 region_choose.h  21735 region.h
  * (change: a factor that follows changes of its matrix)
- *  21971 update.h  22318 path.h  22445 rank.h  22821 edges.h  22975 choose.h  23197 pins_types.h
- *  23276 pins_nulls.h  23459 pins_capacitance.h  23711 pins_balance.h  23889 pins_held.h
- *  24105 pins_choose.h  24163 pins_rebuild.h  24381 pins_matrix.h  24532 pins.h  24801 pins_solve.h
- *  25072 subset.h  25193 restrict_analysis.h  25546 restrict_symbolic.h  25743 restrict.h
- *  25965 edit_match.h  26164 edit_place.h  26413 edit_separate.h  26727 edit_order.h
- *  26882 edit_graph.h  26977 edit_join.h  27253 edit.h  27416 edit_factor.h
+ *  21983 update.h  22330 path.h  22457 rank.h  22833 edges.h  22987 choose.h  23209 pins_types.h
+ *  23288 pins_nulls.h  23471 pins_capacitance.h  23723 pins_balance.h  23901 pins_held.h
+ *  24117 pins_choose.h  24175 pins_rebuild.h  24393 pins_matrix.h  24544 pins.h  24813 pins_solve.h
+ *  25084 subset.h  25205 restrict_analysis.h  25558 restrict_symbolic.h  25755 restrict.h
+ *  25977 edit_match.h  26176 edit_place.h  26425 edit_separate.h  26739 edit_order.h
+ *  26894 edit_graph.h  26989 edit_join.h  27265 edit.h  27428 edit_factor.h
  * (save: factors in files)
- *  27701 format.h  27997 decode.h  28145 check.h  28475 write.h  28780 load.h  29048 load_inverse.h
- *  29378 load_calls.h
+ *  27713 format.h  28009 decode.h  28157 check.h  28487 write.h  28792 load.h  29060 load_inverse.h
+ *  29390 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29577 batch_solve.h  29786 batch_factor.h  29987 batch_diagonal.h
+ *  29589 batch_solve.h  29798 batch_factor.h  29999 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30127 hermitian.h  30289 complex_rows.h
+ *  30139 hermitian.h  30301 complex_rows.h
  * (last: undefine every internal macro)
- *  30457 undef.h
+ *  30469 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30731 front.inl.h  30733 product.inl.h  31244 words_undef.inl.h  31321 copy_rows.inl.h
- *  31359 multi_rhs.inl.h  31378 complex_groups.inl.h  31517 multi_rhs_small.inl.h
- *  31689 multi_rhs_tiles.inl.h  31966 sweeps.inl.h  31968 unit_triangle.inl.h  32005 two_rhs.inl.h
- *  32174 small_supernode.inl.h  32355 single_rhs.inl.h  32599 kernel_set.inl.h
- *  32601 complex_small.inl.h  32771 complex_rows.inl.h  32986 inverse_front.inl.h  33271 row.inl.h
- *  33301 change.inl.h  33453 interleave.inl.h  33584 lanes_undef.inl.h
+ *  30743 front.inl.h  30745 product.inl.h  31256 words_undef.inl.h  31333 copy_rows.inl.h
+ *  31371 multi_rhs.inl.h  31390 complex_groups.inl.h  31529 multi_rhs_small.inl.h
+ *  31701 multi_rhs_tiles.inl.h  31978 sweeps.inl.h  31980 unit_triangle.inl.h  32017 two_rhs.inl.h
+ *  32186 small_supernode.inl.h  32367 single_rhs.inl.h  32611 kernel_set.inl.h
+ *  32613 complex_small.inl.h  32783 complex_rows.inl.h  32998 inverse_front.inl.h  33283 row.inl.h
+ *  33313 change.inl.h  33465 interleave.inl.h  33596 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5866,7 +5866,18 @@ SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsi
 #endif
 
 static sl_isa sli_cpu_best(void) {
-#if defined(SLI_X86)
+#if defined(SLI_X86) && defined(SLI_GNU) && !defined(_WIN32)
+  __builtin_cpu_init();
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    return SL_ISA_SCALAR; /* untested: without AVX2 */
+  }
+#if defined(SLI_AVX512)
+  if (__builtin_cpu_supports("avx512f")) { /* untested: with AVX2 alone */
+    return SL_ISA_AVX512;
+  }
+#endif
+  return SL_ISA_AVX2; /* untested: with AVX-512 */
+#elif defined(SLI_X86)
   const unsigned last =
     13;
   unsigned one[4], seven[4], xcr0;
@@ -16072,8 +16083,9 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
   double entry = 0.0, magnitude = 0.0, growth;
   sl_int s, first = 0;
   for (s = 0; s < S->n_supers; s++) {
-    entry = fmax(entry, F->extents[s].entry);
-    magnitude = fmax(magnitude, F->extents[s].magnitude);
+    const sli_extent *own = &F->extents[s];
+    entry = own->entry > entry ? own->entry : entry;
+    magnitude = own->magnitude > magnitude ? own->magnitude : magnitude;
     if (S->super_parent[s] == -1) {
       growth = sli_growth(magnitude, entry);
       info->growth = fmax(info->growth, growth);

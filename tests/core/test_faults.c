@@ -180,6 +180,17 @@ static void instruction_sets_are_recognized(void **state) {
     assert_int_equal(sli_isa_of(7, avx | fma, avx2 | avx512, 0), SL_ISA_SCALAR);
 }
 
+/* What the compiler's library has asked at the start of the program is what CPUID says now. */
+static void the_processor_is_that_of_the_start(void **state) {
+    (void)state;
+    unsigned one[4], seven[4];
+    sli_cpuid(1, one);
+    sli_cpuid(7, seven);
+    const int has_xgetbv = (one[2] & 1u << 27) != 0;
+    assert_int_equal(sli_cpu_best(),
+                     sli_isa_of(7, one[2], seven[1], has_xgetbv ? sli_xcr0() : 0));
+}
+
 #endif
 
 /* A graph of triangles or tetrahedra, w rows in each direction, and the coordinates of its rows. */
@@ -319,6 +330,7 @@ int main(void) {
         cmocka_unit_test(marks_begin_again),
 #if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
         cmocka_unit_test(instruction_sets_are_recognized),
+        cmocka_unit_test(the_processor_is_that_of_the_start),
 #endif
         cmocka_unit_test(orderings_may_lack_memory),
         cmocka_unit_test(sizes_beyond_memory_are_refused),

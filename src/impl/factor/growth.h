@@ -82,8 +82,9 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
     double entry = 0.0, magnitude = 0.0, growth;
     sl_int s, first = 0;
     for (s = 0; s < S->n_supers; s++) {
-        entry = fmax(entry, F->extents[s].entry);
-        magnitude = fmax(magnitude, F->extents[s].magnitude);
+        const sli_extent *own = &F->extents[s]; /* no NaN: fmax, a call, is not needed */
+        entry = own->entry > entry ? own->entry : entry;
+        magnitude = own->magnitude > magnitude ? own->magnitude : magnitude;
         if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
             growth = sli_growth(magnitude, entry);
             info->growth = fmax(info->growth, growth);
