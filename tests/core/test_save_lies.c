@@ -7,7 +7,7 @@
 
 enum { PARENT = 18, SUPER_PARENT = 22, ROWS = 24, STEPS = 26, FIRST_DESCENDANT = 27, PAIRS = 28 };
 enum { NODE_OF = 33, NODE_PARENT, NODE_LEVEL };
-enum { D = 64, NULLS = 71, ANCHORS = 75 };
+enum { D = 64, SHIFTS = 69, NULLS = 71, ANCHORS = 75 };
 enum { STEP_BYTES = 32, STEP_UP = 28 };
 
 /* The array of a section. */
@@ -197,6 +197,24 @@ static void null_pivots_must_be_those_that_are_listed(void **state) {
     saved_case_free(&c);
 }
 
+/* A pivot that is listed as changed but was not. */
+static void changed_pivots_must_be_changed(void **state) {
+    (void)state;
+    saved_case_t c = saved_case_make(SAVED_SIGNED, GEN_GRID2, 25, 0, NULL);
+    saved_t m = saved_make(c.y.S, c.y.F), k = copy_of(&m);
+    double *shifts = (double *)array(&k, SHIFTS);
+    sl_int at = 24;
+    assert_status(SL_OK, &m);
+    while (at >= 0 && shifts[at] == 0.0) { /* the last one */
+        at--;
+    }
+    assert_true(at >= 0);
+    shifts[at] = 0.0;
+    refuse(&k);
+    saved_free(&m);
+    saved_case_free(&c);
+}
+
 /* ---- regions and selected inverses ---- */
 
 /* The file `base`, followed by the sections of another file with ids from `first` to `last`. */
@@ -325,6 +343,7 @@ int main(void) {
         cmocka_unit_test(sizes_must_not_overflow),
         cmocka_unit_test(a_tree_must_have_one_anchor),
         cmocka_unit_test(null_pivots_must_be_those_that_are_listed),
+        cmocka_unit_test(changed_pivots_must_be_changed),
         cmocka_unit_test(objects_must_be_able_to_have_them),
         cmocka_unit_test(a_selected_inverse_must_end_in_a_root),
         cmocka_unit_test(sets_of_later_versions_are_read_only),
