@@ -394,6 +394,19 @@ static void a_column_without_a_diagonal_is_refused(void **state) {
     }
 }
 
+static void an_infinite_entry_is_refused(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const double x[3] = {INFINITY, 0.0, INFINITY};
+    const sl_csc A = {2, 2, p, i, x};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.block_size = 2;
+    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+    assert_int_equal(create(S, &A, options_none()), SL_ERR_NOT_FINITE);
+    sl_symbolic_free(S);
+}
+
 static void failing_allocations(void **state) {
     (void)state;
     pair_t y = pair_make(GEN_GRID2, 49, 0, SL_ISA_AUTO);
@@ -422,6 +435,7 @@ int main(void) {
         cmocka_unit_test(what_is_not_complex_is_refused),
         cmocka_unit_test(blocks_must_be_complete),
         cmocka_unit_test(a_column_without_a_diagonal_is_refused),
+        cmocka_unit_test(an_infinite_entry_is_refused),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -240,21 +240,26 @@ static void the_determinant_of_a_laplacian_follows_the_matrix_tree_theorem(void 
     }
 }
 
-/* The solves of the estimate overflow, inf - inf included: 0 and not NaN. */
-static void an_estimate_that_overflows_is_zero(void **state) {
+/* The solves of the estimate overflow, inf - inf included, or all of A is regularized: 0, not NaN.
+ */
+static void an_estimate_without_a_number_is_zero(void **state) {
     (void)state;
     static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
-    static const double x[3] = {1e-320, 5e-321, 1e-320};
-    const sl_csc A = {2, 2, p, i, x};
-    sl_symbolic *S;
-    sl_factor *F;
-    double estimate = -1.0;
-    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
-    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
-    SL_CHECK(sl_factor_rcond(F, &A, &estimate, NULL));
-    assert_true(estimate == 0.0);
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    static const double x[2][3] = {{1e-320, 5e-321, 1e-320}, {0.0, 0.0, 0.0}};
+    for (int k = 0; k < 2; k++) {
+        const sl_csc A = {2, 2, p, i, x[k]};
+        sl_options opt = options_none();
+        sl_symbolic *S;
+        sl_factor *F;
+        double estimate = -1.0;
+        opt.regularization = k == 0 ? 0.0 : 1e-8;
+        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+        SL_CHECK(sl_factor_rcond(F, &A, &estimate, NULL));
+        assert_true(estimate == 0.0);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
 }
 
 int main(void) {
@@ -263,7 +268,7 @@ int main(void) {
         cmocka_unit_test(singular_empty_and_invalid_inputs),
         cmocka_unit_test(inertia_and_determinant_agree_with_eigenvalues),
         cmocka_unit_test(the_determinant_of_a_laplacian_follows_the_matrix_tree_theorem),
-        cmocka_unit_test(an_estimate_that_overflows_is_zero),
+        cmocka_unit_test(an_estimate_without_a_number_is_zero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -284,19 +284,19 @@ SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s,
         if (panel == NULL) { /* untested: constant */
             single[to[m] - begin] += sli_single(a);
         } else if (is_half) { /* untested: constant */
-            if ((to[m] & SLI_TILE) == 0) {
+            if ((to[m] & SLI_TILE) == 0) { /* untested: constant where is_half is 0 */
                 panel[sli_half_at(to[m] - begin)] += a;
             }
         } else {
             panel[to[m] - begin] += a;
         }
-        if (marks != NULL) {
+        if (marks != NULL) { /* untested: constant in float */
             mark += sli_mark_entry(a, to[m] - begin);
         }
         largest = size > largest ? size : largest;
     }
     F->extents[s].entry = largest;
-    if (marks != NULL) {
+    if (marks != NULL) { /* untested: the same */
         marks[s] += mark;
     }
     return SL_OK;
