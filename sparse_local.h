@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f23585da43297ca4
+ * FNV-1a of the lines after this comment, without the license: 93e35afcf4b39130
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -12,80 +12,80 @@
  *    748 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    920 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1062 factor.h     the numerical factorization P A P' = L D L'
- *   1343 solve.h      full solves, and the workspace of all solves
- *   1456 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1550 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1663 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1776 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1912 batch.h      many independent solves by one call, distributed over threads
- *   1962 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2140 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2260 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2364 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2503 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2621 change.h     a factor that follows small changes of its matrix
- *   2709 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2860 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2991 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3043 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   1344 solve.h      full solves, and the workspace of all solves
+ *   1457 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1551 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1664 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1777 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1913 batch.h      many independent solves by one call, distributed over threads
+ *   1963 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2141 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2261 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2365 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2504 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2622 change.h     a factor that follows small changes of its matrix
+ *   2710 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2861 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2992 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3044 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3135 base.h   3429 status.h   3490 options.h   3548 alloc.h   3704 hash.h   3834 file_map.h
- *   3931 sort.h   3995 parallel.h
+ *   3136 base.h   3430 status.h   3491 options.h   3549 alloc.h   3705 hash.h   3835 file_map.h
+ *   3932 sort.h   3996 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4191 panel.h   4217 step.h   4295 pivot_rule.h   4369 front.h   4430 pairs.h
- *   4637 inverse_front.h   4709 table.h   4747 simd.h   4842 simd_scalar_single.h
- *   4888 simd_scalar.h   5026 simd_avx2_single.h   5080 simd_avx2.h   5321 simd_avx512_single.h
- *   5376 simd_avx512.h   5552 simd_neon_single.h   5594 simd_neon.h   5829 dispatch.h
+ *   4192 panel.h   4218 step.h   4296 pivot_rule.h   4370 front.h   4431 pairs.h
+ *   4638 inverse_front.h   4710 table.h   4748 simd.h   4843 simd_scalar_single.h
+ *   4889 simd_scalar.h   5027 simd_avx2_single.h   5081 simd_avx2.h   5322 simd_avx512_single.h
+ *   5377 simd_avx512.h   5553 simd_neon_single.h   5595 simd_neon.h   5830 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5921 csc.h   6064 csc_build.h   6198 csc64.h   6269 csc_triangle.h   6334 csc_products.h
- *   6451 permute.h   6517 sum.h   6599 output_file.h   6808 matrix_market.h
+ *   5922 csc.h   6065 csc_build.h   6199 csc64.h   6270 csc_triangle.h   6335 csc_products.h
+ *   6452 permute.h   6518 sum.h   6600 output_file.h   6809 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7254 graph.h   7372 contract.h   7626 coarsen.h   7789 labels.h   8010 subgraph.h   8204 heap.h
- *   8264 bisect.h   8491 separator.h   8753 mindeg.h   8936 dissect.h   9260 tree_cost.h
- *   9312 levelset.h   9418 geometric.h   9593 cells.h   9773 septree.h   9849 metis.h
- *   9998 metis_refined.h  10112 nd.h  10312 compress.h  10433 levels.h  10485 peel.h
- *  10691 quotient.h  11104 order.h
+ *   7255 graph.h   7373 contract.h   7627 coarsen.h   7790 labels.h   8011 subgraph.h   8205 heap.h
+ *   8265 bisect.h   8492 separator.h   8754 mindeg.h   8937 dissect.h   9261 tree_cost.h
+ *   9313 levelset.h   9419 geometric.h   9594 cells.h   9774 septree.h   9850 metis.h
+ *   9999 metis_refined.h  10113 nd.h  10313 compress.h  10434 levels.h  10486 peel.h
+ *  10692 quotient.h  11105 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11458 symbolic_types.h  11495 etree.h  11569 counts.h  11615 supernodes.h  11856 pattern.h
- *  11941 structure.h  12135 schedule.h  12415 symbolic.h  12861 reach.h
+ *  11459 symbolic_types.h  11496 etree.h  11570 counts.h  11616 supernodes.h  11857 pattern.h
+ *  11942 structure.h  12136 schedule.h  12416 symbolic.h  12862 reach.h
  * (factor: the numbers of L and D)
- *  13132 factor_types.h  13552 storage.h  13692 pivot_search.h  14038 pivoted.h  14107 scatter.h
- *  14265 uplooking.h  14337 null_product.h  14541 null_dense.h  14618 null_basis.h
- *  14926 null_vectors.h  15068 multifrontal.h  15262 gather.h  15310 kept.h  15480 front_tasks.h
- *  15823 nullspace.h  16026 growth.h  16103 factor_setup.h  16425 factor.h  16635 leftlooking.h
- *  16782 factor_query.h  16917 combination.h
+ *  13133 factor_types.h  13553 storage.h  13693 pivot_search.h  14039 pivoted.h  14108 scatter.h
+ *  14266 uplooking.h  14338 null_product.h  14542 null_dense.h  14619 null_basis.h
+ *  14927 null_vectors.h  15069 multifrontal.h  15263 gather.h  15311 kept.h  15481 front_tasks.h
+ *  15824 nullspace.h  16027 growth.h  16105 factor_setup.h  16427 factor.h  16637 leftlooking.h
+ *  16784 factor_query.h  16919 combination.h
  * (solve: full and local solves)
- *  16978 region_types.h  17082 work.h  17182 query.h  17398 singular.h  17672 backward.h
- *  17702 sweep_tasks.h  18033 sweep.h  18244 compile.h  18437 plan.h  18544 local.h  18696 parts.h
- *  18985 refine.h  19164 refine_local.h  19380 rcond.h  19539 defects.h
+ *  16980 region_types.h  17084 work.h  17184 query.h  17400 singular.h  17674 backward.h
+ *  17704 sweep_tasks.h  18035 sweep.h  18246 compile.h  18439 plan.h  18546 local.h  18698 parts.h
+ *  18987 refine.h  19166 refine_local.h  19382 rcond.h  19541 defects.h
  * (inverse: entries of the inverse, regions)
- *  19617 traversal.h  19866 traversal_run.h  20059 row_sets.h  20093 unit_vectors.h
- *  20320 bilinear.h  20492 entries.h  20769 block.h  21004 reserve.h  21196 selected.h
- *  21406 selected_query.h  21508 region_choose.h  21735 region.h
+ *  19619 traversal.h  19868 traversal_run.h  20061 row_sets.h  20095 unit_vectors.h
+ *  20322 bilinear.h  20494 entries.h  20771 block.h  21006 reserve.h  21198 selected.h
+ *  21408 selected_query.h  21510 region_choose.h  21737 region.h
  * (change: a factor that follows changes of its matrix)
- *  21983 update.h  22330 path.h  22457 rank.h  22833 edges.h  22987 choose.h  23209 pins_types.h
- *  23288 pins_nulls.h  23471 pins_capacitance.h  23723 pins_balance.h  23901 pins_held.h
- *  24117 pins_choose.h  24175 pins_rebuild.h  24393 pins_matrix.h  24544 pins.h  24813 pins_solve.h
- *  25084 subset.h  25205 restrict_analysis.h  25558 restrict_symbolic.h  25755 restrict.h
- *  25977 edit_match.h  26176 edit_place.h  26425 edit_separate.h  26739 edit_order.h
- *  26894 edit_graph.h  26989 edit_join.h  27265 edit.h  27428 edit_factor.h
+ *  21985 update.h  22332 path.h  22459 rank.h  22835 edges.h  22989 choose.h  23211 pins_types.h
+ *  23290 pins_nulls.h  23473 pins_capacitance.h  23725 pins_balance.h  23903 pins_held.h
+ *  24119 pins_choose.h  24177 pins_rebuild.h  24395 pins_matrix.h  24546 pins.h  24815 pins_solve.h
+ *  25086 subset.h  25207 restrict_analysis.h  25560 restrict_symbolic.h  25757 restrict.h
+ *  25979 edit_match.h  26178 edit_place.h  26427 edit_separate.h  26741 edit_order.h
+ *  26896 edit_graph.h  26991 edit_join.h  27267 edit.h  27430 edit_factor.h
  * (save: factors in files)
- *  27713 format.h  28009 decode.h  28157 check.h  28487 write.h  28792 load.h  29060 load_inverse.h
- *  29390 load_calls.h
+ *  27715 format.h  28011 decode.h  28159 check.h  28489 write.h  28794 load.h  29062 load_inverse.h
+ *  29392 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29589 batch_solve.h  29798 batch_factor.h  29999 batch_diagonal.h
+ *  29591 batch_solve.h  29800 batch_factor.h  30001 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30139 hermitian.h  30301 complex_rows.h
+ *  30141 hermitian.h  30303 complex_rows.h
  * (last: undefine every internal macro)
- *  30469 undef.h
+ *  30471 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30743 front.inl.h  30745 product.inl.h  31256 words_undef.inl.h  31333 copy_rows.inl.h
- *  31371 multi_rhs.inl.h  31390 complex_groups.inl.h  31529 multi_rhs_small.inl.h
- *  31701 multi_rhs_tiles.inl.h  31978 sweeps.inl.h  31980 unit_triangle.inl.h  32017 two_rhs.inl.h
- *  32186 small_supernode.inl.h  32367 single_rhs.inl.h  32611 kernel_set.inl.h
- *  32613 complex_small.inl.h  32783 complex_rows.inl.h  32998 inverse_front.inl.h  33283 row.inl.h
- *  33313 change.inl.h  33465 interleave.inl.h  33596 lanes_undef.inl.h
+ *  30745 front.inl.h  30747 product.inl.h  31258 words_undef.inl.h  31335 copy_rows.inl.h
+ *  31373 multi_rhs.inl.h  31392 complex_groups.inl.h  31531 multi_rhs_small.inl.h
+ *  31703 multi_rhs_tiles.inl.h  31980 sweeps.inl.h  31982 unit_triangle.inl.h  32019 two_rhs.inl.h
+ *  32188 small_supernode.inl.h  32369 single_rhs.inl.h  32613 kernel_set.inl.h
+ *  32615 complex_small.inl.h  32785 complex_rows.inl.h  33000 inverse_front.inl.h  33285 row.inl.h
+ *  33315 change.inl.h  33467 interleave.inl.h  33598 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1075,6 +1075,7 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  Accuracy: without pivoting, a small pivot of an indefinite matrix makes L grow, and digits of A
  *  are lost without any pivot being null, as in [1e-20 1; 1 1]. stats.factor.growth measures this.
  *  - Definite matrices have a growth of at most 2, however badly they are scaled, and need no test.
+ *    Where all entries of a component are below 2.3e-308, growth counts the digits that they lack.
  *  - The backward error of sl_factor_solve and of local solves, as sl_csc_residual computes it, is
  *    at most about epsilon * growth: use a solution as it is if this is small enough and
  *    stats.factor.regularized is 0. It is a bound on normwise errors; rows that are tiny against
@@ -14931,7 +14932,7 @@ static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const doub
     const sl_int last = F->last[k];
     F->rounding[k] = F->rounding[last];
     F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
-    if (!sli_is_finite(F->rounding[k])) {
+    if (!(F->rounding[k] <= DBL_MAX)) {
       F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
     } else if (F->null_vectors > 1 ? F->chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
       F->rule.kinds[k] = SLI_PIVOT_NULL;
@@ -16059,7 +16060,8 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
 }
 
 SLI_INLINE double sli_growth(double magnitude, double entry) {
-  return magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+  const double growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+  return entry < DBL_MIN && growth > 0.0 ? growth * (DBL_MIN / entry) : growth;
 }
 
 static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double entry,
@@ -24010,7 +24012,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
   opt.null_tolerance = F->rule.null_tolerance;
   opt.consistency_tolerance = F->consistency;
   opt.mass = F->mass;
-  opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
+  opt.growth_limit = F->growth_limit <= DBL_MAX ? F->growth_limit : -1.0;
   status = sli_factor_new(G, F->S, &opt, NULL);
   if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));

@@ -19,6 +19,7 @@
  *  Accuracy: without pivoting, a small pivot of an indefinite matrix makes L grow, and digits of A
  *  are lost without any pivot being null, as in [1e-20 1; 1 1]. stats.factor.growth measures this.
  *  - Definite matrices have a growth of at most 2, however badly they are scaled, and need no test.
+ *    Where all entries of a component are below 2.3e-308, growth counts the digits that they lack.
  *  - The backward error of sl_factor_solve and of local solves, as sl_csc_residual computes it, is
  *    at most about epsilon * growth: use a solution as it is if this is small enough and
  *    stats.factor.regularized is 0. It is a bound on normwise errors; rows that are tiny against

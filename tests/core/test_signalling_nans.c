@@ -169,6 +169,11 @@ static void nothing_unset_is_computed_with(void **state) {
                 run(&M, &opt);
                 opt.regularization = 1e-8;
                 run(&M, &opt);
+                opt.regularization = 0.0;
+                opt.null_pivots = SL_NULL_PIVOT_SKIP;
+                if (kind != GEN_KKT) { /* regular components */
+                    run(&M, &opt);
+                }
             }
             gen_matrix_free(&M);
         }

@@ -52,9 +52,11 @@ static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
     return cause;
 }
 
-/* The growth of the largest magnitude. The sum may overflow, but no term of a finite pivot does. */
+/* The growth of the largest magnitude. The sum may overflow, but no term of a finite pivot does.
+ * Subnormal numbers are rounded as if epsilon were larger. */
 SLI_INLINE double sli_growth(double magnitude, double entry) {
-    return magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+    const double growth = magnitude > 0.0 ? fmin(magnitude, DBL_MAX) / entry : 0.0;
+    return entry < DBL_MIN && growth > 0.0 ? growth * (DBL_MIN / entry) : growth;
 }
 
 /* Refuses the tree of supernodes first .. last, whose growth exceeds the limit. entry: the largest

@@ -27,7 +27,7 @@ static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const doub
         const sl_int last = F->last[k];
         F->rounding[k] = F->rounding[last];
         F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
-        if (!sli_is_finite(F->rounding[k])) {
+        if (!(F->rounding[k] <= DBL_MAX)) { /* inf - inf would trap */
             F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
         } else if (F->null_vectors > 1 ? F->chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
             F->rule.kinds[k] = SLI_PIVOT_NULL;
