@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 93e35afcf4b39130
+ * FNV-1a of the lines after this comment, without the license: ede5df04f62f10fb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,65 +27,65 @@
  *   2710 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2861 complex.h    complex Hermitian systems, solved as real ones of twice the size
  *   2992 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3044 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   3046 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3136 base.h   3430 status.h   3491 options.h   3549 alloc.h   3705 hash.h   3835 file_map.h
- *   3932 sort.h   3996 parallel.h
+ *   3138 base.h   3432 status.h   3493 options.h   3551 alloc.h   3707 hash.h   3837 file_map.h
+ *   3934 sort.h   3998 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4192 panel.h   4218 step.h   4296 pivot_rule.h   4370 front.h   4431 pairs.h
- *   4638 inverse_front.h   4710 table.h   4748 simd.h   4843 simd_scalar_single.h
- *   4889 simd_scalar.h   5027 simd_avx2_single.h   5081 simd_avx2.h   5322 simd_avx512_single.h
- *   5377 simd_avx512.h   5553 simd_neon_single.h   5595 simd_neon.h   5830 dispatch.h
+ *   4194 panel.h   4220 step.h   4298 pivot_rule.h   4372 front.h   4433 pairs.h
+ *   4640 inverse_front.h   4712 table.h   4750 simd.h   4845 simd_scalar_single.h
+ *   4891 simd_scalar.h   5029 simd_avx2_single.h   5083 simd_avx2.h   5324 simd_avx512_single.h
+ *   5379 simd_avx512.h   5555 simd_neon_single.h   5597 simd_neon.h   5832 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5922 csc.h   6065 csc_build.h   6199 csc64.h   6270 csc_triangle.h   6335 csc_products.h
- *   6452 permute.h   6518 sum.h   6600 output_file.h   6809 matrix_market.h
+ *   5924 csc.h   6067 csc_build.h   6201 csc64.h   6272 csc_triangle.h   6337 csc_products.h
+ *   6454 permute.h   6520 sum.h   6602 output_file.h   6811 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7255 graph.h   7373 contract.h   7627 coarsen.h   7790 labels.h   8011 subgraph.h   8205 heap.h
- *   8265 bisect.h   8492 separator.h   8754 mindeg.h   8937 dissect.h   9261 tree_cost.h
- *   9313 levelset.h   9419 geometric.h   9594 cells.h   9774 septree.h   9850 metis.h
- *   9999 metis_refined.h  10113 nd.h  10313 compress.h  10434 levels.h  10486 peel.h
- *  10692 quotient.h  11105 order.h
+ *   7257 graph.h   7375 contract.h   7629 coarsen.h   7792 labels.h   8013 subgraph.h   8207 heap.h
+ *   8267 bisect.h   8494 separator.h   8756 mindeg.h   8939 dissect.h   9263 tree_cost.h
+ *   9315 levelset.h   9421 geometric.h   9596 cells.h   9776 septree.h   9852 metis.h
+ *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 levels.h  10488 peel.h
+ *  10694 quotient.h  11107 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11459 symbolic_types.h  11496 etree.h  11570 counts.h  11616 supernodes.h  11857 pattern.h
- *  11942 structure.h  12136 schedule.h  12416 symbolic.h  12862 reach.h
+ *  11461 symbolic_types.h  11498 etree.h  11572 counts.h  11618 supernodes.h  11859 pattern.h
+ *  11944 structure.h  12138 schedule.h  12418 symbolic.h  12864 reach.h
  * (factor: the numbers of L and D)
- *  13133 factor_types.h  13553 storage.h  13693 pivot_search.h  14039 pivoted.h  14108 scatter.h
- *  14266 uplooking.h  14338 null_product.h  14542 null_dense.h  14619 null_basis.h
- *  14927 null_vectors.h  15069 multifrontal.h  15263 gather.h  15311 kept.h  15481 front_tasks.h
- *  15824 nullspace.h  16027 growth.h  16105 factor_setup.h  16427 factor.h  16637 leftlooking.h
- *  16784 factor_query.h  16919 combination.h
+ *  13135 factor_types.h  13555 storage.h  13695 pivot_search.h  14041 pivoted.h  14110 scatter.h
+ *  14268 uplooking.h  14340 null_product.h  14544 null_dense.h  14621 null_basis.h
+ *  14929 null_vectors.h  15071 multifrontal.h  15265 gather.h  15313 kept.h  15483 front_tasks.h
+ *  15826 nullspace.h  16029 growth.h  16107 factor_setup.h  16429 factor.h  16639 leftlooking.h
+ *  16786 factor_query.h  16921 combination.h
  * (solve: full and local solves)
- *  16980 region_types.h  17084 work.h  17184 query.h  17400 singular.h  17674 backward.h
- *  17704 sweep_tasks.h  18035 sweep.h  18246 compile.h  18439 plan.h  18546 local.h  18698 parts.h
- *  18987 refine.h  19166 refine_local.h  19382 rcond.h  19541 defects.h
+ *  16982 region_types.h  17086 work.h  17186 query.h  17402 singular.h  17676 backward.h
+ *  17706 sweep_tasks.h  18037 sweep.h  18248 compile.h  18441 plan.h  18548 local.h  18700 parts.h
+ *  18989 refine.h  19168 refine_local.h  19384 rcond.h  19543 defects.h
  * (inverse: entries of the inverse, regions)
- *  19619 traversal.h  19868 traversal_run.h  20061 row_sets.h  20095 unit_vectors.h
- *  20322 bilinear.h  20494 entries.h  20771 block.h  21006 reserve.h  21198 selected.h
- *  21408 selected_query.h  21510 region_choose.h  21737 region.h
+ *  19621 traversal.h  19870 traversal_run.h  20063 row_sets.h  20097 unit_vectors.h
+ *  20324 bilinear.h  20496 entries.h  20773 block.h  21008 reserve.h  21200 selected.h
+ *  21410 selected_query.h  21512 region_choose.h  21739 region.h
  * (change: a factor that follows changes of its matrix)
- *  21985 update.h  22332 path.h  22459 rank.h  22835 edges.h  22989 choose.h  23211 pins_types.h
- *  23290 pins_nulls.h  23473 pins_capacitance.h  23725 pins_balance.h  23903 pins_held.h
- *  24119 pins_choose.h  24177 pins_rebuild.h  24395 pins_matrix.h  24546 pins.h  24815 pins_solve.h
- *  25086 subset.h  25207 restrict_analysis.h  25560 restrict_symbolic.h  25757 restrict.h
- *  25979 edit_match.h  26178 edit_place.h  26427 edit_separate.h  26741 edit_order.h
- *  26896 edit_graph.h  26991 edit_join.h  27267 edit.h  27430 edit_factor.h
+ *  21987 update.h  22334 path.h  22461 rank.h  22837 edges.h  22991 choose.h  23213 pins_types.h
+ *  23292 pins_nulls.h  23475 pins_capacitance.h  23727 pins_balance.h  23905 pins_held.h
+ *  24121 pins_choose.h  24179 pins_rebuild.h  24397 pins_matrix.h  24548 pins.h  24817 pins_solve.h
+ *  25088 subset.h  25209 restrict_analysis.h  25580 restrict_symbolic.h  25777 restrict.h
+ *  26002 edit_match.h  26201 edit_place.h  26450 edit_separate.h  26764 edit_order.h
+ *  26919 edit_graph.h  27014 edit_join.h  27290 edit.h  27453 edit_factor.h
  * (save: factors in files)
- *  27715 format.h  28011 decode.h  28159 check.h  28489 write.h  28794 load.h  29062 load_inverse.h
- *  29392 load_calls.h
+ *  27738 format.h  28034 decode.h  28182 check.h  28512 write.h  28817 load.h  29085 load_inverse.h
+ *  29415 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29591 batch_solve.h  29800 batch_factor.h  30001 batch_diagonal.h
+ *  29614 batch_solve.h  29823 batch_factor.h  30024 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30141 hermitian.h  30303 complex_rows.h
+ *  30164 hermitian.h  30326 complex_rows.h
  * (last: undefine every internal macro)
- *  30471 undef.h
+ *  30494 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30745 front.inl.h  30747 product.inl.h  31258 words_undef.inl.h  31335 copy_rows.inl.h
- *  31373 multi_rhs.inl.h  31392 complex_groups.inl.h  31531 multi_rhs_small.inl.h
- *  31703 multi_rhs_tiles.inl.h  31980 sweeps.inl.h  31982 unit_triangle.inl.h  32019 two_rhs.inl.h
- *  32188 small_supernode.inl.h  32369 single_rhs.inl.h  32613 kernel_set.inl.h
- *  32615 complex_small.inl.h  32785 complex_rows.inl.h  33000 inverse_front.inl.h  33285 row.inl.h
- *  33315 change.inl.h  33467 interleave.inl.h  33598 lanes_undef.inl.h
+ *  30768 front.inl.h  30770 product.inl.h  31281 words_undef.inl.h  31358 copy_rows.inl.h
+ *  31396 multi_rhs.inl.h  31415 complex_groups.inl.h  31554 multi_rhs_small.inl.h
+ *  31726 multi_rhs_tiles.inl.h  32003 sweeps.inl.h  32005 unit_triangle.inl.h  32042 two_rhs.inl.h
+ *  32211 small_supernode.inl.h  32392 single_rhs.inl.h  32636 kernel_set.inl.h
+ *  32638 complex_small.inl.h  32808 complex_rows.inl.h  33023 inverse_front.inl.h  33308 row.inl.h
+ *  33338 change.inl.h  33490 interleave.inl.h  33621 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2996,8 +2996,10 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
  *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
- *  If only few columns could be kept, none is, and all are analyzed and computed
- *  (stats.restriction.is_anew).
+ *  If less than 40 % of the columns could be kept, none is, and all are analyzed and computed
+ *  (stats.restriction.is_anew). So they are if F has several null vectors or L in another storage
+ *  than SL_STORAGE_DOUBLE. G has that storage, too; but with SL_STORAGE_COMPLEX, L of G is in
+ *  double if rows 2j and 2j+1 of A do not follow each other in rows.
  *
  *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
  *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
@@ -3023,15 +3025,15 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *           SL_ERR_PATTERN: A has not the size or the number of entries of the analyzed matrix, or
  *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
  *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
- *           pivots, several null vectors or L in float, or is a restriction itself;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     linear in the entries of A and the rows of supernodes in R, a copy of the kept entries
- *           of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid of 1e6
- *           80 % of the columns are kept, but the others have half of the flops, and the Schur
- *           complements of the kept ones another fifth: 0.6 of the time of analyzing and factoring
- *           A[R, R] in a given order. Thin sets, of which nothing is kept, take longer: 1.2 to 1.4
- *           times that for bands of 1 to 8 vertices, 1.8 times for one row of 10 at random, 3 times
- *           for one of 100. Those times are without extraction of A[R, R] and its order.
+ *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
+ *           entries of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid
+ *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
+ *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
+ *           factoring A[R, R] in a given order; 0.47 for half of the grid. Sets of which nothing is
+ *           kept take 1.0 to 1.1 times as long as extracting, analyzing and factoring A[R, R] in
+ *           that order, be they bands, lines or rows at random; 1.1 to 1.7 times if A[R, R] is at
+ *           hand.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c
@@ -25206,7 +25208,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
 
 /* src/impl/change/restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
 
-#define SLI_RESTRICT_KEPT 0.25
+#define SLI_RESTRICT_KEPT 0.4
 
 #define SLI_RESTRICT_AHEAD 16
 
@@ -25214,6 +25216,7 @@ typedef struct sli_restriction {
   const sl_symbolic *S;
   const sl_csc *A;
   const sl_int *rows;
+  int may_keep;
   sli_subset R;
   uint64_t *list, *scratch;
 
@@ -25256,6 +25259,14 @@ static void sli_restriction_free(sli_restriction *r, const sl_allocator *a) {
   }
 }
 
+static void sli_restriction_done(sli_restriction *r, const sl_allocator *a) {
+  int k;
+  for (k = 2; k < 4; k++) {
+    sli_free(a, r->blocks[k]);
+    r->blocks[k] = NULL;
+  }
+}
+
 SLI_INLINE sl_int sli_restriction_size(const sli_restriction *r, sl_int root) {
   return r->kept[root] - r->S->first_descendant[r->kept[root]] + 1;
 }
@@ -25264,10 +25275,19 @@ SLI_INLINE int sli_restriction_is_root(const sli_restriction *r, sl_int q) {
   return r->limit[q] == r->S->super_first[r->kept[q] + 1];
 }
 
+static int sli_restriction_has_runs(const sli_restriction *r) {
+  const sl_int *columns = r->R.columns;
+  sl_int k, follow = 1;
+  for (k = 1; k < r->R.count; k++) {
+    follow += columns[k] == columns[k - 1] + 1;
+  }
+  return follow >= SLI_RESTRICT_KEPT * r->R.count;
+}
+
 static void sli_restriction_split(sli_restriction *r) {
   const sl_symbolic *S = r->S;
   const sl_int *columns = r->R.columns;
-  sl_int k = 0, q;
+  sl_int k = r->may_keep && sli_restriction_has_runs(r) ? 0 : r->R.count, q;
   while (k < r->R.count) {
     const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
     const sl_int low = S->super_first[S->first_descendant[s]];
@@ -25287,7 +25307,7 @@ static void sli_restriction_split(sli_restriction *r) {
       }
     }
   }
-  if (r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
+  if (r->n_kept == 0 || r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
     r->n_kept = 0;
     r->n_fresh = r->R.count;
     for (k = 0; k < r->R.count; k++) {
@@ -25850,6 +25870,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   sl_factor *G = NULL;
   sl_status status;
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
+  opt.storage = F->storage == SL_STORAGE_COMPLEX && !sli_rows_are_paired(S) ? SL_STORAGE_DOUBLE
+                                        : F->storage;
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
   status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
   if (status == SL_OK) {
@@ -25899,6 +25921,7 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
     status = r->n_kept > 0 ? sli_joint_make(S, r, a, &found)
                  : sli_restriction_make(S, r, a, &found);
   }
+  sli_restriction_done(r, a);
   if (status == SL_OK) {
     (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
     status = sli_restrict_factor(G, *S, F, r, &rules, stats);
@@ -25915,8 +25938,7 @@ static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, con
   if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
     return SL_ERR_STATE;
   }
-  if (F->E != NULL || F->S->nnz_input < 0 || F->storage != SL_STORAGE_DOUBLE ||
-    F->null_vectors > 1) {
+  if (F->E != NULL || F->S->nnz_input < 0) {
     return SL_ERR_UNSUPPORTED;
   }
   if (A->n_cols > 0 && A->p == NULL) {
@@ -25948,6 +25970,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   memset(&r, 0, sizeof r);
   r.S = F->S;
   r.A = A;
+  r.may_keep = F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1;
   r.rows = rows;
   r.R.count = count;
   status = sli_restriction_begin(&r, &a, stats);

@@ -10,8 +10,10 @@
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
  *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
- *  If only few columns could be kept, none is, and all are analyzed and computed
- *  (stats.restriction.is_anew).
+ *  If less than 40 % of the columns could be kept, none is, and all are analyzed and computed
+ *  (stats.restriction.is_anew). So they are if F has several null vectors or L in another storage
+ *  than SL_STORAGE_DOUBLE. G has that storage, too; but with SL_STORAGE_COMPLEX, L of G is in
+ *  double if rows 2j and 2j+1 of A do not follow each other in rows.
  *
  *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
  *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
@@ -37,15 +39,15 @@
  *           SL_ERR_PATTERN: A has not the size or the number of entries of the analyzed matrix, or
  *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
  *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
- *           pivots, several null vectors or L in float, or is a restriction itself;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     linear in the entries of A and the rows of supernodes in R, a copy of the kept entries
- *           of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid of 1e6
- *           80 % of the columns are kept, but the others have half of the flops, and the Schur
- *           complements of the kept ones another fifth: 0.6 of the time of analyzing and factoring
- *           A[R, R] in a given order. Thin sets, of which nothing is kept, take longer: 1.2 to 1.4
- *           times that for bands of 1 to 8 vertices, 1.8 times for one row of 10 at random, 3 times
- *           for one of 100. Those times are without extraction of A[R, R] and its order.
+ *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
+ *           entries of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid
+ *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
+ *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
+ *           factoring A[R, R] in a given order; 0.47 for half of the grid. Sets of which nothing is
+ *           kept take 1.0 to 1.1 times as long as extracting, analyzing and factoring A[R, R] in
+ *           that order, be they bands, lines or rows at random; 1.1 to 1.7 times if A[R, R] is at
+ *           hand.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c

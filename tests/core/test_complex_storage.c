@@ -426,6 +426,49 @@ static void failing_allocations(void **state) {
     pair_free(&y);
 }
 
+/* Restricted to two of three blocks, in two orders: where a block is split, L is in double. */
+static void check_restricted(const pair_t *y, sl_isa isa) {
+    (void)isa;
+    for (int reversed = 0; reversed < 2; reversed++) {
+        sl_int *rows = test_ints((size_t)y->n), count = 0;
+        for (sl_int k = 0; k < y->n; k++) {
+            rows[count] = reversed ? y->n - 1 - k : k;
+            count += rows[count] / 2 % 3 > 0;
+        }
+        const size_t n = (size_t)count, ld = n > 0 ? n : 1;
+        double *b = test_reals(n), *x[2] = {test_reals(n), test_reals(n)}, most = 0.0;
+        gen_reals(b, n, 3);
+        for (int k = 0; k < 2; k++) {
+            sl_symbolic *S = NULL;
+            sl_factor *G = NULL;
+            sl_stats stats;
+            SL_CHECK(sl_factor_restrict(&S, &G, y->F[k], &y->A, rows, count, NULL, &stats));
+            assert_true(k == 0 || stats.restriction.kept == 0);
+            assert_int_equal(stats.storage, k == 1 && (reversed == 0 || n == 0)
+                                                ? SL_STORAGE_COMPLEX
+                                                : SL_STORAGE_DOUBLE);
+            SL_CHECK(sl_factor_solve(G, x[k], ld, b, ld, 1, NULL));
+            sl_factor_free(G);
+            sl_symbolic_free(S);
+        }
+        for (size_t k = 0; k < n; k++) {
+            most = fmax(most, fabs(x[0][k]));
+        }
+        for (size_t k = 0; k < n; k++) {
+            assert_true(fabs(x[0][k] - x[1][k]) <= 1e-10 * most);
+        }
+        free(rows);
+        free(b);
+        free(x[0]);
+        free(x[1]);
+    }
+}
+
+static void restrictions_are_complex(void **state) {
+    (void)state;
+    for_each(check_restricted);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(l_is_a_factor_of_blocks),
@@ -436,6 +479,7 @@ int main(void) {
         cmocka_unit_test(blocks_must_be_complete),
         cmocka_unit_test(a_column_without_a_diagonal_is_refused),
         cmocka_unit_test(an_infinite_entry_is_refused),
+        cmocka_unit_test(restrictions_are_complex),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

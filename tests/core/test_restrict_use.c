@@ -345,27 +345,38 @@ static void pairs_are_unsupported(void **state) {
     factored_free(&y);
 }
 
-static void float_storage_and_several_null_vectors_are_unsupported(void **state) {
+/* The storage is inherited, and all columns are computed: also if F skips several null pivots. */
+static void any_storage_and_several_null_vectors_are_restricted(void **state) {
     (void)state;
-    const sl_int row = 3;
-    double *z = test_reals(2 * 25);
-    factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL);
-    const sl_csc A = y.M.view;
-    for (sl_int kind = 0; kind < 2; kind++) {
+    const sl_storage storages[] = {SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_DOUBLE};
+    double *z = test_reals(2 * 225);
+    for (int kind = 0; kind < 3; kind++) {
         sl_options opt = options_none();
-        opt.storage = kind == 0 ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
-        if (kind == 1) {
+        opt.storage = storages[kind];
+        if (kind == 2) {
             opt.null_pivots = SL_NULL_PIVOT_SKIP;
             opt.null_vector = z;
             opt.null_vector_count = 2;
-            gen_reals(z, 2 * 25, 4);
+            gen_reals(z, 2 * 225, 4);
         }
-        sl_factor_free(y.F);
-        SL_CHECK(sl_factor_create(&y.F, y.S, &A, &opt, NULL));
-        assert_int_equal(restriction_status(&y, &A, &row, 1, NULL), SL_ERR_UNSUPPORTED);
+        restricted_t t = restricted_make(GEN_GRID2, 225, 1, 0, SUBSET_HALF, &opt);
+        const size_t n = (size_t)t.count;
+        double *b = test_reals(n), *x = test_reals(n), *r = test_reals(n), error;
+        assert_int_equal(t.stats.restriction.is_anew, 1);
+        assert_int_equal(t.stats.storage, storages[kind]);
+        gen_reals(b, n, 3);
+        SL_CHECK(sl_factor_solve(t.G, x, n, b, n, 1, NULL));
+        SL_CHECK(sl_csc_residual(&t.B.view, r, n, &error, x, n, b, n, 1));
+        assert_true(error <= (kind < 2 ? 1e-5 : 1e-14));
+        if (kind == 2) {
+            restricted_check(&t);
+        }
+        free(b);
+        free(x);
+        free(r);
+        restricted_free(&t);
     }
     free(z);
-    factored_free(&y);
 }
 
 int main(void) {
@@ -380,7 +391,7 @@ int main(void) {
         cmocka_unit_test(diagonal_matrices_are_restricted),
         cmocka_unit_test(limits_are_inherited),
         cmocka_unit_test(pairs_are_unsupported),
-        cmocka_unit_test(float_storage_and_several_null_vectors_are_unsupported),
+        cmocka_unit_test(any_storage_and_several_null_vectors_are_restricted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,6 +104,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     sl_factor *G = NULL;
     sl_status status;
     opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
+    opt.storage = F->storage == SL_STORAGE_COMPLEX && !sli_rows_are_paired(S) ? SL_STORAGE_DOUBLE
+                                                                              : F->storage;
     status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
     status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
     if (status == SL_OK) {
@@ -156,6 +158,7 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
         status = r->n_kept > 0 ? sli_joint_make(S, r, a, &found)
                                : sli_restriction_make(S, r, a, &found);
     }
+    sli_restriction_done(r, a);
     if (status == SL_OK) {
         (*S)->stats.symbolic.seconds_analyze = sli_seconds() - started;
         status = sli_restrict_factor(G, *S, F, r, &rules, stats);
@@ -173,8 +176,7 @@ static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, con
     if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
         return SL_ERR_STATE;
     }
-    if (F->E != NULL || F->S->nnz_input < 0 || F->storage != SL_STORAGE_DOUBLE ||
-        F->null_vectors > 1) {
+    if (F->E != NULL || F->S->nnz_input < 0) {
         return SL_ERR_UNSUPPORTED;
     }
     if (A->n_cols > 0 && A->p == NULL) {
@@ -206,6 +208,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     memset(&r, 0, sizeof r);
     r.S = F->S;
     r.A = A;
+    r.may_keep = F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1;
     r.rows = rows;
     r.R.count = count;
     status = sli_restriction_begin(&r, &a, stats);
