@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ede5df04f62f10fb
+ * FNV-1a of the lines after this comment, without the license: 3d1c96efe39dfcb1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,45 +47,45 @@
  *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 levels.h  10488 peel.h
  *  10694 quotient.h  11107 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11461 symbolic_types.h  11498 etree.h  11572 counts.h  11618 supernodes.h  11859 pattern.h
- *  11944 structure.h  12138 schedule.h  12418 symbolic.h  12864 reach.h
+ *  11461 symbolic_types.h  11498 etree.h  11573 counts.h  11622 supernodes.h  11863 pattern.h
+ *  11949 structure.h  12143 schedule.h  12423 symbolic.h  12871 reach.h
  * (factor: the numbers of L and D)
- *  13135 factor_types.h  13555 storage.h  13695 pivot_search.h  14041 pivoted.h  14110 scatter.h
- *  14268 uplooking.h  14340 null_product.h  14544 null_dense.h  14621 null_basis.h
- *  14929 null_vectors.h  15071 multifrontal.h  15265 gather.h  15313 kept.h  15483 front_tasks.h
- *  15826 nullspace.h  16029 growth.h  16107 factor_setup.h  16429 factor.h  16639 leftlooking.h
- *  16786 factor_query.h  16921 combination.h
+ *  13142 factor_types.h  13562 storage.h  13702 pivot_search.h  14048 pivoted.h  14117 scatter.h
+ *  14275 uplooking.h  14347 null_product.h  14551 null_dense.h  14628 null_basis.h
+ *  14936 null_vectors.h  15078 multifrontal.h  15272 gather.h  15320 kept.h  15490 front_tasks.h
+ *  15833 nullspace.h  16036 growth.h  16114 factor_setup.h  16436 factor.h  16646 leftlooking.h
+ *  16793 factor_query.h  16928 combination.h
  * (solve: full and local solves)
- *  16982 region_types.h  17086 work.h  17186 query.h  17402 singular.h  17676 backward.h
- *  17706 sweep_tasks.h  18037 sweep.h  18248 compile.h  18441 plan.h  18548 local.h  18700 parts.h
- *  18989 refine.h  19168 refine_local.h  19384 rcond.h  19543 defects.h
+ *  16989 region_types.h  17093 work.h  17193 query.h  17409 singular.h  17683 backward.h
+ *  17713 sweep_tasks.h  18044 sweep.h  18255 compile.h  18448 plan.h  18555 local.h  18707 parts.h
+ *  18996 refine.h  19175 refine_local.h  19391 rcond.h  19550 defects.h
  * (inverse: entries of the inverse, regions)
- *  19621 traversal.h  19870 traversal_run.h  20063 row_sets.h  20097 unit_vectors.h
- *  20324 bilinear.h  20496 entries.h  20773 block.h  21008 reserve.h  21200 selected.h
- *  21410 selected_query.h  21512 region_choose.h  21739 region.h
+ *  19628 traversal.h  19877 traversal_run.h  20070 row_sets.h  20104 unit_vectors.h
+ *  20331 bilinear.h  20503 entries.h  20780 block.h  21015 reserve.h  21207 selected.h
+ *  21417 selected_query.h  21519 region_choose.h  21746 region.h
  * (change: a factor that follows changes of its matrix)
- *  21987 update.h  22334 path.h  22461 rank.h  22837 edges.h  22991 choose.h  23213 pins_types.h
- *  23292 pins_nulls.h  23475 pins_capacitance.h  23727 pins_balance.h  23905 pins_held.h
- *  24121 pins_choose.h  24179 pins_rebuild.h  24397 pins_matrix.h  24548 pins.h  24817 pins_solve.h
- *  25088 subset.h  25209 restrict_analysis.h  25580 restrict_symbolic.h  25777 restrict.h
- *  26002 edit_match.h  26201 edit_place.h  26450 edit_separate.h  26764 edit_order.h
- *  26919 edit_graph.h  27014 edit_join.h  27290 edit.h  27453 edit_factor.h
+ *  21994 update.h  22341 path.h  22468 rank.h  22844 edges.h  22998 choose.h  23220 pins_types.h
+ *  23299 pins_nulls.h  23482 pins_capacitance.h  23734 pins_balance.h  23912 pins_held.h
+ *  24128 pins_choose.h  24186 pins_rebuild.h  24404 pins_matrix.h  24555 pins.h  24824 pins_solve.h
+ *  25095 subset.h  25216 restrict_analysis.h  25587 restrict_symbolic.h  25785 restrict.h
+ *  26010 edit_match.h  26209 edit_place.h  26458 edit_separate.h  26772 edit_order.h
+ *  26927 edit_graph.h  27022 edit_join.h  27298 edit.h  27461 edit_factor.h
  * (save: factors in files)
- *  27738 format.h  28034 decode.h  28182 check.h  28512 write.h  28817 load.h  29085 load_inverse.h
- *  29415 load_calls.h
+ *  27746 format.h  28042 decode.h  28190 check.h  28520 write.h  28825 load.h  29093 load_inverse.h
+ *  29423 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29614 batch_solve.h  29823 batch_factor.h  30024 batch_diagonal.h
+ *  29622 batch_solve.h  29831 batch_factor.h  30032 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30164 hermitian.h  30326 complex_rows.h
+ *  30172 hermitian.h  30334 complex_rows.h
  * (last: undefine every internal macro)
- *  30494 undef.h
+ *  30502 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30768 front.inl.h  30770 product.inl.h  31281 words_undef.inl.h  31358 copy_rows.inl.h
- *  31396 multi_rhs.inl.h  31415 complex_groups.inl.h  31554 multi_rhs_small.inl.h
- *  31726 multi_rhs_tiles.inl.h  32003 sweeps.inl.h  32005 unit_triangle.inl.h  32042 two_rhs.inl.h
- *  32211 small_supernode.inl.h  32392 single_rhs.inl.h  32636 kernel_set.inl.h
- *  32638 complex_small.inl.h  32808 complex_rows.inl.h  33023 inverse_front.inl.h  33308 row.inl.h
- *  33338 change.inl.h  33490 interleave.inl.h  33621 lanes_undef.inl.h
+ *  30776 front.inl.h  30778 product.inl.h  31289 words_undef.inl.h  31366 copy_rows.inl.h
+ *  31404 multi_rhs.inl.h  31423 complex_groups.inl.h  31562 multi_rhs_small.inl.h
+ *  31734 multi_rhs_tiles.inl.h  32011 sweeps.inl.h  32013 unit_triangle.inl.h  32050 two_rhs.inl.h
+ *  32219 small_supernode.inl.h  32400 single_rhs.inl.h  32644 kernel_set.inl.h
+ *  32646 complex_small.inl.h  32816 complex_rows.inl.h  33031 inverse_front.inl.h  33316 row.inl.h
+ *  33346 change.inl.h  33498 interleave.inl.h  33629 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11505,14 +11505,15 @@ static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int 
     parent[k] = -1;
     ancestor[k] = n;
     for (; p < end; p++) {
-      sl_int i = to[p], last = i;
-      while (i < k) {
-        const sl_int next = ancestor[i];
-        ancestor[i] = k;
-        last = i;
+      sl_int i = to[p], next = i < k ? ancestor[i] : k;
+      ancestor[i] = i < k ? k : n;
+      parent[i] = next == n ? k : parent[i];
+      while (next < k) {
         i = next;
+        next = ancestor[i];
+        ancestor[i] = k;
+        parent[i] = next == n ? k : parent[i];
       }
-      parent[last] = i == n ? k : parent[last];
     }
   }
 }
@@ -11575,34 +11576,37 @@ static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_o
              const sl_int *new_of, const sl_int *parent, sl_int *counts,
              sl_int *scratch) {
   sl_int *first = scratch, *up = scratch + n, *row = scratch + 2 * (size_t)n;
-  sl_int j, p;
+  sl_int *queue = scratch + 4 * (size_t)n, j, p, c;
   for (j = 0; j < n; j++) {
     first[j] = j;
     up[j] = parent[j] == -1 ? n : parent[j];
     row[2 * (size_t)j] = -1;
-    row[2 * (size_t)j + 1] = j;
-    counts[j] = 1;
+    row[2 * (size_t)j + 1] = n;
+    counts[j] = 0;
   }
   for (j = 0; j < n; j++) {
     const sl_int from = first[j], end = columns->begin[old_of[j] + 1];
-    sl_int leaves = 0;
+    sl_int leaves = from == j, length = 0;
+    row[2 * (size_t)j] = from;
     for (p = columns->begin[old_of[j]]; p < end; p++) {
-      const sl_int i = new_of[columns->to[p]];
-      sl_int *seen = row + 2 * (size_t)i, at = seen[1];
-      if (from <= seen[0]) {
-        continue;
-      }
-      while (at < j) {
+      sl_int *seen = row + 2 * (size_t)new_of[columns->to[p]], at = seen[1];
+      const int is_leaf = from > seen[0];
+      seen[0] = is_leaf ? from : seen[0];
+      seen[1] = is_leaf ? j : at;
+      leaves += is_leaf;
+      queue[length] = at;
+      length += is_leaf & (at < j);
+    }
+    counts[j] += leaves;
+    for (c = 0; c < length; c++) {
+      sl_int at = queue[c];
+      do {
         const sl_int next = up[at];
         up[at] = next < j ? up[next] : next;
         at = up[at];
-      }
+      } while (at < j);
       counts[at]--;
-      leaves++;
-      seen[0] = from;
-      seen[1] = j;
     }
-    counts[j] += leaves;
     if (parent[j] != -1) {
       first[parent[j]] = sli_min(first[parent[j]], from);
       counts[parent[j]]--;
@@ -11640,9 +11644,9 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     }
   }
   for (j = 0; j < n; j++) {
-    if (j == 0 || parent[j - 1] != j || children[j] != 1 || counts[j - 1] != counts[j] + 1) {
-      g->first[++s] = j;
-    }
+    const sl_int last = sli_max(j - 1, 0);
+    g->first[s + 1] = j;
+    s += (parent[last] != j) | (children[j] != 1) | (counts[last] != counts[j] + 1);
     super_of[j] = s;
   }
   g->count = s + 1;
@@ -11873,6 +11877,7 @@ typedef struct sli_growing {
 typedef struct sli_analysis {
   sl_int n;
   sl_int workers;
+  double clock;
   const sl_csc *A;
   sli_hash pattern;
   sl_int *column;
@@ -12544,17 +12549,25 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
 }
 
+static double sli_analysis_lap(sli_analysis *w) {
+  const double before = w->clock;
+  w->clock = sli_seconds();
+  return w->clock - before;
+}
+
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                 sl_stats *stats) {
-  const double started = sli_seconds();
+  double lap;
   sl_int k;
   for (k = 0; k < w->n; k++) {
     w->scratch[w->perm[k]] = k;
   }
   sli_pattern_fill(w, stats->symbolic.triangle, team);
-  stats->symbolic.seconds_tree -= sli_seconds() - started;
+  stats->symbolic.seconds_analyze += sli_analysis_lap(w);
   sli_analyze_tree(w, opt, stats);
-  stats->symbolic.seconds_tree += sli_seconds() - started;
+  lap = sli_analysis_lap(w);
+  stats->symbolic.seconds_tree += lap;
+  stats->symbolic.seconds_analyze += lap;
 }
 
 static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entries,
@@ -12662,7 +12675,6 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, s
 
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
                   sli_team *team, sl_stats *stats) {
-  const double started = sli_seconds();
   sli_block b = {NULL, 0, 0};
   sl_off rows = 0;
   sl_int s;
@@ -12688,10 +12700,9 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   if (status != SL_OK) {
     return status;
   }
-  stats->symbolic.seconds_structure = -sli_seconds();
   sli_symbolic_fill(draft, w, team, stats);
-  stats->symbolic.seconds_structure += sli_seconds();
-  stats->symbolic.seconds_analyze += sli_seconds() - started;
+  stats->symbolic.seconds_structure = sli_analysis_lap(w);
+  stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
   draft->stats = *stats;
   *out = (sl_symbolic *)(void *)b.base;
   **out = *draft;
@@ -12701,17 +12712,14 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
                    sli_analysis *w, sli_team *team, const sl_allocator *a,
                    const sl_allocator *for_order, sl_stats *stats) {
-  double started;
   sl_symbolic draft;
   sl_status status;
-  started = sli_seconds();
   status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
              &w->septree, &w->choice, team, for_order, stats);
-  stats->symbolic.seconds_order = sli_seconds() - started;
+  stats->symbolic.seconds_order = sli_analysis_lap(w);
   if (status != SL_OK) {
     return status;
   }
-  started = sli_seconds();
   sli_analyze_order(w, opt, team, stats);
   if (w->choice.is_there) {
     sli_analyze_choice(w, opt, team, stats);
@@ -12720,11 +12728,10 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   draft.allocator = *a;
   draft.nnz_input = sli_nnz(A);
   draft.pattern = w->pattern;
-  stats->symbolic.seconds_analyze += sli_seconds() - started;
   return sli_symbolic_build(out, &draft, w, team, stats);
 }
 
-#define SLI_ANALYSIS_FLOPS 300.0
+#define SLI_ANALYSIS_FLOPS 100.0
 
 static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
   return opt == NULL || opt->ordering == SL_ORDERING_METIS
@@ -12761,7 +12768,6 @@ static int sli_symbolic_options_are_valid(const sl_options *opt) {
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                    const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  const double started = sli_seconds();
   sli_analysis w;
   sli_block b = {NULL, 0, 0};
   sli_lender lender;
@@ -12775,6 +12781,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   }
   *out = NULL;
   memset(&w, 0, sizeof w);
+  w.clock = sli_seconds();
   if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, &w.pattern)) {
     status = sl_csc_check(A, stats);
   }
@@ -12799,7 +12806,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   }
   if (status == SL_OK) {
     lent = sli_lender_start(&lender, &b, w.ordered, &a);
-    found.symbolic.seconds_analyze = sli_seconds() - started;
+    found.symbolic.seconds_analyze = sli_analysis_lap(&w);
     sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
     const sl_options none = sli_options_with(&a);
     const sl_int workers = sli_max(sli_order_workers(A, opt), w.workers);
@@ -25742,6 +25749,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
   if (status != SL_OK) {
     return status;
   }
+  (void)sli_analysis_lap(&r->w);
   memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
   return sli_symbolic_build(out, &draft, &r->w, NULL, stats);
 }

@@ -14,14 +14,15 @@ static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int 
         parent[k] = -1;
         ancestor[k] = n;
         for (; p < end; p++) {
-            sl_int i = to[p], last = i;
-            while (i < k) {
-                const sl_int next = ancestor[i];
-                ancestor[i] = k;
-                last = i;
+            sl_int i = to[p], next = i < k ? ancestor[i] : k;
+            ancestor[i] = i < k ? k : n;
+            parent[i] = next == n ? k : parent[i];
+            while (next < k) {
                 i = next;
+                next = ancestor[i];
+                ancestor[i] = k;
+                parent[i] = next == n ? k : parent[i];
             }
-            parent[last] = i == n ? k : parent[last]; /* without a branch: about half are roots */
         }
     }
 }

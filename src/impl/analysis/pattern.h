@@ -23,6 +23,7 @@ typedef struct sli_growing {
 typedef struct sli_analysis {
     sl_int n;
     sl_int workers; /* 0: one */
+    double clock;   /* when it was last read */
     const sl_csc *A;
     sli_hash pattern; /* of A */
     sl_int *column;   /* nnz: of each entry of A */

@@ -34,10 +34,10 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
             children[parent[j]]++;
         }
     }
-    for (j = 0; j < n; j++) {
-        if (j == 0 || parent[j - 1] != j || children[j] != 1 || counts[j - 1] != counts[j] + 1) {
-            g->first[++s] = j;
-        }
+    for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
+        const sl_int last = sli_max(j - 1, 0);
+        g->first[s + 1] = j;
+        s += (parent[last] != j) | (children[j] != 1) | (counts[last] != counts[j] + 1);
         super_of[j] = s;
     }
     g->count = s + 1;

@@ -141,18 +141,27 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
 }
 
+/* The processor seconds since the last call: each reading of the clock is a call of the system. */
+static double sli_analysis_lap(sli_analysis *w) {
+    const double before = w->clock;
+    w->clock = sli_seconds();
+    return w->clock - before;
+}
+
 /* Finds everything that depends on the order in w->perm. */
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                               sl_stats *stats) {
-    const double started = sli_seconds();
+    double lap;
     sl_int k;
     for (k = 0; k < w->n; k++) {
         w->scratch[w->perm[k]] = k;
     }
     sli_pattern_fill(w, stats->symbolic.triangle, team);
-    stats->symbolic.seconds_tree -= sli_seconds() - started;
+    stats->symbolic.seconds_analyze += sli_analysis_lap(w);
     sli_analyze_tree(w, opt, stats);
-    stats->symbolic.seconds_tree += sli_seconds() - started;
+    lap = sli_analysis_lap(w);
+    stats->symbolic.seconds_tree += lap;
+    stats->symbolic.seconds_analyze += lap;
 }
 
 /* The entries of L, and those on the paths from all columns to the roots. size: n of scratch. */
@@ -268,7 +277,6 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, s
 /* Creates the analysis from the tree. draft has its allocator and its pattern. team: or NULL. */
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
                                     sli_team *team, sl_stats *stats) {
-    const double started = sli_seconds();
     sli_block b = {NULL, 0, 0};
     sl_off rows = 0;
     sl_int s;
@@ -294,10 +302,9 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     if (status != SL_OK) {
         return status;
     }
-    stats->symbolic.seconds_structure = -sli_seconds();
     sli_symbolic_fill(draft, w, team, stats);
-    stats->symbolic.seconds_structure += sli_seconds();
-    stats->symbolic.seconds_analyze += sli_seconds() - started;
+    stats->symbolic.seconds_structure = sli_analysis_lap(w);
+    stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
     draft->stats = *stats;
     *out = (sl_symbolic *)(void *)b.base;
     **out = *draft;
@@ -307,17 +314,14 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
 static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
                                    sli_analysis *w, sli_team *team, const sl_allocator *a,
                                    const sl_allocator *for_order, sl_stats *stats) {
-    double started;
     sl_symbolic draft;
     sl_status status;
-    started = sli_seconds();
     status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
                        &w->septree, &w->choice, team, for_order, stats);
-    stats->symbolic.seconds_order = sli_seconds() - started;
+    stats->symbolic.seconds_order = sli_analysis_lap(w);
     if (status != SL_OK) {
         return status;
     }
-    started = sli_seconds();
     sli_analyze_order(w, opt, team, stats);
     if (w->choice.is_there) {
         sli_analyze_choice(w, opt, team, stats);
@@ -326,12 +330,12 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     draft.allocator = *a;
     draft.nnz_input = sli_nnz(A);
     draft.pattern = w->pattern;
-    stats->symbolic.seconds_analyze += sli_seconds() - started;
     return sli_symbolic_build(out, &draft, w, team, stats);
 }
 
-/* An entry of A takes the analysis as long as so many operations of a factorization. */
-#define SLI_ANALYSIS_FLOPS 300.0
+/* What several workers share of the analysis takes as long as so many operations of a factorization
+ * for each entry of A. */
+#define SLI_ANALYSIS_FLOPS 100.0
 
 /* The workers that share the analysis without the ordering. METIS traps signals of the caller's
  * thread. */
@@ -375,7 +379,6 @@ static int sli_symbolic_options_are_valid(const sl_options *opt) {
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                                      const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    const double started = sli_seconds();
     sli_analysis w;
     sli_block b = {NULL, 0, 0};
     sli_lender lender;
@@ -389,6 +392,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     }
     *out = NULL;
     memset(&w, 0, sizeof w);
+    w.clock = sli_seconds();
     if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, &w.pattern)) { /* the hash checks, too */
         status = sl_csc_check(A, stats);
     }
@@ -413,7 +417,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     }
     if (status == SL_OK) {
         lent = sli_lender_start(&lender, &b, w.ordered, &a);
-        found.symbolic.seconds_analyze = sli_seconds() - started;
+        found.symbolic.seconds_analyze = sli_analysis_lap(&w);
         sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
         const sl_options none = sli_options_with(&a);
         const sl_int workers = sli_max(sli_order_workers(A, opt), w.workers);

@@ -178,6 +178,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
     if (status != SL_OK) {
         return status;
     }
+    (void)sli_analysis_lap(&r->w);
     memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
     return sli_symbolic_build(out, &draft, &r->w, NULL, stats);
 }
