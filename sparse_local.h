@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3d1c96efe39dfcb1
+ * FNV-1a of the lines after this comment, without the license: 961461ba003c6698
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,81 +11,81 @@
  *    553 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    748 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    920 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1062 factor.h     the numerical factorization P A P' = L D L'
- *   1344 solve.h      full solves, and the workspace of all solves
- *   1457 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1551 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1664 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1777 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1913 batch.h      many independent solves by one call, distributed over threads
- *   1963 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2141 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2261 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2365 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2504 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2622 change.h     a factor that follows small changes of its matrix
- *   2710 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2861 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2992 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3046 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   1064 factor.h     the numerical factorization P A P' = L D L'
+ *   1346 solve.h      full solves, and the workspace of all solves
+ *   1459 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1553 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1666 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1779 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1915 batch.h      many independent solves by one call, distributed over threads
+ *   1965 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2143 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2263 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2367 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2506 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2624 change.h     a factor that follows small changes of its matrix
+ *   2712 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2863 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   2994 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3048 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3138 base.h   3432 status.h   3493 options.h   3551 alloc.h   3707 hash.h   3837 file_map.h
- *   3934 sort.h   3998 parallel.h
+ *   3140 base.h   3434 status.h   3495 options.h   3553 alloc.h   3709 hash.h   3839 file_map.h
+ *   3936 sort.h   4000 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4194 panel.h   4220 step.h   4298 pivot_rule.h   4372 front.h   4433 pairs.h
- *   4640 inverse_front.h   4712 table.h   4750 simd.h   4845 simd_scalar_single.h
- *   4891 simd_scalar.h   5029 simd_avx2_single.h   5083 simd_avx2.h   5324 simd_avx512_single.h
- *   5379 simd_avx512.h   5555 simd_neon_single.h   5597 simd_neon.h   5832 dispatch.h
+ *   4196 panel.h   4222 step.h   4300 pivot_rule.h   4374 front.h   4435 pairs.h
+ *   4642 inverse_front.h   4714 table.h   4752 simd.h   4847 simd_scalar_single.h
+ *   4893 simd_scalar.h   5031 simd_avx2_single.h   5085 simd_avx2.h   5326 simd_avx512_single.h
+ *   5381 simd_avx512.h   5557 simd_neon_single.h   5599 simd_neon.h   5834 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5924 csc.h   6067 csc_build.h   6201 csc64.h   6272 csc_triangle.h   6337 csc_products.h
- *   6454 permute.h   6520 sum.h   6602 output_file.h   6811 matrix_market.h
+ *   5926 csc.h   6069 csc_build.h   6203 csc64.h   6274 csc_triangle.h   6339 csc_products.h
+ *   6456 permute.h   6522 sum.h   6604 output_file.h   6813 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7257 graph.h   7375 contract.h   7629 coarsen.h   7792 labels.h   8013 subgraph.h   8207 heap.h
- *   8267 bisect.h   8494 separator.h   8756 mindeg.h   8939 dissect.h   9263 tree_cost.h
- *   9315 levelset.h   9421 geometric.h   9596 cells.h   9776 septree.h   9852 metis.h
- *  10001 metis_refined.h  10115 nd.h  10315 compress.h  10436 levels.h  10488 peel.h
- *  10694 quotient.h  11107 order.h
+ *   7259 graph.h   7377 contract.h   7631 coarsen.h   7794 labels.h   8015 subgraph.h   8209 heap.h
+ *   8269 bisect.h   8496 separator.h   8758 mindeg.h   8941 dissect.h   9265 tree_cost.h
+ *   9317 levelset.h   9423 geometric.h   9598 cells.h   9778 septree.h   9854 metis.h
+ *  10003 metis_refined.h  10117 nd.h  10317 compress.h  10438 levels.h  10490 peel.h
+ *  10696 quotient.h  11132 graph_kind.h  11203 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11461 symbolic_types.h  11498 etree.h  11573 counts.h  11622 supernodes.h  11863 pattern.h
- *  11949 structure.h  12143 schedule.h  12423 symbolic.h  12871 reach.h
+ *  11557 symbolic_types.h  11594 etree.h  11669 counts.h  11718 supernodes.h  11959 pattern.h
+ *  12045 structure.h  12239 schedule.h  12519 symbolic.h  12967 reach.h
  * (factor: the numbers of L and D)
- *  13142 factor_types.h  13562 storage.h  13702 pivot_search.h  14048 pivoted.h  14117 scatter.h
- *  14275 uplooking.h  14347 null_product.h  14551 null_dense.h  14628 null_basis.h
- *  14936 null_vectors.h  15078 multifrontal.h  15272 gather.h  15320 kept.h  15490 front_tasks.h
- *  15833 nullspace.h  16036 growth.h  16114 factor_setup.h  16436 factor.h  16646 leftlooking.h
- *  16793 factor_query.h  16928 combination.h
+ *  13238 factor_types.h  13658 storage.h  13798 pivot_search.h  14144 pivoted.h  14213 scatter.h
+ *  14371 uplooking.h  14443 null_product.h  14647 null_dense.h  14724 null_basis.h
+ *  15032 null_vectors.h  15174 multifrontal.h  15368 gather.h  15416 kept.h  15586 front_tasks.h
+ *  15929 nullspace.h  16132 growth.h  16210 factor_setup.h  16532 factor.h  16742 leftlooking.h
+ *  16889 factor_query.h  17024 combination.h
  * (solve: full and local solves)
- *  16989 region_types.h  17093 work.h  17193 query.h  17409 singular.h  17683 backward.h
- *  17713 sweep_tasks.h  18044 sweep.h  18255 compile.h  18448 plan.h  18555 local.h  18707 parts.h
- *  18996 refine.h  19175 refine_local.h  19391 rcond.h  19550 defects.h
+ *  17085 region_types.h  17189 work.h  17289 query.h  17505 singular.h  17779 backward.h
+ *  17809 sweep_tasks.h  18140 sweep.h  18351 compile.h  18544 plan.h  18651 local.h  18803 parts.h
+ *  19092 refine.h  19271 refine_local.h  19487 rcond.h  19646 defects.h
  * (inverse: entries of the inverse, regions)
- *  19628 traversal.h  19877 traversal_run.h  20070 row_sets.h  20104 unit_vectors.h
- *  20331 bilinear.h  20503 entries.h  20780 block.h  21015 reserve.h  21207 selected.h
- *  21417 selected_query.h  21519 region_choose.h  21746 region.h
+ *  19724 traversal.h  19973 traversal_run.h  20166 row_sets.h  20200 unit_vectors.h
+ *  20427 bilinear.h  20599 entries.h  20876 block.h  21111 reserve.h  21303 selected.h
+ *  21513 selected_query.h  21615 region_choose.h  21842 region.h
  * (change: a factor that follows changes of its matrix)
- *  21994 update.h  22341 path.h  22468 rank.h  22844 edges.h  22998 choose.h  23220 pins_types.h
- *  23299 pins_nulls.h  23482 pins_capacitance.h  23734 pins_balance.h  23912 pins_held.h
- *  24128 pins_choose.h  24186 pins_rebuild.h  24404 pins_matrix.h  24555 pins.h  24824 pins_solve.h
- *  25095 subset.h  25216 restrict_analysis.h  25587 restrict_symbolic.h  25785 restrict.h
- *  26010 edit_match.h  26209 edit_place.h  26458 edit_separate.h  26772 edit_order.h
- *  26927 edit_graph.h  27022 edit_join.h  27298 edit.h  27461 edit_factor.h
+ *  22090 update.h  22437 path.h  22564 rank.h  22940 edges.h  23094 choose.h  23316 pins_types.h
+ *  23395 pins_nulls.h  23578 pins_capacitance.h  23830 pins_balance.h  24008 pins_held.h
+ *  24224 pins_choose.h  24282 pins_rebuild.h  24500 pins_matrix.h  24651 pins.h  24920 pins_solve.h
+ *  25191 subset.h  25312 restrict_analysis.h  25683 restrict_symbolic.h  25881 restrict.h
+ *  26106 edit_match.h  26305 edit_place.h  26554 edit_separate.h  26868 edit_order.h
+ *  27023 edit_graph.h  27118 edit_join.h  27394 edit.h  27557 edit_factor.h
  * (save: factors in files)
- *  27746 format.h  28042 decode.h  28190 check.h  28520 write.h  28825 load.h  29093 load_inverse.h
- *  29423 load_calls.h
+ *  27842 format.h  28138 decode.h  28286 check.h  28616 write.h  28921 load.h  29189 load_inverse.h
+ *  29519 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29622 batch_solve.h  29831 batch_factor.h  30032 batch_diagonal.h
+ *  29718 batch_solve.h  29927 batch_factor.h  30128 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30172 hermitian.h  30334 complex_rows.h
+ *  30268 hermitian.h  30430 complex_rows.h
  * (last: undefine every internal macro)
- *  30502 undef.h
+ *  30598 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30776 front.inl.h  30778 product.inl.h  31289 words_undef.inl.h  31366 copy_rows.inl.h
- *  31404 multi_rhs.inl.h  31423 complex_groups.inl.h  31562 multi_rhs_small.inl.h
- *  31734 multi_rhs_tiles.inl.h  32011 sweeps.inl.h  32013 unit_triangle.inl.h  32050 two_rhs.inl.h
- *  32219 small_supernode.inl.h  32400 single_rhs.inl.h  32644 kernel_set.inl.h
- *  32646 complex_small.inl.h  32816 complex_rows.inl.h  33031 inverse_front.inl.h  33316 row.inl.h
- *  33346 change.inl.h  33498 interleave.inl.h  33629 lanes_undef.inl.h
+ *  30874 front.inl.h  30876 product.inl.h  31387 words_undef.inl.h  31464 copy_rows.inl.h
+ *  31502 multi_rhs.inl.h  31521 complex_groups.inl.h  31660 multi_rhs_small.inl.h
+ *  31832 multi_rhs_tiles.inl.h  32109 sweeps.inl.h  32111 unit_triangle.inl.h  32148 two_rhs.inl.h
+ *  32317 small_supernode.inl.h  32498 single_rhs.inl.h  32742 kernel_set.inl.h
+ *  32744 complex_small.inl.h  32914 complex_rows.inl.h  33129 inverse_front.inl.h  33414 row.inl.h
+ *  33444 change.inl.h  33596 interleave.inl.h  33727 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -935,7 +935,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *
  *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, as those of networks and KKT
  *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
- *  the roots have fewer of them.
+ *  the roots have fewer of them. Dissection is not tried where it cannot win: if nearly all
+ *  operations of minimum degree are in one dense block, and on KKT systems with a diagonal Hessian
+ *  and paths as short as those of plane meshes.
  *
  *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
  *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
@@ -11074,7 +11076,30 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
   }
 }
 
-static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, double *flops,
+typedef struct sli_order_cost {
+  double flops;
+  double paths;
+  double widest;
+} sli_order_cost;
+
+static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
+  sl_int k;
+  cost->flops = 0.25 * q->flops;
+  cost->widest = q->widest;
+  cost->paths = 0.0;
+  memset(below, 0, (size_t)q->n * sizeof(sl_int));
+  for (k = 0; k < q->pivots; k++) {
+    const sl_int v = q->sequence[k], width = q->weight[v];
+    const double height = 2.0 * q->node[v].degree + width;
+    below[v] += width;
+    cost->paths += 0.5 * height * width * below[v];
+    if (q->node[v].into != -1) {
+      below[q->node[v].into] += below[v];
+    }
+  }
+}
+
+static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_cost *cost,
                   const sl_allocator *a) {
   sli_quotient q;
   sli_block b = {NULL, 0, 0};
@@ -11098,11 +11123,82 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, double *flop
     sli_quotient_dequeue(&q, pivot);
     sli_quotient_eliminate(&q, pivot);
   }
+  sli_quotient_cost(&q, q.head, cost);
   sli_quotient_write(&q, perm);
-  *flops = 0.25 * q.flops;
   sli_free(a, b.base);
   return SL_OK;
 }
+
+/* src/impl/ordering/graph_kind.h: on which graphs minimum degree may be better than dissection, and on which it is */
+
+static int sli_order_is_irregular(const sli_graph *G, int is_peeled) {
+  uint64_t squares = 0, mean;
+  sl_int v;
+  if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
+    return 0;
+  }
+  for (v = 0; v < G->n; v++) {
+    const uint64_t degree = (uint64_t)(G->begin[v + 1] - G->begin[v]);
+    squares += degree < 1024 ? degree * degree : 1024 * 1024;
+  }
+  mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
+  return mean > 0 && 10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+}
+
+static int sli_order_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
+  sl_int root, head, tail = 0;
+  sl_off e;
+  if (G->begin[G->n] <= 4 * (sl_off)G->n) {
+    return 0;
+  }
+  for (root = 0; root < G->n; root++) {
+    side[root] = -1;
+  }
+  for (root = 0, head = 0; root < G->n; root++) {
+    if (side[root] == -1) {
+      side[root] = 0;
+      queue[tail++] = root;
+    }
+    for (; head < tail; head++) {
+      const sl_int v = queue[head];
+      for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+        const sl_int u = G->to[e];
+        if (side[u] == side[v]) {
+          return 0;
+        }
+        if (side[u] == -1) {
+          side[u] = 1 - side[v];
+          queue[tail++] = u;
+        }
+      }
+    }
+  }
+  return 1;
+}
+
+static int sli_order_is_expanding(const sli_graph *G, sl_int *queue, sl_int *seen) {
+  const int64_t most = (int64_t)G->n * G->n / 8;
+  int64_t entries = 0;
+  sl_int v, tail = 0;
+  memset(seen, 0, (size_t)G->n * sizeof(sl_int));
+  for (v = 0; v < G->n && entries <= most; v++) {
+    if (seen[v] == 0) {
+      tail = sli_levels_search(G, v, queue, tail, seen, 1, most, &entries);
+    }
+  }
+  return entries > most;
+}
+
+static int sli_order_has_core(const sli_order_cost *c) {
+  return c->widest * c->widest * c->widest > 1.5 * c->flops;
+}
+
+static double sli_order_path_share(const sli_order_cost *c, sl_int n) {
+  const double path = c->paths / (double)sli_max(n, 1);
+  return c->flops > 0.0 ? path / c->flops * path / c->flops * path : 0.0;
+}
+#define SLI_ORDER_PATHS_SHORT (0.67 * 0.67 * 0.67)
+#define SLI_ORDER_PATHS_LONG (1.2 * 1.2 * 1.2)
 
 /* src/impl/ordering/order.h: the elimination order: natural, given, or fill-reducing */
 
@@ -11208,20 +11304,6 @@ static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
       opt->purpose == SL_PURPOSE_ONE_FACTOR);
 }
 
-static int sli_order_is_irregular(const sli_graph *G, int is_peeled) {
-  uint64_t squares = 0, mean;
-  sl_int v;
-  if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
-    return 0;
-  }
-  for (v = 0; v < G->n; v++) {
-    const uint64_t degree = (uint64_t)(G->begin[v + 1] - G->begin[v]);
-    squares += degree < 1024 ? degree * degree : 1024 * 1024;
-  }
-  mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
-  return mean > 0 && 10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
-}
-
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                  sl_int *perm, sl_int *scratch, sli_septree *septree,
                  sli_team *team, const sl_allocator *a) {
@@ -11236,10 +11318,10 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
     return SL_OK;
   }
   if (is_hurried) {
-    double flops = 0.0;
-    const sl_status status = sli_order_mindeg(G, perm, &flops, a);
+    sli_order_cost cost = {0.0, 0.0, 0.0};
+    const sl_status status = sli_order_mindeg(G, perm, &cost, a);
     if (status != SL_OK || ordering == SL_ORDERING_MINDEG ||
-      0.5 * flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n] ||
+      0.5 * cost.flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n] ||
       sli_order_is_irregular(G, 1)) {
       return status;
     }
@@ -11304,13 +11386,27 @@ static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering o
                 const sl_options *opt, sl_int *perm, sl_int *scratch,
                 sli_septree *septree, sli_order_choice *choice, sli_team *team,
                 const sl_allocator *a) {
-  sl_status status = sli_order_graph(G, ordering, opt, perm, scratch, septree, team, a);
-  double flops;
-  if (status == SL_OK && choice->is_wanted && sli_order_is_irregular(G, is_peeled)) {
-    status = sli_order_mindeg(G, choice->other, &flops, a);
-    choice->is_there = status == SL_OK;
+  const int is_irregular = choice->is_wanted && sli_order_is_irregular(G, is_peeled);
+  const int may_be_kkt = choice->is_wanted && is_peeled;
+  const int is_bipartite = may_be_kkt && sli_order_is_bipartite(G, perm, scratch);
+  const int is_expanding =
+    may_be_kkt && !is_irregular && !is_bipartite && sli_order_is_expanding(G, perm, scratch);
+  if (is_irregular || is_bipartite || is_expanding) {
+    sli_order_cost cost;
+    const sl_status status = sli_order_mindeg(G, choice->other, &cost, a);
+    const double share = status == SL_OK ? sli_order_path_share(&cost, G->n) : 0.0;
+    if (status != SL_OK) {
+      return status;
+    }
+    if (sli_order_has_core(&cost) ||
+      (is_bipartite && share < SLI_ORDER_PATHS_SHORT)) {
+      memcpy(perm, choice->other, (size_t)G->n * sizeof(sl_int));
+      septree->count = 0;
+      return SL_OK;
+    }
+    choice->is_there = is_irregular && share < SLI_ORDER_PATHS_LONG;
   }
-  return status;
+  return sli_order_graph(G, ordering, opt, perm, scratch, septree, team, a);
 }
 
 static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
@@ -26864,7 +26960,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   sli_team alone = sli_team_of(1);
   sl_int *perm = NULL, *scratch = NULL, k, pass;
   sl_off total = 0;
-  double flops;
+  sli_order_cost cost;
   sl_status status = SL_OK;
   memset(&G, 0, sizeof G);
   memset(&septree, 0, sizeof septree);
@@ -26908,7 +27004,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   }
   if (status == SL_OK) {
     status = sli_order_is_irregular(&G, 0)
-           ? sli_order_mindeg(&G, perm, &flops, a)
+           ? sli_order_mindeg(&G, perm, &cost, a)
            : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
   }
   if (status == SL_OK) {
@@ -30621,6 +30717,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_ORDER_ND_FLOPS
 #undef SLI_ANALYSIS_FLOPS
 #undef SLI_ANALYSIS_RUNS
+#undef SLI_ORDER_PATHS_SHORT
+#undef SLI_ORDER_PATHS_LONG
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_ENTRIES_AHEAD

@@ -21,7 +21,9 @@
  *
  *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, as those of networks and KKT
  *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
- *  the roots have fewer of them.
+ *  the roots have fewer of them. Dissection is not tried where it cannot win: if nearly all
+ *  operations of minimum degree are in one dense block, and on KKT systems with a diagonal Hessian
+ *  and paths as short as those of plane meshes.
  *
  *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
  *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors

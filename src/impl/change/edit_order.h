@@ -105,7 +105,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     sli_team alone = sli_team_of(1);
     sl_int *perm = NULL, *scratch = NULL, k, pass;
     sl_off total = 0;
-    double flops;
+    sli_order_cost cost;
     sl_status status = SL_OK;
     memset(&G, 0, sizeof G);
     memset(&septree, 0, sizeof septree);
@@ -149,7 +149,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     }
     if (status == SL_OK) {
         status = sli_order_is_irregular(&G, 0)
-                     ? sli_order_mindeg(&G, perm, &flops, a)
+                     ? sli_order_mindeg(&G, perm, &cost, a)
                      : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
     }
     if (status == SL_OK) {
