@@ -253,9 +253,12 @@ static void one_program(bench_run *run, bench_report *report, program kind, benc
         race(run, report, &c, "analyze", analyze_calls, 0);
         race(run, report, &c, "refactor", refactor_calls, 0);
         race(run, report, &c, "full solve", solve_calls, 1);
-        bench_report_note(report, "%-14s   nnz(L): LDL %.4g; for one factor %.4g, panels %.4g", "",
-                          peer_ldl_nnz(c.ldl), (double)stats.symbolic.nnz_l,
-                          (double)stats.symbolic.nnz_panels);
+        bench_report_note(report,
+                          "%-14s   nnz(L), panels: LDL %.4g; ours %.4g, %.4g; for one factor "
+                          "%.4g, %.4g",
+                          "", peer_ldl_nnz(c.ldl), (double)system->stats.symbolic.nnz_l,
+                          (double)system->stats.symbolic.nnz_panels,
+                          (double)stats.symbolic.nnz_l, (double)stats.symbolic.nnz_panels);
     }
     peer_ldl_free(c.ldl);
     for (int k = 0; k < 2; k++) {
