@@ -149,6 +149,25 @@ static void both_ways_give_the_same(void **state) {
     assert_true(w.eliminated > 20 && w.back > 0 && w.mixed > 5);
 }
 
+/* Pins that come one by one are eliminated in time. */
+static void single_pins_are_eliminated(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
+    sl_stats stats;
+    sl_int count = 0;
+    SL_CHECK(sl_pins_set_matrix(p.P, &p.y.M.view, NULL));
+    do {
+        assert_true(count < 99);
+        pin_rows(&p, &count, 1, &stats);
+        count++;
+    } while (stats.pins.eliminated == 0);
+    assert_true(count > 2);
+    assert_int_equal(stats.pins.eliminated, count);
+    assert_true(stats.pins.seconds_capacitance > stats.pins.seconds_elimination);
+    assert_pinned(&p, 9);
+    pinned_free(&p);
+}
+
 /* Each allocation of a switch fails once: the pins stay as they were. */
 static void failing_allocations_leave_the_way(void **state) {
     (void)state;
@@ -283,6 +302,7 @@ static void new_numbers_are_taken(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_ways_give_the_same),
+        cmocka_unit_test(single_pins_are_eliminated),
         cmocka_unit_test(failing_allocations_leave_the_way),
         cmocka_unit_test(new_numbers_are_taken),
     };
