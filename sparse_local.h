@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 961461ba003c6698
+ * FNV-1a of the lines after this comment, without the license: e8c455ba971cc494
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20427 bilinear.h  20599 entries.h  20876 block.h  21111 reserve.h  21303 selected.h
  *  21513 selected_query.h  21615 region_choose.h  21842 region.h
  * (change: a factor that follows changes of its matrix)
- *  22090 update.h  22437 path.h  22564 rank.h  22940 edges.h  23094 choose.h  23316 pins_types.h
- *  23395 pins_nulls.h  23578 pins_capacitance.h  23830 pins_balance.h  24008 pins_held.h
- *  24224 pins_choose.h  24282 pins_rebuild.h  24500 pins_matrix.h  24651 pins.h  24920 pins_solve.h
- *  25191 subset.h  25312 restrict_analysis.h  25683 restrict_symbolic.h  25881 restrict.h
- *  26106 edit_match.h  26305 edit_place.h  26554 edit_separate.h  26868 edit_order.h
- *  27023 edit_graph.h  27118 edit_join.h  27394 edit.h  27557 edit_factor.h
+ *  22090 update.h  22437 path.h  22564 rank.h  22940 edges.h  23094 choose.h  23305 pins_types.h
+ *  23384 pins_nulls.h  23567 pins_capacitance.h  23819 pins_balance.h  23997 pins_held.h
+ *  24213 pins_choose.h  24271 pins_rebuild.h  24489 pins_matrix.h  24640 pins.h  24909 pins_solve.h
+ *  25180 subset.h  25301 restrict_analysis.h  25672 restrict_symbolic.h  25870 restrict.h
+ *  26095 edit_match.h  26294 edit_place.h  26543 edit_separate.h  26857 edit_order.h
+ *  27012 edit_graph.h  27107 edit_join.h  27383 edit.h  27546 edit_factor.h
  * (save: factors in files)
- *  27842 format.h  28138 decode.h  28286 check.h  28616 write.h  28921 load.h  29189 load_inverse.h
- *  29519 load_calls.h
+ *  27831 format.h  28127 decode.h  28275 check.h  28605 write.h  28910 load.h  29178 load_inverse.h
+ *  29508 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29718 batch_solve.h  29927 batch_factor.h  30128 batch_diagonal.h
+ *  29707 batch_solve.h  29916 batch_factor.h  30117 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30268 hermitian.h  30430 complex_rows.h
+ *  30257 hermitian.h  30419 complex_rows.h
  * (last: undefine every internal macro)
- *  30598 undef.h
+ *  30587 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30874 front.inl.h  30876 product.inl.h  31387 words_undef.inl.h  31464 copy_rows.inl.h
- *  31502 multi_rhs.inl.h  31521 complex_groups.inl.h  31660 multi_rhs_small.inl.h
- *  31832 multi_rhs_tiles.inl.h  32109 sweeps.inl.h  32111 unit_triangle.inl.h  32148 two_rhs.inl.h
- *  32317 small_supernode.inl.h  32498 single_rhs.inl.h  32742 kernel_set.inl.h
- *  32744 complex_small.inl.h  32914 complex_rows.inl.h  33129 inverse_front.inl.h  33414 row.inl.h
- *  33444 change.inl.h  33596 interleave.inl.h  33727 lanes_undef.inl.h
+ *  30863 front.inl.h  30865 product.inl.h  31376 words_undef.inl.h  31453 copy_rows.inl.h
+ *  31491 multi_rhs.inl.h  31510 complex_groups.inl.h  31649 multi_rhs_small.inl.h
+ *  31821 multi_rhs_tiles.inl.h  32098 sweeps.inl.h  32100 unit_triangle.inl.h  32137 two_rhs.inl.h
+ *  32306 small_supernode.inl.h  32487 single_rhs.inl.h  32731 kernel_set.inl.h
+ *  32733 complex_small.inl.h  32903 complex_rows.inl.h  33118 inverse_front.inl.h  33403 row.inl.h
+ *  33433 change.inl.h  33585 interleave.inl.h  33716 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23111,22 +23111,11 @@ typedef struct sli_way {
   sl_change_reason reason;
 } sli_way;
 
-static double sli_change_flop(sl_isa isa) {
-  switch (isa) {
-  case SL_ISA_AVX512:
-    return 0.0125e-9;
-  case SL_ISA_AVX2:
-    return 0.03e-9;
-  case SL_ISA_NEON:
-    return 0.08e-9;
-  default:
-    return 0.3e-9;
-  }
-}
+static const double sli_change_flop[] = {0.0, 0.3e-9, 0.03e-9, 0.0125e-9, 0.08e-9};
 
 static double sli_way_refactor(const sl_factor *F) {
   const sl_symbolic *S = F->S;
-  return sli_change_flop(F->kernels->isa) * S->stats.symbolic.flops +
+  return sli_change_flop[F->kernels->isa] * S->stats.symbolic.flops +
        SLI_CHANGE_FRONT * S->n_supers +
        SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
@@ -23171,7 +23160,7 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
     }
   }
   c->flops_changed = flops;
-  c->changed = sli_change_flop(F->kernels->isa) * flops + SLI_CHANGE_VISIT * visits +
+  c->changed = sli_change_flop[F->kernels->isa] * flops + SLI_CHANGE_VISIT * visits +
          SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
@@ -23223,7 +23212,7 @@ static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
   status = status == SL_OK ? q->status : status;
   c->flops_update = q->flops;
   c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_PIVOT * q->pivots +
-        0.5 * sli_change_flop(q->u.F->kernels->isa) * q->flops;
+        0.5 * sli_change_flop[q->u.F->kernels->isa] * q->flops;
   c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
   return status;
 }

@@ -11,7 +11,7 @@
 #define SLI_PINS_DENSE 0.2e-9  /* a product in the factor of K */
 #define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
 #define SLI_PINS_COPY 0.6e-9   /* an entry of F that is copied */
-#define SLI_PINS_MEMORY 3e-9   /* an entry of a new factor: 0.5 ns in recycled memory, 5 in new pages */
+#define SLI_PINS_MEMORY 3e-9   /* an entry of a new factor: 0.5 ns in old memory, 5 in new pages */
 
 /* Seconds of new pins by the capacitance matrix, beside `others` that are there. seeds: their
  * columns, ascending; uses: n_supers of scratch, 0 before and after; NULL: for one pin, whose path
