@@ -2,7 +2,7 @@
  * out of balance; weights count where no pin holds */
 #include "tests/lib/zero_mean.h"
 
-enum { N = 60, HALF = 30 };
+enum { N = 120, HALF = 60 }; /* so many rows that they are eliminated */
 
 /* Two paths of springs of 1 side by side. `own` is added to the first row, `other` to row HALF; the
  * springs of the second path are multiplied by scale. */
