@@ -100,6 +100,31 @@ static void large_fronts_with_rows_below_give_the_same_bits(void **state) {
     }
 }
 
+/* After a change of the last pivot both blocks are kept, which are large fronts. */
+static void large_fronts_are_kept(void **state) {
+    (void)state;
+    enum { ROWS = 2 * 101 + 150 };
+    factored_t y = two_large_fronts(101, 150, SL_ISA_AUTO, SL_STORAGE_DOUBLE);
+    sl_int same[ROWS];
+    sl_factor *G[2] = {NULL, NULL};
+    for (sl_int k = 0; k < ROWS; k++) {
+        same[k] = k;
+    }
+    y.M.x[y.M.view.p[ROWS] - 1] += 1.0;
+    for (int k = 0; k < 2; k++) {
+        int calls = 0;
+        const sl_options opt = options_with_threads(run_backwards, k == 0 ? 1 : 4, &calls);
+        sl_stats stats;
+        SL_CHECK(sl_factor_edit(&G[k], y.F, y.S, &y.M.view, same, &opt, &stats));
+        assert_int_equal(stats.reuse.kept, 2 * 101);
+        assert_int_equal(calls > 0, k > 0);
+    }
+    assert_same_bits(G[0], G[1]);
+    sl_factor_free(G[0]);
+    sl_factor_free(G[1]);
+    factored_free(&y);
+}
+
 /* A shared front that fails is reported as it is without threads: a value that is not finite is met
  * before the front, a null pivot after it. */
 static void failures_in_large_fronts_are_reported(void **state) {
@@ -444,6 +469,7 @@ int main(void) {
         cmocka_unit_test(bits_do_not_depend_on_the_thread_count),
         cmocka_unit_test(large_fronts_give_the_same_bits),
         cmocka_unit_test(large_fronts_with_rows_below_give_the_same_bits),
+        cmocka_unit_test(large_fronts_are_kept),
         cmocka_unit_test(failures_in_large_fronts_are_reported),
         cmocka_unit_test(errors_do_not_depend_on_the_thread_count),
         cmocka_unit_test(every_allocation_may_fail),
