@@ -44,6 +44,19 @@ static void pairs_that_overflow_are_refused(void **state) {
     sl_symbolic_free(t.S);
 }
 
+/* The entry between them is 0, and so is the second one on the diagonal. */
+static void a_pair_without_its_entry_is_refused(void **state) {
+    (void)state;
+    static const double values[6] = {1.0, 0.0, 0.0, 1.0, 0.0, 0.0};
+    three_t t;
+    sl_factor *F = NULL;
+    three_make(&t);
+    memcpy(t.x, values, sizeof t.x);
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, t.S, &t.A, NULL, NULL));
+    assert_null(F);
+    sl_symbolic_free(t.S);
+}
+
 /* A diagonal entry of the pivot cancels, and the sum of what it was computed from overflows. */
 static void magnitudes_of_pairs_may_overflow(void **state) {
     (void)state;
@@ -165,6 +178,7 @@ static void pairs_need_no_relaxation(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_that_overflow_are_refused),
+        cmocka_unit_test(a_pair_without_its_entry_is_refused),
         cmocka_unit_test(magnitudes_of_pairs_may_overflow),
         cmocka_unit_test(small_entries_below_pairs_are_dropped_in_float),
         cmocka_unit_test(the_smallest_numbers_are_a_pair),

@@ -274,6 +274,10 @@ static void squares_of_a_grid_match_full_solves(void **state) {
             assert_true(fabs(X[0] - B[0] * Y[0]) <= 4 * DBL_EPSILON * fabs(X[0]));
             sl_plan_free(P);
             sl_region_free(R);
+            SL_CHECK(sl_region_create(&R, y.F, set, 2, all, NULL, &stats)); /* and its neighbor */
+            NOTHING_WRONG(check_region(R, set, 2));
+            assert_in_range(stats.region.boundary, 2, 100); /* the subtree to the root costs more */
+            sl_region_free(R);
             free(full);
             free(B);
             free(X);
