@@ -193,12 +193,46 @@ static void motions_that_pins_leave_need_balance(void **state) {
     }
 }
 
+/* Each allocation of an equality over two singular trees, and of a solve with it, fails once. */
+static void failing_allocations_change_nothing(void **state) {
+    (void)state;
+    const sl_int rows[2] = {3, HALF + 3};
+    const double values[2] = {1.0, 2.0}, g = 3.0;
+    double b[N] = {0.0}, x[N];
+    sl_options opt = options_none();
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    paths_t y = paths_make(two_paths(0.0, 0.0, 1.0), &opt);
+    counter_t counter = counter_make();
+    sl_options counted = options_counted(&counter);
+    sl_pins *P = NULL;
+    SL_CHECK(sl_pins_create(&P, y.F, &counted));
+    sl_status status = SL_ERR_MEMORY;
+    for (int64_t k = 0; status == SL_ERR_MEMORY; k++) {
+        counter.fail_at = (int64_t)counter.calls + k;
+        status = sl_pins_add_equality(P, rows, values, 2, NULL);
+        assert_int_equal(sl_pins_count(P), status == SL_OK);
+    }
+    SL_CHECK(status);
+    status = SL_ERR_MEMORY;
+    for (int64_t k = 0; status == SL_ERR_MEMORY; k++) {
+        counter.fail_at = (int64_t)counter.calls + k;
+        status = sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL);
+    }
+    SL_CHECK(status);
+    assert_true(fabs(x[3] + 2.0 * x[HALF + 3] - g) <= 1e-13);
+    sl_pins_free(P);
+    assert_int_equal(counter.live_blocks, 0);
+    assert_int_equal(counter.damaged, 0);
+    paths_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lost_digits_are_reported_in_each_component),
         cmocka_unit_test(a_second_tree_may_have_an_unknown_null_vector),
         cmocka_unit_test(components_without_pins_are_as_without_a_set),
         cmocka_unit_test(motions_that_pins_leave_need_balance),
+        cmocka_unit_test(failing_allocations_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
