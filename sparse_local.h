@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e8c455ba971cc494
+ * FNV-1a of the lines after this comment, without the license: 0ea8166c9ffa6c93
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -3032,10 +3032,10 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *           entries of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid
  *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
  *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
- *           factoring A[R, R] in a given order; 0.47 for half of the grid. Sets of which nothing is
- *           kept take 1.0 to 1.1 times as long as extracting, analyzing and factoring A[R, R] in
- *           that order, be they bands, lines or rows at random; 1.1 to 1.7 times if A[R, R] is at
- *           hand.
+ *           factoring A[R, R] in a given order; 0.43 for half of the grid. Sets of which nothing is
+ *           kept take 0.95 to 1.15 times as long as extracting, analyzing and factoring A[R, R] in
+ *           that order, be they bands, lines or rows at random, 1.0 to 1.6 times if A[R, R] is at
+ *           hand; more where memory for hundreds of thousands of rows is slow to get.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c

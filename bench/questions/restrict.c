@@ -4,16 +4,14 @@
 
 #include "bench/lib/bench.h"
 
-/* Patches of a 100th, a 10th and half of the vertices, and sets of which little or nothing can be
- * kept: every 10th vertex, every second one, and a band around a patch of a 10th. The baseline is
- * the analysis and factorization of the submatrix, which is given with both triangles, in the order
- * of the whole matrix: the times of its extraction and of an ordering are not included. */
-enum { PATCHES = 3 };
-
+/* Sets of which much, little and nothing can be kept: discs, half of the vertices, a ring, bands
+ * around a vertex, and rows at random. The baseline is the analysis and factorization of the
+ * submatrix in the order of the whole matrix; another contender orders it anew. Both are given the
+ * submatrix, the first one also its order: the times of extraction are not included. */
 typedef struct restricted {
     const bench_system *system;
     bench_patch patch;
-    sl_int *perm; /* the order of the whole matrix */
+    sl_int *perm; /* the order of the whole matrix; NULL: a new one */
     sl_symbolic *S;
     sl_factor *G;
 } restricted;
@@ -37,8 +35,11 @@ static void call_anew(void *state) {
     restricted *c = state;
     sl_options opt;
     sl_options_init(&opt, sizeof opt);
-    opt.ordering = SL_ORDERING_GIVEN;
-    opt.perm = c->perm;
+    if (c->perm != NULL) {
+        opt.ordering = SL_ORDERING_GIVEN;
+        opt.perm = c->perm;
+    }
+    opt.triangle = SL_TRIANGLE_LOWER; /* both are stored */
     bench_must(sl_symbolic_create(&c->S, &c->patch.A, &opt, NULL), "analysis");
     bench_must(sl_factor_create(&c->G, c->S, &c->patch.A, NULL, NULL), "factor");
 }
@@ -85,68 +86,102 @@ static int check(bench_run *run, restricted *c, void (*call)(void *), const char
 /* Times the restriction to a patch, which it releases. */
 static void time_set(bench_run *run, bench_report *report, const bench_system *system,
                      bench_patch patch, const char *shape) {
-    restricted c;
+    restricted c, d;
     memset(&c, 0, sizeof c);
     c.system = system;
     c.patch = patch;
+    d = c;
     c.perm = inherited_order(system, &c.patch);
     if (check(run, &c, call_anew, "anew") && check(run, &c, call_restrict, "restriction")) {
-        const bench_contender contenders[2] = {
+        const bench_contender contenders[3] = {
             {.call = call_anew, .state = &c, .ready = release},
+            {.call = call_anew, .state = &d, .ready = release},
             {.call = call_restrict, .state = &c, .ready = release}};
-        static const char *const methods[2] = {"analyze and factor", "restrict"};
-        bench_sample samples[2];
-        char what[32];
-        snprintf(what, sizeof what, "%s%d rows", shape, (int)c.patch.size);
-        bench_race(samples, contenders, 2, run->seconds);
-        for (int k = 0; k < 2; k++) {
+        static const char *const methods[3] = {"analyze and factor", "order, analyze and factor",
+                                               "restrict"};
+        bench_sample samples[3];
+        char what[40];
+        snprintf(what, sizeof what, "%s %d", shape, (int)c.patch.size);
+        bench_race(samples, contenders, 3, run->seconds);
+        for (int k = 0; k < 3; k++) {
             bench_row row = {.what = what, .method = methods[k], .nrhs = 1};
             row.time = samples[k];
             row.baseline = samples[0].median;
             bench_report_row(report, system, &row);
         }
         release(&c);
+        release(&d);
     }
     free(c.perm);
     bench_patch_free(&c.patch);
 }
 
-/* Every step-th vertex, or of a patch of a 10th of the vertices the last tenth that a breadth-first
- * search finds. */
-static void time_thin(bench_run *run, bench_report *report, const bench_system *system) {
-    const sl_int n = system->n, ring = n / 10;
+static void time_discs(bench_run *run, bench_report *report, const bench_system *system) {
+    const sl_int n = system->n;
+    for (sl_int size = 100; size <= n / 9; size *= 10) {
+        time_set(run, report, system, bench_patch_create(system, n / 2, size), "disc");
+    }
+    time_set(run, report, system, bench_patch_create(system, n / 2, n / 2), "half");
+}
+
+/* Of the breadth-first search from a vertex: the last tenth of the first tenth, and 2 of 16 levels
+ * of all. */
+static void time_bands(bench_run *run, bench_report *report, const bench_system *system) {
+    const adjacency *graph = &system->graph;
+    const sl_int n = system->n;
     sl_int *vertices = bench_alloc((size_t)n, sizeof *vertices);
-    bench_patch patch = bench_patch_create(system, n / 2, ring);
-    sl_int first = patch.size - patch.size / 10;
-    time_set(run, report, system,
-             bench_patch_of(system, patch.vertices + first, patch.size - first), "ring ");
-    bench_patch_free(&patch);
-    for (sl_int step = 2; step <= 10; step += 8) {
-        sl_int count = 0;
-        for (sl_int v = 0; v < n; v += step) {
+    sl_int *level = bench_alloc((size_t)n, sizeof *level), count = 0;
+    const sl_int reached = adjacency_bfs(vertices, n, graph, n / 2, system->seen);
+    const sl_int ring = reached / 10, first = ring - ring / 10;
+    time_set(run, report, system, bench_patch_of(system, vertices + first, ring - first), "ring");
+    for (sl_int v = 0; v < n; v++) {
+        level[v] = -1;
+    }
+    for (sl_int k = 0; k < reached; k++) {
+        const sl_int v = vertices[k];
+        level[v] = k == 0 ? 0 : level[v];
+        for (sl_off p = graph->begin[v]; p < graph->begin[v + 1]; p++) {
+            const sl_int u = graph->neighbor[p];
+            level[u] = level[u] == -1 ? level[v] + 1 : level[u];
+        }
+    }
+    for (sl_int v = 0; v < n; v++) {
+        if (level[v] >= 0 && level[v] % 16 < 2) {
             vertices[count++] = v;
         }
-        time_set(run, report, system, bench_patch_of(system, vertices, count), "thin ");
+    }
+    time_set(run, report, system, bench_patch_of(system, vertices, count), "bands");
+    free(level);
+    free(vertices);
+}
+
+static void time_random(bench_run *run, bench_report *report, const bench_system *system) {
+    sl_int *vertices = bench_alloc((size_t)system->n, sizeof *vertices);
+    static const sl_int one_of[] = {100, 10, 2};
+    for (int k = 0; k < 3; k++) {
+        uint64_t rng = 7;
+        sl_int count = 0;
+        for (sl_int v = 0; v < system->n; v++) {
+            if (bench_random_below(&rng, one_of[k]) == 0) {
+                vertices[count++] = v;
+            }
+        }
+        time_set(run, report, system, bench_patch_of(system, vertices, count), "random");
     }
     free(vertices);
 }
 
 void bench_restrict(bench_run *run) {
     static const double wanted[] = {1e4, 1e5, 1e6};
-    static const sl_int parts[PATCHES] = {100, 10, 2};
     const bench_system *systems[3];
     const int count = bench_systems(run, wanted, 3, systems);
     bench_report *report =
         bench_report_open(run, "restrict", "the factor of a patch", "analyze and factor");
     for (int k = 0; k < count; k++) {
-        for (int part = 0; part < PATCHES; part++) {
-            time_set(run, report, systems[k],
-                     bench_patch_create(systems[k], systems[k]->n / 2,
-                                        systems[k]->n / parts[part]),
-                     "");
-        }
-        time_thin(run, report, systems[k]);
+        time_discs(run, report, systems[k]);
+        time_bands(run, report, systems[k]);
+        time_random(run, report, systems[k]);
     }
-    bench_report_note(report, "the submatrix is given, in the order of the whole one");
+    bench_report_note(report, "the submatrix is given, and for the baseline its order");
     bench_report_close(report);
 }
