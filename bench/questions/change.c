@@ -9,8 +9,9 @@
  * a complete one. The baseline is the local solve with b and x at one end of the edge: a forward
  * and a backward sweep on about the same path. Each update is undone by a downdate that is not
  * timed, and the other way round. Eight vertices in one place change by one pass of rank 8. Pins
- * are added and released again, one alone and the hundredth in one place. */
-enum { EDGES = 16, RANK = 8, PINS = 100 };
+ * are added and released again, one alone and the hundredth in one place. Many pins in one place are
+ * added in one call, once without the matrix, then with it, where they may be eliminated. */
+enum { EDGES = 16, RANK = 8, PINS = 100, MANY = 400 };
 
 typedef struct change {
     const bench_system *system;
@@ -22,7 +23,7 @@ typedef struct change {
     double w;
     sl_stats stats;
     sl_pins *pins;
-    sl_int held[PINS];
+    sl_int held[MANY];
     double values[PINS];
 } change;
 
@@ -129,6 +130,20 @@ static void ready_hundred(void *state) {
     }
 }
 
+static void call_many(void *state) {
+    change *c = state;
+    bench_must(sl_pins_add_rows(c->pins, c->held, MANY, &c->stats), "pins");
+}
+
+static void ready_many(void *state) {
+    change *c = state;
+    sl_int indices[MANY];
+    for (sl_int k = 0; k < MANY; k++) {
+        indices[k] = k;
+    }
+    bench_must(sl_pins_release_rows(c->pins, indices, sl_pins_count(c->pins), NULL), "release");
+}
+
 /* ---- one system ---- */
 
 static change *change_create(const bench_system *system) {
@@ -148,7 +163,7 @@ static change *change_create(const bench_system *system) {
                    "plan");
         bench_patch_free(&p);
     }
-    bench_patch p = bench_patch_create(system, c->i[0], PINS);
+    bench_patch p = bench_patch_create(system, c->i[0], MANY);
     memcpy(c->held, p.vertices, sizeof c->held);
     bench_patch_free(&p);
     for (sl_int k = 0; k < system->A.p[1]; k++) {
@@ -221,6 +236,14 @@ static void time_system(bench_run *run, bench_report *report, const bench_system
             bench_must(sl_pins_release(c->pins, PINS - 1), "release");
         }
         race(run, report, c, "pin 100, solve, rel.", (bench_contender){.call = call_pin}, one);
+        const bench_contender many = {.call = call_many, .ready = ready_many};
+        ready_hundred(c);
+        race(run, report, c, "400 pins, no matrix", many, one);
+        ready_many(c);
+        bench_must(sl_pins_set_matrix(c->pins, &system->A, NULL), "matrix of the pins");
+        race(run, report, c, "400 pins, matrix", many, one);
+        bench_report_note(report, "with the matrix %d of %d pins were eliminated",
+                          (int)c->stats.pins.eliminated, MANY);
     }
     change_free(c);
 }
