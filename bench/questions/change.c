@@ -9,8 +9,8 @@
  * a complete one. The baseline is the local solve with b and x at one end of the edge: a forward
  * and a backward sweep on about the same path. Each update is undone by a downdate that is not
  * timed, and the other way round. Eight vertices in one place change by one pass of rank 8. Pins
- * are added and released again, one alone and the hundredth in one place. Many pins in one place are
- * added in one call, once without the matrix, then with it, where they may be eliminated. */
+ * are added and released again, one alone and the hundredth in one place. Many pins in one place
+ * are added in one call, without the matrix, then with it, where they may be eliminated. */
 enum { EDGES = 16, RANK = 8, PINS = 100, MANY = 400 };
 
 typedef struct change {
