@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0ea8166c9ffa6c93
+ * FNV-1a of the lines after this comment, without the license: ba83d44901b27d18
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -32632,7 +32632,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
   }
 }
 
-#define SLI_FEW_STEPS 4096
+#define SLI_FEW_STEPS 512
 
 SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
                        const sl_int *rows_end, const void *values,

@@ -157,9 +157,10 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(diagonal)(const SLV_VALUE *l, sl_int inne
 }
 
 /* A sweep of at most so many steps is assumed to find L in a cache, where it is faster to read two
- * row tiles at a time. From main memory the hardware prefetcher keeps up only if the panels are
- * read in strict order. The bits are the same. */
-#define SLI_FEW_STEPS 4096
+ * row tiles at a time. From farther away the hardware prefetcher keeps up only if the panels are
+ * read in strict order: with 1000 to 4000 steps of 30 MB that takes 0.83 to 1.0 of the time. The
+ * bits are the same. */
+#define SLI_FEW_STEPS 512
 
 /* buf: the rows of two tiles, then the sums. */
 SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
