@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 19c2444913889a03
+ * FNV-1a of the lines after this comment, without the license: 6d67f00f7090b4b2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -481,7 +481,7 @@ typedef struct sl_options {
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
     /* SL_PURPOSE_ONE_FACTOR: SL_ORDERING_ND orders by minimum degree where dissection would take
-     * longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
+     * longer than it saves, and thin graphs by breadth-first search, with up to twice the
      * entries of L; relaxation merges more, for fewer fronts and slower solves */
     sl_purpose purpose;
 

@@ -74,7 +74,7 @@ typedef struct sl_options {
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
     /* SL_PURPOSE_ONE_FACTOR: SL_ORDERING_ND orders by minimum degree where dissection would take
-     * longer than it saves, and thin graphs by breadth-first search, with up to 1.6 times the
+     * longer than it saves, and thin graphs by breadth-first search, with up to twice the
      * entries of L; relaxation merges more, for fewer fronts and slower solves */
     sl_purpose purpose;
 
