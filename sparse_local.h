@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6d67f00f7090b4b2
+ * FNV-1a of the lines after this comment, without the license: c23ec132c14dd98b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -30766,6 +30766,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_ORDER_TINY
 #undef SLI_COARSEN_STALL
 #undef SLI_LEVELS_MAX
+#undef SLI_LEVELS_MOST
+#undef SLI_LEVELS_TRY
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE
 #undef SLI_FLOW_NONE
@@ -30784,7 +30786,6 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND
 #undef SLI_DISSECT_BAND_FROM
-#undef SLI_FLAT_ENOUGH
 #undef SLI_POINTS_MANY
 #undef SLI_POINTS_TRIED
 #undef SLI_ND_DENSE_ROW
@@ -30840,13 +30841,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PINS_OTHER
 #undef SLI_PINS_OTHER_FLOAT
 #undef SLI_NULL_VECTORS_MAX
-#undef SLI_PAGES_PER_COLUMN
-#undef SLI_PAGE_BITS
-#undef SLI_PAGE_COLUMNS
 #undef SLI_POINTS_FEW
 #undef SLI_READ_VERSION_DOUBLE
 #undef SLI_RESTRICT_AHEAD
 #undef SLI_RESTRICT_KEPT
+#undef SLI_SUBSET_BITS
+#undef SLI_SUBSET_WORDS
 #undef SLI_SUBSET_AHEAD
 #undef SLI_WRITE_VERSION_PLAIN
 #endif

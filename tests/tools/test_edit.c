@@ -32,10 +32,12 @@ static void every_edit_is_followed(void **state) {
         }
         assert_true(edits > 100);
         assert_int_equal(ways[EDIT_ANEW] > 0, kind == EDIT_FLIP);
-        /* on so small a mesh a pin changes a good part of the factor */
-        assert_true(ways[kind == EDIT_FLIP     ? EDIT_OUTSIDE
-                         : kind == EDIT_WEIGHT ? EDIT_UPDATE
-                                               : EDIT_REACH] > edits / 4);
+        if (kind == EDIT_FLIP) {
+            assert_true(ways[EDIT_OUTSIDE] > edits / 4);
+        } else { /* on so small a mesh the cheapest way depends on the processor */
+            assert_int_equal(ways[EDIT_UPDATE] + ways[EDIT_REACH] + ways[EDIT_REFACTOR], edits);
+            assert_true(kind != EDIT_WEIGHT || ways[EDIT_UPDATE] > edits / 4);
+        }
         if (kind == EDIT_FLIP) {
             sl_matrix *want = NULL;
             assert_true(laplacian_system(&want, &e.faces.m, edge * edge));
