@@ -365,8 +365,9 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 	@printf '| platform | compiler | run | passed | failed | skipped |\n|---|---|---|---|---|---|\n'
 	@cat build/platforms/*.txt
 
+# With SL_VERIFY tasks are small in any case.
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
-	@+$(SUB_MAKE) run-tests B=build/sanitize OPT='-O1 -g -fno-var-tracking -fno-omit-frame-pointer -DSL_VERIFY \
+	@+$(SUB_MAKE) run-tests B=build/sanitize SMALL_TASK_TESTS= OPT='-O1 -g -fno-var-tracking -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
