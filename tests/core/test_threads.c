@@ -12,6 +12,13 @@ static sl_options options_with_threads(sl_parallel_for run, sl_int count, int *c
     return opt;
 }
 
+/* The options of a workspace, which reads threads alone. */
+static sl_options options_of_workers(sl_int count, int *calls) {
+    sl_options opt = options_with_threads(run_backwards, count, calls);
+    opt.method = SL_METHOD_AUTO;
+    return opt;
+}
+
 static void assert_same_bits_for_any_thread_count(gen_kind_t kind, sl_int size, sl_isa isa) {
     sl_options opt = options_none();
     opt.isa = isa;
@@ -276,7 +283,7 @@ static void check_workers(const sl_factor *F, const sl_plan *P, size_t n, sl_int
     double *B = test_reals(n * (size_t)nrhs), *X = test_reals(n * (size_t)nrhs),
            *Y = test_reals(n * (size_t)nrhs);
     int calls = 0;
-    const sl_options opt = options_with_threads(run_backwards, workers, &calls);
+    const sl_options opt = options_of_workers(workers, &calls);
     sl_work *W = NULL;
     gen_reals(B, n * (size_t)nrhs, 6);
     memset(X, 0, n * (size_t)nrhs * sizeof *X);
@@ -359,7 +366,7 @@ static void check_blocks(const sl_factor *F, size_t n) {
 static void some_systems_are_left_to_one_worker(void **state) {
     (void)state;
     int calls = 0;
-    const sl_options many = options_with_threads(run_backwards, 4, &calls);
+    const sl_options many = options_of_workers(4, &calls);
     for (int k = 0; k < 3; k++) {
         sl_options opt = options_none();
         opt.ordering = k == 0 ? SL_ORDERING_NATURAL : SL_ORDERING_ND;
