@@ -426,14 +426,17 @@ static void failing_allocations(void **state) {
     pair_free(&y);
 }
 
-/* Restricted to two of three blocks, in two orders: where a block is split, L is in double. */
+enum { FORWARD, REVERSED, HALVES, WAYS_TO_RESTRICT };
+
+/* Restricted to two of three blocks, in two orders, and to halves of neighbors: where a block is
+ * split, L is in double. */
 static void check_restricted(const pair_t *y, sl_isa isa) {
     (void)isa;
-    for (int reversed = 0; reversed < 2; reversed++) {
+    for (int way = 0; way < WAYS_TO_RESTRICT; way++) {
         sl_int *rows = test_ints((size_t)y->n), count = 0;
         for (sl_int k = 0; k < y->n; k++) {
-            rows[count] = reversed ? y->n - 1 - k : k;
-            count += rows[count] / 2 % 3 > 0;
+            rows[count] = way == REVERSED ? y->n - 1 - k : k;
+            count += way == HALVES ? k > 0 && k + 1 < y->n : rows[count] / 2 % 3 > 0;
         }
         const size_t n = (size_t)count, ld = n > 0 ? n : 1;
         double *b = test_reals(n), *x[2] = {test_reals(n), test_reals(n)}, most = 0.0;
@@ -444,7 +447,7 @@ static void check_restricted(const pair_t *y, sl_isa isa) {
             sl_stats stats;
             SL_CHECK(sl_factor_restrict(&S, &G, y->F[k], &y->A, rows, count, NULL, &stats));
             assert_true(k == 0 || stats.restriction.kept == 0);
-            assert_int_equal(stats.storage, k == 1 && (reversed == 0 || n == 0)
+            assert_int_equal(stats.storage, k == 1 && (way == FORWARD || n == 0)
                                                 ? SL_STORAGE_COMPLEX
                                                 : SL_STORAGE_DOUBLE);
             SL_CHECK(sl_factor_solve(G, x[k], ld, b, ld, 1, NULL));

@@ -97,6 +97,17 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
     return opt;
 }
 
+/* Are the rows of R whole pairs, so that A[R, R] is the form of a complex matrix as A is? */
+static int sli_restrict_is_complex(const sli_restriction *r) {
+    sl_int k;
+    for (k = 0; k + 1 < r->R.count; k += 2) {
+        if (r->rows[k] % 2 != 0 || r->rows[k + 1] != r->rows[k] + 1) {
+            return 0;
+        }
+    }
+    return k == r->R.count;
+}
+
 /* Creates the factor over its analysis. */
 static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
                                      sli_restriction *r, const sl_options *rules, sl_stats *stats) {
@@ -104,8 +115,11 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     sl_factor *G = NULL;
     sl_status status;
     opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
-    opt.storage = F->storage == SL_STORAGE_COMPLEX && !sli_rows_are_paired(S) ? SL_STORAGE_DOUBLE
-                                                                              : F->storage;
+    opt.storage = F->storage;
+    if (F->storage == SL_STORAGE_COMPLEX &&
+        (!sli_restrict_is_complex(r) || !sli_rows_are_paired(S))) {
+        opt.storage = SL_STORAGE_DOUBLE;
+    }
     status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
     status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
     if (status == SL_OK) {
