@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c23ec132c14dd98b
+ * FNV-1a of the lines after this comment, without the license: 2c38831b0f0428e5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20427 bilinear.h  20599 entries.h  20876 block.h  21111 reserve.h  21303 selected.h
  *  21513 selected_query.h  21615 region_choose.h  21842 region.h
  * (change: a factor that follows changes of its matrix)
- *  22090 update.h  22437 path.h  22564 rank.h  22940 edges.h  23094 choose.h  23305 pins_types.h
- *  23384 pins_nulls.h  23567 pins_capacitance.h  23819 pins_balance.h  23997 pins_held.h
- *  24213 pins_choose.h  24271 pins_rebuild.h  24489 pins_matrix.h  24640 pins.h  24909 pins_solve.h
- *  25180 subset.h  25301 restrict_analysis.h  25672 restrict_symbolic.h  25870 restrict.h
- *  26095 edit_match.h  26294 edit_place.h  26543 edit_separate.h  26857 edit_order.h
- *  27012 edit_graph.h  27107 edit_join.h  27383 edit.h  27546 edit_factor.h
+ *  22090 update.h  22443 path.h  22570 rank.h  22946 edges.h  23100 choose.h  23311 pins_types.h
+ *  23390 pins_nulls.h  23573 pins_capacitance.h  23825 pins_balance.h  24003 pins_held.h
+ *  24219 pins_choose.h  24277 pins_rebuild.h  24495 pins_matrix.h  24646 pins.h  24915 pins_solve.h
+ *  25186 subset.h  25307 restrict_analysis.h  25678 restrict_symbolic.h  25876 restrict.h
+ *  26114 edit_match.h  26313 edit_place.h  26562 edit_separate.h  26876 edit_order.h
+ *  27031 edit_graph.h  27126 edit_join.h  27402 edit.h  27565 edit_factor.h
  * (save: factors in files)
- *  27831 format.h  28127 decode.h  28275 check.h  28605 write.h  28910 load.h  29178 load_inverse.h
- *  29508 load_calls.h
+ *  27850 format.h  28146 decode.h  28294 check.h  28624 write.h  28929 load.h  29197 load_inverse.h
+ *  29527 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29707 batch_solve.h  29916 batch_factor.h  30117 batch_diagonal.h
+ *  29726 batch_solve.h  29935 batch_factor.h  30136 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30257 hermitian.h  30419 complex_rows.h
+ *  30276 hermitian.h  30438 complex_rows.h
  * (last: undefine every internal macro)
- *  30587 undef.h
+ *  30606 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30863 front.inl.h  30865 product.inl.h  31376 words_undef.inl.h  31453 copy_rows.inl.h
- *  31491 multi_rhs.inl.h  31510 complex_groups.inl.h  31649 multi_rhs_small.inl.h
- *  31821 multi_rhs_tiles.inl.h  32098 sweeps.inl.h  32100 unit_triangle.inl.h  32137 two_rhs.inl.h
- *  32306 small_supernode.inl.h  32487 single_rhs.inl.h  32731 kernel_set.inl.h
- *  32733 complex_small.inl.h  32903 complex_rows.inl.h  33118 inverse_front.inl.h  33403 row.inl.h
- *  33433 change.inl.h  33585 interleave.inl.h  33716 lanes_undef.inl.h
+ *  30882 front.inl.h  30884 product.inl.h  31395 words_undef.inl.h  31472 copy_rows.inl.h
+ *  31510 multi_rhs.inl.h  31529 complex_groups.inl.h  31668 multi_rhs_small.inl.h
+ *  31840 multi_rhs_tiles.inl.h  32117 sweeps.inl.h  32119 unit_triangle.inl.h  32156 two_rhs.inl.h
+ *  32325 small_supernode.inl.h  32506 single_rhs.inl.h  32750 kernel_set.inl.h
+ *  32752 complex_small.inl.h  32922 complex_rows.inl.h  33137 inverse_front.inl.h  33422 row.inl.h
+ *  33452 change.inl.h  33604 interleave.inl.h  33735 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22180,6 +22180,12 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
   info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
+static double sli_update_cancelled(const sl_factor *F, double d, double e) {
+  const sl_factor_info *info = &F->stats.factor;
+  const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
+  return d != 0.0 && fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
+}
+
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
   sl_factor *F = u->F;
   const double d = F->D[k];
@@ -22193,7 +22199,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_ERR_PIVOT;
   }
   if (!u->is_trial) {
-    u->most = magnitude > u->most ? magnitude : u->most;
+    u->most = fmax(u->most, fmax(magnitude, sli_update_cancelled(F, d, e)));
     u->top = fabs(e) > u->top ? fabs(e) : u->top;
     sli_update_count(&F->stats.factor, d, e);
     F->D[k] = e;
@@ -22492,7 +22498,7 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
   for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
     const double d = D[j], e = one->e[j], size = fabs(e);
     const double magnitude = fabs(d) + fabs(e - d);
-    if (e * u->sign >= DBL_MIN && size <= DBL_MAX &&
+    if (e * u->sign >= DBL_MIN && size <= DBL_MAX && size <= 4.0 * fabs(d) &&
       (size >= fabs(d) || u->is_tried || !sli_is_null(e, magnitude + known, tolerance))) {
       if (!u->is_trial) {
         u->most = magnitude > u->most ? magnitude : u->most;
@@ -25957,14 +25963,27 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
   return opt;
 }
 
+static int sli_restrict_is_complex(const sli_restriction *r) {
+  sl_int k;
+  for (k = 0; k + 1 < r->R.count; k += 2) {
+    if (r->rows[k] % 2 != 0 || r->rows[k + 1] != r->rows[k] + 1) {
+      return 0;
+    }
+  }
+  return k == r->R.count;
+}
+
 static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
                    sli_restriction *r, const sl_options *rules, sl_stats *stats) {
   sl_options opt = *rules;
   sl_factor *G = NULL;
   sl_status status;
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
-  opt.storage = F->storage == SL_STORAGE_COMPLEX && !sli_rows_are_paired(S) ? SL_STORAGE_DOUBLE
-                                        : F->storage;
+  opt.storage = F->storage;
+  if (F->storage == SL_STORAGE_COMPLEX &&
+    (!sli_restrict_is_complex(r) || !sli_rows_are_paired(S))) {
+    opt.storage = SL_STORAGE_DOUBLE;
+  }
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
   status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;
   if (status == SL_OK) {

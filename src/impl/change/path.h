@@ -68,7 +68,7 @@ static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s)
     for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
         const double d = D[j], e = one->e[j], size = fabs(e);
         const double magnitude = fabs(d) + fabs(e - d);
-        if (e * u->sign >= DBL_MIN && size <= DBL_MAX &&
+        if (e * u->sign >= DBL_MIN && size <= DBL_MAX && size <= 4.0 * fabs(d) &&
             (size >= fabs(d) || u->is_tried || !sli_is_null(e, magnitude + known, tolerance))) {
             if (!u->is_trial) {
                 u->most = magnitude > u->most ? magnitude : u->most;

@@ -113,6 +113,14 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
     info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
+/* Where a pivot grows, what is added to a row of L cancels the row: the error is that of the old row,
+ * times the new pivot. An entry of the row is at most the root of the largest |l d l| over |d|. */
+static double sli_update_cancelled(const sl_factor *F, double d, double e) {
+    const sl_factor_info *info = &F->stats.factor;
+    const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
+    return d != 0.0 && fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
+}
+
 /* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
     sl_factor *F = u->F;
@@ -127,7 +135,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         return SL_ERR_PIVOT;
     }
     if (!u->is_trial) {
-        u->most = magnitude > u->most ? magnitude : u->most;
+        u->most = fmax(u->most, fmax(magnitude, sli_update_cancelled(F, d, e)));
         u->top = fabs(e) > u->top ? fabs(e) : u->top;
         sli_update_count(&F->stats.factor, d, e);
         F->D[k] = e;
