@@ -113,8 +113,9 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
     info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
-/* Where a pivot grows, what is added to a row of L cancels the row: the error is that of the old row,
- * times the new pivot. An entry of the row is at most the root of the largest |l d l| over |d|. */
+/* Where a pivot grows, what is added to a row of L cancels the row: the error is that of the old
+ * row, times the new pivot. An entry of the row is at most the root of the largest |l d l| over
+ * |d|. */
 static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     const sl_factor_info *info = &F->stats.factor;
     const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
