@@ -249,7 +249,7 @@ def test_l_in_float(A):
     x = F.solve(b)
     error = np.abs(x - exact).max() / np.abs(exact).max()
     assert 1e-10 < error < 1e-5
-    assert F.stats["factor"]["bytes"] < 0.8 * sl.Factor(A).stats["factor"]["bytes"]
+    assert F.stats["factor"]["bytes"] < 0.85 * sl.Factor(A).stats["factor"]["bytes"]
     x, backward = F.refine(A, x, b, steps=3)
     assert backward < 1e-14 and np.allclose(x, exact, rtol=1e-12, atol=1e-13)
     with pytest.raises(sl.ArgumentError):
@@ -449,7 +449,7 @@ def test_singular_and_indefinite():
     b -= b.mean()
     assert np.allclose(A @ F.solve(b), b)
     x = sl.Factor(A, null_pivots="skip", mass=np.ones(36)).solve(np.arange(36.0))
-    assert abs(x.sum()) < 1e-12
+    assert abs(x.sum()) < 1e-13 * abs(x).sum()
     indefinite = grid(4).tolil()
     indefinite[6, 6] = -50
     F = sl.Factor(indefinite)
