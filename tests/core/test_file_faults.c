@@ -77,9 +77,7 @@ int fsync(int file) {
 #define chmod faulty_chmod
 #define open(...) FAULTY_OPEN(__VA_ARGS__, 0, 0)
 
-#if !defined(SL_NO_SIMD)
-#define SL_NO_SIMD /* files know no kernels: this compiles quickly */
-#endif
+#include "tests/lib/no_kernels.h"
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/saved_set.h"
 #include "tests/lib/temporary_files.h"

@@ -1,8 +1,6 @@
 /* test_ordering_threads.c: analyses by several threads: the same order, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
-#if !defined(SL_NO_SIMD)
-#define SL_NO_SIMD /* analyses know no kernels: this compiles quickly */
-#endif
+#include "tests/lib/no_kernels.h"
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SLI_SMALL_TASKS 1 /* small graphs are ordered by several workers, too */
 #include "tests/lib/kkt.h"

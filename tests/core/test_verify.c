@@ -2,9 +2,7 @@
 #if !defined(SL_VERIFY)
 #define SL_VERIFY
 #endif
-#if !defined(SL_NO_SIMD)
-#define SL_NO_SIMD /* options are checked before any kernel: this compiles quickly */
-#endif
+#include "tests/lib/no_kernels.h"
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include "tests/lib/option_calls.h"
 
