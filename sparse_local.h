@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2c38831b0f0428e5
+ * FNV-1a of the lines after this comment, without the license: 9c00cd983f0a77e4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -50,42 +50,42 @@
  *  11557 symbolic_types.h  11594 etree.h  11669 counts.h  11718 supernodes.h  11959 pattern.h
  *  12045 structure.h  12239 schedule.h  12519 symbolic.h  12967 reach.h
  * (factor: the numbers of L and D)
- *  13238 factor_types.h  13658 storage.h  13798 pivot_search.h  14144 pivoted.h  14213 scatter.h
- *  14371 uplooking.h  14443 null_product.h  14647 null_dense.h  14724 null_basis.h
- *  15032 null_vectors.h  15174 multifrontal.h  15368 gather.h  15416 kept.h  15586 front_tasks.h
- *  15929 nullspace.h  16132 growth.h  16210 factor_setup.h  16532 factor.h  16742 leftlooking.h
- *  16889 factor_query.h  17024 combination.h
+ *  13238 factor_types.h  13658 storage.h  13796 pivot_search.h  14142 pivoted.h  14211 scatter.h
+ *  14369 uplooking.h  14441 null_product.h  14645 null_dense.h  14722 null_basis.h
+ *  15030 null_vectors.h  15172 multifrontal.h  15366 gather.h  15414 kept.h  15584 front_tasks.h
+ *  15927 nullspace.h  16130 growth.h  16208 factor_setup.h  16534 factor.h  16744 leftlooking.h
+ *  16891 factor_query.h  17026 combination.h
  * (solve: full and local solves)
- *  17085 region_types.h  17189 work.h  17289 query.h  17505 singular.h  17779 backward.h
- *  17809 sweep_tasks.h  18140 sweep.h  18351 compile.h  18544 plan.h  18651 local.h  18803 parts.h
- *  19092 refine.h  19271 refine_local.h  19487 rcond.h  19646 defects.h
+ *  17087 region_types.h  17191 work.h  17291 query.h  17507 singular.h  17781 backward.h
+ *  17811 sweep_tasks.h  18142 sweep.h  18353 compile.h  18546 plan.h  18653 local.h  18805 parts.h
+ *  19094 refine.h  19273 refine_local.h  19489 rcond.h  19648 defects.h
  * (inverse: entries of the inverse, regions)
- *  19724 traversal.h  19973 traversal_run.h  20166 row_sets.h  20200 unit_vectors.h
- *  20427 bilinear.h  20599 entries.h  20876 block.h  21111 reserve.h  21303 selected.h
- *  21513 selected_query.h  21615 region_choose.h  21842 region.h
+ *  19726 traversal.h  19975 traversal_run.h  20168 row_sets.h  20202 unit_vectors.h
+ *  20429 bilinear.h  20601 entries.h  20878 block.h  21113 reserve.h  21305 selected.h
+ *  21515 selected_query.h  21617 region_choose.h  21844 region.h
  * (change: a factor that follows changes of its matrix)
- *  22090 update.h  22443 path.h  22570 rank.h  22946 edges.h  23100 choose.h  23311 pins_types.h
- *  23390 pins_nulls.h  23573 pins_capacitance.h  23825 pins_balance.h  24003 pins_held.h
- *  24219 pins_choose.h  24277 pins_rebuild.h  24495 pins_matrix.h  24646 pins.h  24915 pins_solve.h
- *  25186 subset.h  25307 restrict_analysis.h  25678 restrict_symbolic.h  25876 restrict.h
- *  26114 edit_match.h  26313 edit_place.h  26562 edit_separate.h  26876 edit_order.h
- *  27031 edit_graph.h  27126 edit_join.h  27402 edit.h  27565 edit_factor.h
+ *  22092 update.h  22445 path.h  22572 rank.h  22948 edges.h  23102 choose.h  23313 pins_types.h
+ *  23392 pins_nulls.h  23575 pins_capacitance.h  23827 pins_balance.h  24005 pins_held.h
+ *  24221 pins_choose.h  24279 pins_rebuild.h  24497 pins_matrix.h  24648 pins.h  24917 pins_solve.h
+ *  25188 subset.h  25309 restrict_analysis.h  25680 restrict_symbolic.h  25878 restrict.h
+ *  26106 edit_match.h  26305 edit_place.h  26554 edit_separate.h  26868 edit_order.h
+ *  27023 edit_graph.h  27118 edit_join.h  27394 edit.h  27557 edit_factor.h
  * (save: factors in files)
- *  27850 format.h  28146 decode.h  28294 check.h  28624 write.h  28929 load.h  29197 load_inverse.h
- *  29527 load_calls.h
+ *  27842 format.h  28138 decode.h  28286 check.h  28616 write.h  28921 load.h  29189 load_inverse.h
+ *  29519 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29726 batch_solve.h  29935 batch_factor.h  30136 batch_diagonal.h
+ *  29718 batch_solve.h  29927 batch_factor.h  30128 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30276 hermitian.h  30438 complex_rows.h
+ *  30268 hermitian.h  30430 complex_rows.h
  * (last: undefine every internal macro)
- *  30606 undef.h
+ *  30598 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30882 front.inl.h  30884 product.inl.h  31395 words_undef.inl.h  31472 copy_rows.inl.h
- *  31510 multi_rhs.inl.h  31529 complex_groups.inl.h  31668 multi_rhs_small.inl.h
- *  31840 multi_rhs_tiles.inl.h  32117 sweeps.inl.h  32119 unit_triangle.inl.h  32156 two_rhs.inl.h
- *  32325 small_supernode.inl.h  32506 single_rhs.inl.h  32750 kernel_set.inl.h
- *  32752 complex_small.inl.h  32922 complex_rows.inl.h  33137 inverse_front.inl.h  33422 row.inl.h
- *  33452 change.inl.h  33604 interleave.inl.h  33735 lanes_undef.inl.h
+ *  30874 front.inl.h  30876 product.inl.h  31387 words_undef.inl.h  31464 copy_rows.inl.h
+ *  31502 multi_rhs.inl.h  31521 complex_groups.inl.h  31660 multi_rhs_small.inl.h
+ *  31832 multi_rhs_tiles.inl.h  32109 sweeps.inl.h  32111 unit_triangle.inl.h  32148 two_rhs.inl.h
+ *  32317 small_supernode.inl.h  32498 single_rhs.inl.h  32742 kernel_set.inl.h
+ *  32744 complex_small.inl.h  32914 complex_rows.inl.h  33129 inverse_front.inl.h  33414 row.inl.h
+ *  33444 change.inl.h  33596 interleave.inl.h  33727 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13743,26 +13743,24 @@ static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
   }
 }
 
+static int sli_are_pairs(const sl_int *rows, sl_int count) {
+  sl_int k;
+  for (k = 0; k + 1 < count; k += 2) {
+    if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
+      return 0;
+    }
+  }
+  return k == count;
+}
+
 static int sli_rows_are_paired(const sl_symbolic *S) {
-  sl_int s, k;
-  for (k = 0; k < S->n; k += 2) {
-    if (k + 1 == S->n || S->perm[k] % 2 != 0 || S->perm[k + 1] != S->perm[k] + 1) {
-      return 0;
-    }
-  }
-  for (s = 0; s < S->n_supers; s++) {
+  sl_int s, is_paired = sli_are_pairs(S->perm, S->n);
+  for (s = 0; s < S->n_supers && is_paired; s++) {
     const sli_step *step = &S->steps[s];
-    const sl_int *rows = S->rows + S->rows_begin[s];
-    if (step->column % 2 != 0 || step->below % 2 != 0) {
-      return 0;
-    }
-    for (k = 0; k < step->below; k += 2) {
-      if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
-        return 0;
-      }
-    }
+    is_paired =
+      step->column % 2 == 0 && sli_are_pairs(S->rows + S->rows_begin[s], step->below);
   }
-  return 1;
+  return is_paired;
 }
 
 static int sli_matrix_is_complex(const sl_csc *A) {
@@ -16383,6 +16381,10 @@ static int sli_factor_options_are_valid(const sl_options *opt) {
 
 SLI_INLINE double sli_limit(double option, double limit) {
   return option == 0.0 ? limit : option < 0.0 ? (double)INFINITY : option;
+}
+
+static double sli_limit_option(double limit) {
+  return limit <= DBL_MAX ? limit : -1.0;
 }
 
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
@@ -24112,7 +24114,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
   opt.null_tolerance = F->rule.null_tolerance;
   opt.consistency_tolerance = F->consistency;
   opt.mass = F->mass;
-  opt.growth_limit = F->growth_limit <= DBL_MAX ? F->growth_limit : -1.0;
+  opt.growth_limit = sli_limit_option(F->growth_limit);
   status = sli_factor_new(G, F->S, &opt, NULL);
   if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
     memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));
@@ -25952,8 +25954,8 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
   sl_int k;
   opt.null_tolerance = F->rule.null_tolerance;
   opt.regularization = F->rule.regularization;
-  opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
-  opt.error_limit = sli_is_finite(F->error_limit) ? F->error_limit : -1.0;
+  opt.growth_limit = sli_limit_option(F->growth_limit);
+  opt.error_limit = sli_limit_option(F->error_limit);
   if (opt.regularization != 0.0 && F->rule.signs != NULL) {
     for (k = 0; k < r->R.count; k++) {
       signs[r->R.row_of[k]] = F->rule.signs[r->R.columns[k]];
@@ -25961,16 +25963,6 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
     opt.signs = signs;
   }
   return opt;
-}
-
-static int sli_restrict_is_complex(const sli_restriction *r) {
-  sl_int k;
-  for (k = 0; k + 1 < r->R.count; k += 2) {
-    if (r->rows[k] % 2 != 0 || r->rows[k + 1] != r->rows[k] + 1) {
-      return 0;
-    }
-  }
-  return k == r->R.count;
 }
 
 static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, const sl_factor *F,
@@ -25981,7 +25973,7 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
   opt.storage = F->storage;
   if (F->storage == SL_STORAGE_COMPLEX &&
-    (!sli_restrict_is_complex(r) || !sli_rows_are_paired(S))) {
+    (!sli_are_pairs(r->rows, r->R.count) || !sli_rows_are_paired(S))) {
     opt.storage = SL_STORAGE_DOUBLE;
   }
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);

@@ -6,7 +6,7 @@
 #include "choose.h"
 #include "edit_match.h"
 
-/* Seconds to copy a supernode and each entry of it. */
+/* Seconds of a flop and of a front that are computed; to copy a supernode and each entry of it. */
 #define SLI_REUSE_FLOP 0.1e-9
 #define SLI_REUSE_FRONT 400e-9
 #define SLI_REUSE_SUPER 150e-9

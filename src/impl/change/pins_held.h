@@ -124,7 +124,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
     opt.null_tolerance = F->rule.null_tolerance;
     opt.consistency_tolerance = F->consistency;
     opt.mass = F->mass; /* in another order: below */
-    opt.growth_limit = F->growth_limit <= DBL_MAX ? F->growth_limit : -1.0;
+    opt.growth_limit = sli_limit_option(F->growth_limit);
     status = sli_factor_new(G, F->S, &opt, NULL);
     if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
         memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));

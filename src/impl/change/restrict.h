@@ -86,8 +86,8 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
     sl_int k;
     opt.null_tolerance = F->rule.null_tolerance;
     opt.regularization = F->rule.regularization;
-    opt.growth_limit = sli_is_finite(F->growth_limit) ? F->growth_limit : -1.0;
-    opt.error_limit = sli_is_finite(F->error_limit) ? F->error_limit : -1.0;
+    opt.growth_limit = sli_limit_option(F->growth_limit);
+    opt.error_limit = sli_limit_option(F->error_limit);
     if (opt.regularization != 0.0 && F->rule.signs != NULL) {
         for (k = 0; k < r->R.count; k++) {
             signs[r->R.row_of[k]] = F->rule.signs[r->R.columns[k]];
@@ -95,17 +95,6 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
         opt.signs = signs;
     }
     return opt;
-}
-
-/* Are the rows of R whole pairs, so that A[R, R] is the form of a complex matrix as A is? */
-static int sli_restrict_is_complex(const sli_restriction *r) {
-    sl_int k;
-    for (k = 0; k + 1 < r->R.count; k += 2) {
-        if (r->rows[k] % 2 != 0 || r->rows[k + 1] != r->rows[k] + 1) {
-            return 0;
-        }
-    }
-    return k == r->R.count;
 }
 
 /* Creates the factor over its analysis. */
@@ -117,8 +106,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
     opt.storage = F->storage;
     if (F->storage == SL_STORAGE_COMPLEX &&
-        (!sli_restrict_is_complex(r) || !sli_rows_are_paired(S))) {
-        opt.storage = SL_STORAGE_DOUBLE;
+        (!sli_are_pairs(r->rows, r->R.count) || !sli_rows_are_paired(S))) {
+        opt.storage = SL_STORAGE_DOUBLE; /* A[R, R] is not complex, or not its order */
     }
     status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
     status = status == SL_OK ? sli_restrict_numbers(G, F, r, stats) : status;

@@ -200,6 +200,11 @@ SLI_INLINE double sli_limit(double option, double limit) {
     return option == 0.0 ? limit : option < 0.0 ? (double)INFINITY : option;
 }
 
+/* The option that gives this limit again. (Without a difference of infinities, which may trap.) */
+static double sli_limit_option(double limit) {
+    return limit <= DBL_MAX ? limit : -1.0;
+}
+
 /* Sets the rules for null pivots and the limits. The arrays among the options are copied later, by
  * sli_factor_rules_fill. */
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {

@@ -116,27 +116,26 @@ static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
     }
 }
 
+/* Are these rows whole pairs 2a, 2a + 1, one after the other? */
+static int sli_are_pairs(const sl_int *rows, sl_int count) {
+    sl_int k;
+    for (k = 0; k + 1 < count; k += 2) {
+        if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
+            return 0;
+        }
+    }
+    return k == count;
+}
+
 /* Do the rows of S come in pairs that share a supernode, next to each other? */
 static int sli_rows_are_paired(const sl_symbolic *S) {
-    sl_int s, k;
-    for (k = 0; k < S->n; k += 2) {
-        if (k + 1 == S->n || S->perm[k] % 2 != 0 || S->perm[k + 1] != S->perm[k] + 1) {
-            return 0;
-        }
-    }
-    for (s = 0; s < S->n_supers; s++) {
+    sl_int s, is_paired = sli_are_pairs(S->perm, S->n);
+    for (s = 0; s < S->n_supers && is_paired; s++) {
         const sli_step *step = &S->steps[s];
-        const sl_int *rows = S->rows + S->rows_begin[s];
-        if (step->column % 2 != 0 || step->below % 2 != 0) {
-            return 0;
-        }
-        for (k = 0; k < step->below; k += 2) {
-            if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
-                return 0;
-            }
-        }
+        is_paired =
+            step->column % 2 == 0 && sli_are_pairs(S->rows + S->rows_begin[s], step->below);
     }
-    return 1;
+    return is_paired;
 }
 
 /* Has A the form of sl_matrix_from_hermitian? Its columns 2j + 1 are i times the columns 2j. */
