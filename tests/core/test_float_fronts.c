@@ -73,27 +73,9 @@ static void every_way_gives_the_same_bits(void **state) {
 
 /* ---- what float cannot hold ---- */
 
-/* The factorization of A in natural order. */
-static sl_status factor_of(const sl_csc *A, sl_options opt, sl_stats *stats) {
-    sl_options natural = options_none();
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
-    natural.ordering = SL_ORDERING_NATURAL;
-    memset(stats, 0, sizeof *stats);
-    SL_CHECK(sl_symbolic_create(&S, A, &natural, NULL));
-    const sl_status status = sl_factor_create(&F, S, A, &opt, stats);
-    assert_true((F != NULL) == (status == SL_OK));
-    sl_factor_free(F);
-    sl_symbolic_free(S);
-    return status;
-}
-
 /* [a b; b c] */
 static sl_status factor_of_two(double a, double b, double c, sl_stats *stats) {
-    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
-    const double x[3] = {a, b, c};
-    const sl_csc A = {2, 2, p, i, x};
-    return factor_of(&A, options_float(SL_ISA_AUTO), stats);
+    return factor_two_rows(a, b, c, options_float(SL_ISA_AUTO), stats);
 }
 
 static void numbers_beyond_float_are_refused(void **state) {
@@ -138,9 +120,9 @@ static void pivots_within_rounding_are_refused(void **state) {
             }
         }
         opt.storage = SL_STORAGE_FLOAT;
-        SL_CHECK(factor_of(&M.view, opt, &stats));
+        SL_CHECK(factor_natural(&M.view, opt, &stats));
         opt.storage = SL_STORAGE_FLOAT_FRONTS;
-        SL_EXPECT(SL_ERR_PIVOT, factor_of(&M.view, opt, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, factor_natural(&M.view, opt, &stats));
         assert_in_range(stats.error.row, 0, M.view.n_cols - 1);
         gen_matrix_free(&M);
     }
@@ -166,10 +148,10 @@ static void weak_pivots_are_refused(void **state) {
         sl_options opt = options_float(SL_ISA_AUTO);
         sl_stats stats;
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
-        SL_EXPECT(k == 0 ? SL_OK : SL_ERR_PIVOT, factor_of(&M.view, opt, &stats));
+        SL_EXPECT(k == 0 ? SL_OK : SL_ERR_PIVOT, factor_natural(&M.view, opt, &stats));
         assert_true(k == 0 ? stats.factor.null == 1 : stats.error.row == n / 2 - 1);
         opt.storage = SL_STORAGE_DOUBLE;
-        SL_CHECK(factor_of(&M.view, opt, &stats));
+        SL_CHECK(factor_natural(&M.view, opt, &stats));
         gen_matrix_free(&M);
         gen_list_free(&t);
     }

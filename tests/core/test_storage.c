@@ -346,28 +346,11 @@ static void singular_systems_are_solved(void **state) {
 
 /* ---- what float cannot hold ---- */
 
-/* The factorization of A, in natural order, in float. */
-static sl_status factor_in_float(const sl_csc *A, double growth_limit, sl_stats *stats) {
-    sl_options opt = options_float(SL_ISA_AUTO), natural = options_none();
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
-    natural.ordering = SL_ORDERING_NATURAL;
-    opt.growth_limit = growth_limit;
-    memset(stats, 0, sizeof *stats);
-    SL_CHECK(sl_symbolic_create(&S, A, &natural, NULL));
-    const sl_status status = sl_factor_create(&F, S, A, &opt, stats);
-    assert_true((F != NULL) == (status == SL_OK));
-    sl_factor_free(F);
-    sl_symbolic_free(S);
-    return status;
-}
-
-/* The same for [a b; b c]. */
+/* [a b; b c] in float. */
 static sl_status factor_of_two(double a, double b, double c, double limit, sl_stats *stats) {
-    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
-    const double x[3] = {a, b, c};
-    const sl_csc A = {2, 2, p, i, x};
-    return factor_in_float(&A, limit, stats);
+    sl_options opt = options_float(SL_ISA_AUTO);
+    opt.growth_limit = limit;
+    return factor_two_rows(a, b, c, opt, stats);
 }
 
 static void entries_beyond_float_are_refused(void **state) {
@@ -421,7 +404,7 @@ static void a_hidden_null_pivot_is_refused(void **state) {
     const double x[5] = {1e8, -1e8, 1e8 + 0.1, -0.1, 0.1};
     const sl_csc A = {3, 3, p, i, x};
     sl_stats stats;
-    SL_EXPECT(SL_ERR_PIVOT, factor_in_float(&A, 0.0, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, factor_natural(&A, options_float(SL_ISA_AUTO), &stats));
     assert_int_equal(stats.error.row, 2);
 }
 

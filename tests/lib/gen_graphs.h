@@ -83,6 +83,18 @@ static inline void gen_add(gen_list_t *t, sl_int i, sl_int j, double x) {
     t->x[t->count++] = x;
 }
 
+/* Renames the rows at random, so that ties are frequent and no order of the input helps. */
+static inline void gen_rename(gen_list_t *t, uint64_t seed) {
+    sl_int *name = test_ints((size_t)t->n);
+    gen_permutation(name, t->n, seed);
+    for (size_t k = 0; k < t->count; k++) {
+        const sl_int a = name[t->row[k]], b = name[t->col[k]];
+        t->row[k] = a > b ? a : b;
+        t->col[k] = a > b ? b : a;
+    }
+    free(name);
+}
+
 /* ---- edges: each function adds those of one kind of graph ---- */
 
 static inline void gen_edges_path(gen_list_t *t, uint64_t *state) {

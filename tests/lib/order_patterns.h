@@ -4,18 +4,6 @@
 
 #include "gen_matrices.h"
 
-/* Renames the rows at random, so that ties are frequent and no order of the input helps. */
-static inline void rename_rows(gen_list_t *t, uint64_t seed) {
-    sl_int *name = test_ints((size_t)t->n);
-    gen_permutation(name, t->n, seed);
-    for (size_t k = 0; k < t->count; k++) {
-        const sl_int a = name[t->row[k]], b = name[t->col[k]];
-        t->row[k] = a > b ? a : b;
-        t->col[k] = a > b ? b : a;
-    }
-    free(name);
-}
-
 /* Each row is adjacent to two random earlier rows: no small separators, so that the costs of cuts
  * are close to each other. */
 static inline void edges_expander(gen_list_t *t, uint64_t *state) {
@@ -108,7 +96,7 @@ static inline gen_list_t pattern(int kind) {
         break;
     }
     if (kind != ORDER_GRID) {
-        rename_rows(&t, 5);
+        gen_rename(&t, 5);
     }
     for (sl_int k = 0; k < t.n; k++) {
         gen_add(&t, k, k, 1.0);
