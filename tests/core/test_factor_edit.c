@@ -101,10 +101,6 @@ static int follow(gen_kind_t kind, sl_int size, int style, int edits, edit_kind_
 
 static void every_kind_of_matrix_follows_edits(void **state) {
     (void)state;
-    static const edit_kind_t kinds[4] = {{0, 0, 0, 0, EDIT_IN_ORDER},
-                                         {2, 2, 2, 1, EDIT_IN_ORDER},
-                                         {1, 3, 0, 0, EDIT_INTO_GAPS},
-                                         {10, 12, 10, 1, EDIT_SHUFFLED}};
     const isa_list_t isas = isas_present();
     int kept = 0, all = 0;
     for (int kind = 0; kind < GEN_KINDS; kind++) {
@@ -112,8 +108,8 @@ static void every_kind_of_matrix_follows_edits(void **state) {
             sl_options opt = options_none();
             opt.isa = isas.isa[(kind + k) % isas.count];
             opt.method = SL_METHOD_SUPERNODAL;
-            kept += follow((gen_kind_t)kind, k % 3 == 0 ? 36 : 100, k % GEN_STYLES, 3, kinds[k % 4],
-                           &opt);
+            kept += follow((gen_kind_t)kind, k % 3 == 0 ? 36 : 100, k % GEN_STYLES, 3,
+                           edit_kinds[k % 4], &opt);
             all += 3;
         }
     }

@@ -41,10 +41,6 @@ static int follow(gen_kind_t kind, sl_int size, int style, int edits, edit_kind_
 
 static void every_kind_of_matrix_follows_edits(void **state) {
     (void)state;
-    static const edit_kind_t kinds[4] = {{0, 0, 0, 0, EDIT_IN_ORDER},
-                                         {2, 2, 2, 1, EDIT_IN_ORDER},
-                                         {1, 3, 0, 0, EDIT_INTO_GAPS},
-                                         {10, 12, 10, 1, EDIT_SHUFFLED}};
     int local = 0, all = 0;
     for (int kind = 0; kind < GEN_KINDS; kind++) {
         for (int k = 0; k < 12; k++) {
@@ -54,7 +50,7 @@ static void every_kind_of_matrix_follows_edits(void **state) {
                            : k % 5 == 2 ? SL_ORDERING_MINDEG
                                         : SL_ORDERING_ND;
             local += follow((gen_kind_t)kind, k % 3 == 0 ? 36 : 100, k % GEN_STYLES, 4,
-                            kinds[k % 4], &opt);
+                            edit_kinds[k % 4], &opt);
             all += 4;
         }
     }

@@ -19,6 +19,12 @@ typedef struct edit_kind_t {
     edit_numbers_t numbers;
 } edit_kind_t;
 
+/* From no edit at all to one of a tenth of the rows, in new numbers. */
+static const edit_kind_t edit_kinds[4] = {{0, 0, 0, 0, EDIT_IN_ORDER},
+                                          {2, 2, 2, 1, EDIT_IN_ORDER},
+                                          {1, 3, 0, 0, EDIT_INTO_GAPS},
+                                          {10, 12, 10, 1, EDIT_SHUFFLED}};
+
 /* Numbers what stays of n rows, and `added` more. is_gone: n. Returns how many rows there are. */
 static inline sl_int edited_numbers(sl_int *new_of, const char *is_gone, sl_int n, sl_int added,
                                     edit_numbers_t numbers, uint64_t *state) {

@@ -173,12 +173,7 @@ static void distances_are_invariant(void **state) {
     heat_mesh_t y, z;
     mesh m = sphere_grid(24, 1), moved = sphere_grid(24, 1);
     sl_int n = m.n_vertices, *to = test_ints((size_t)n), source = 200;
-    uint64_t chance = 11;
-    for (sl_int k = 0; k < n; k++) {
-        sl_int j = gen_below(&chance, k + 1);
-        to[k] = to[j];
-        to[j] = k;
-    }
+    gen_permutation(to, n, 11);
     for (sl_int k = 0; k < n; k++) {
         const double *x = m.xyz + 3 * (size_t)k;
         double *u = moved.xyz + 3 * (size_t)to[k];

@@ -220,13 +220,8 @@ static void layouts_do_not_depend_on_numbering_or_position(void **state) {
     mesh_factor_t w, v;
     mesh m = sphere_grid(25, 1), moved = sphere_grid(25, 1);
     sl_int n = m.n_vertices, size = 200, *to = test_ints((size_t)n), *there = test_ints(200);
-    uint64_t chance = 4;
     /* A random permutation; then each vertex is rotated and moved in space. */
-    for (sl_int k = 0; k < n; k++) {
-        sl_int j = gen_below(&chance, k + 1);
-        to[k] = to[j];
-        to[j] = k;
-    }
+    gen_permutation(to, n, 4);
     for (sl_int k = 0; k < n; k++) {
         const double *x = m.xyz + 3 * (size_t)k;
         double *y = moved.xyz + 3 * (size_t)to[k];
