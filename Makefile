@@ -250,8 +250,10 @@ build-tests: $(TEST_PROGRAMS) $(REPLAYS) $(PROGRAM)
 run-tests: build-tests
 	@RUN='$(RUN)' CC='$(CC)' CXX='$(CXX)' PROGRAM='$(PROGRAM)' tests/lib/run.sh $(B)/log $(ALSO) $(TEST_PROGRAMS) $(REPLAYS)
 
+PROGRAM_CHECKS = tests/tools/check_program.sh tests/tools/check_output.sh tests/tools/check_hostile.sh
+
 test: deps deps-png ## builds and runs every test on the generated header; ends in a line `N passed, N failed`
-	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=$(B)/sparse-local
+	@+$(SUB_MAKE) run-tests ALSO='tests/core/check_header.sh $(PROGRAM_CHECKS)' PROGRAM=$(B)/sparse-local
 
 judge: deps $(B)/tests/core/test_judge ## JUDGE_COUNT random systems from JUDGE_SEED on: wrong answers with SL_OK and without a signal
 	@JUDGE_COUNT=$(JUDGE_COUNT) JUDGE_SEED=$(JUDGE_SEED) $(B)/tests/core/test_judge
@@ -368,7 +370,7 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 # With SL_VERIFY tasks are small in any case.
 sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
 	@+$(SUB_MAKE) run-tests B=build/sanitize SMALL_TASK_TESTS= OPT='-O1 -g -fno-var-tracking -fno-omit-frame-pointer -DSL_VERIFY \
-	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' PROGRAM=build/sanitize/sparse-local
+	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='$(PROGRAM_CHECKS)' PROGRAM=build/sanitize/sparse-local
 
 THREADED = test_threads test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
 
@@ -436,7 +438,7 @@ GCOVR = gcovr --root . --exclude-throw-branches --exclude-unreachable-branches -
 cov: deps deps-cov deps-png sparse_local.h ## line and branch coverage of the header and of tools by the tests, with limits; build/cov/index.html
 	@if [ -d build/cov ]; then find build/cov -name '*.gcda' -delete; fi
 	@+GCOV_ERROR_FILE=/dev/null $(SUB_MAKE) run-tests B=build/cov SL_DATA= PROGRAM=build/cov/sparse-local \
-	ALSO='tests/tools/check_program.sh tests/tools/check_output.sh' OPT='-O0 -g --coverage -fprofile-update=atomic -DTEST_ALL_KERNELS'; status=$$?; \
+	ALSO='$(PROGRAM_CHECKS)' OPT='-O0 -g --coverage -fprofile-update=atomic -DTEST_ALL_KERNELS'; status=$$?; \
 	echo 'tools/'; $(GCOVR) --filter 'tools/' --html build/cov/tools.html build/cov/obj 2>build/cov/gcovr.log || cat build/cov/gcovr.log; \
 	echo 'sparse_local.h'; $(GCOVR) --filter 'sparse_local\.h' --html-details build/cov/index.html \
 	--fail-under-line $(COV_LINES) --fail-under-branch $(COV_BRANCHES) build/cov/obj 2>>build/cov/gcovr.log >build/cov/summary.txt; found=$$?; cat build/cov/summary.txt; [ $$found -eq 0 ] || { tail -n 5 build/cov/gcovr.log; exit 1; }; exit $$status

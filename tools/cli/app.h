@@ -13,12 +13,13 @@
 #include "tools/draw/render.h"
 
 #if defined(__GNUC__)
-#define APP_PRINTF __attribute__((format(printf, 1, 2)))
+#define APP_PRINTF_OF(k) __attribute__((format(printf, k, k + 1)))
 #define APP_NORETURN __attribute__((noreturn))
 #else
-#define APP_PRINTF
+#define APP_PRINTF_OF(k)
 #define APP_NORETURN
 #endif
+#define APP_PRINTF APP_PRINTF_OF(1)
 
 /* ---- errors and memory: a command that cannot continue prints the reason and exits ---- */
 
@@ -135,6 +136,15 @@ bool app_is_saved(const char *operand);
  */
 sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
                      sl_int *count);
+
+/** Parses a list of vertices: "3,17,100-200" or "all".
+ *
+ *  out           [out]  as app_vertices returns it; NULL on failure.
+ *  message       [out]  what is wrong, at most message_size bytes.
+ *  Returns  0; or the exit status: 2 for a malformed list, 1 for a vertex that is not below n.
+ */
+int app_read_vertices(sl_int **out, sl_int *count, const char *text, sl_int n, char *message,
+                      size_t message_size);
 
 /** Removes repeated vertices, keeping the first of each; returns the new length of the list. */
 sl_int app_distinct(sl_int *vertices, sl_int count, sl_int n);

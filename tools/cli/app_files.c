@@ -2,11 +2,13 @@
 #include "app.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tools/geometry/laplacian.h"
 #include "tools/io/output_file.h"
+#include "tools/mesh/int_list.h"
 #include "tools/mesh/surface_generator.h"
 
 const char app_mesh_help[] =
@@ -35,21 +37,88 @@ bool app_is_saved(const char *operand) {
     return length > 4 && strcmp(operand + length - 4, ".slf") == 0;
 }
 
-/* Reads a vertex number at *text and advances *text past it. */
-static sl_int read_vertex(const char *option_name, const char **text, sl_int n) {
+/* A list of vertices that is being read, and what is wrong with it. */
+typedef struct list_reader {
+    const char *at; /* the text that is left */
+    sl_int n;
+    int_list list;
+    char *message;
+    size_t message_size;
+} list_reader;
+
+APP_PRINTF_OF(3)
+static int refuse(const list_reader *r, int status, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(r->message, r->message_size, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+/* Reads a vertex number and advances past it. Returns 0 or the exit status. */
+static int read_vertex(list_reader *r, sl_int *vertex) {
     char *after = NULL;
     errno = 0;
-    long v = strtol(*text, &after, 10);
-    if (after == *text || **text == '+' || **text == '-') {
-        app_die_usage("--%s: \"%s\" is not a list of vertices (3,17,100-200 or all or random:5)",
-                      option_name, *text);
+    long v = strtol(r->at, &after, 10);
+    if (*r->at < '0' || *r->at > '9') { /* a blank or a sign, which strtol accepts, too */
+        return refuse(r, 2, "\"%.80s\" is not a list of vertices such as 3,17,100-200",
+                      r->at);
     }
-    if (errno != 0 || v >= n) {
-        app_die("--%s: there is no vertex %.*s; the last one is %d", option_name,
-                (int)(after - *text), *text, (int)n - 1);
+    if (errno != 0 || v >= r->n) {
+        return refuse(r, 1, "there is no vertex %.*s; the last one is %d", (int)(after - r->at),
+                      r->at, (int)r->n - 1);
     }
-    *text = after;
-    return (sl_int)v;
+    r->at = after;
+    *vertex = (sl_int)v;
+    return 0;
+}
+
+/* Adds the vertices first .. last. */
+static int add_range(list_reader *r, sl_int first, sl_int last) {
+    if (last < first || (size_t)(last - first) >= INT32_MAX - r->list.count) {
+        return refuse(r, 2, "%d-%d is an empty range or makes the list too long", (int)first,
+                      (int)last);
+    }
+    for (sl_int v = first; v <= last; v++) {
+        if (!int_list_add(&r->list, v)) {
+            return refuse(r, 1, "out of memory for the list");
+        }
+    }
+    return 0;
+}
+
+static int read_ranges(list_reader *r) {
+    for (;;) {
+        sl_int first = 0;
+        int status = read_vertex(r, &first);
+        sl_int last = first;
+        if (status == 0 && *r->at == '-') {
+            r->at++;
+            status = read_vertex(r, &last);
+        }
+        status = status == 0 ? add_range(r, first, last) : status;
+        if (status != 0 || *r->at == '\0') {
+            return status;
+        }
+        if (*r->at++ != ',') {
+            return refuse(r, 2, "\"%.80s\": expected a comma between vertices", r->at - 1);
+        }
+    }
+}
+
+int app_read_vertices(sl_int **out, sl_int *count, const char *text, sl_int n, char *message,
+                      size_t message_size) {
+    list_reader r = {text, n, {NULL, 0, 0}, message, message_size};
+    const bool all = strcmp(text, "all") == 0;
+    const int status = !all ? read_ranges(&r) : n > 0 ? add_range(&r, 0, n - 1) : 0;
+    if (status != 0) {
+        free(r.list.at);
+        r.list.at = NULL;
+        r.list.count = 0;
+    }
+    *out = r.list.at;
+    *count = (sl_int)r.list.count;
+    return status;
 }
 
 /* Names the vertices that were drawn, so that a run can be repeated with a part of them. */
@@ -68,8 +137,8 @@ static void print_drawn(const char *option_name, const sl_int *vertices, sl_int 
 static sl_int *random_vertices(const char *option_name, const char *text, sl_int n, uint64_t seed,
                                sl_int *count) {
     char *after = NULL;
-    long wanted = strtol(text, &after, 10);
-    if (after == text || *after != '\0' || wanted < 1 || wanted > n) {
+    long wanted = *text >= '0' && *text <= '9' ? strtol(text, &after, 10) : 0;
+    if (wanted < 1 || wanted > n || *after != '\0') {
         app_die_usage("--%s random:%s: expected a number from 1 to %d", option_name, text, (int)n);
     }
     sl_int *all = app_alloc((size_t)n, sizeof *all);
@@ -92,44 +161,15 @@ sl_int *app_vertices(const char *option_name, const char *text, sl_int n, uint64
     if (strncmp(text, "random:", 7) == 0) {
         return random_vertices(option_name, text + 7, n, seed, count);
     }
-    bool all = strcmp(text, "all") == 0;
-    size_t capacity = all ? (size_t)n : 0;
-    sl_int *list = app_alloc(capacity, sizeof *list);
-    sl_int used = 0;
-    for (; all && used < n; used++) {
-        list[used] = used;
+    char message[512];
+    sl_int *list;
+    const int status = app_read_vertices(&list, count, text, n, message, sizeof message);
+    if (status == 2) {
+        app_die_usage("--%s: %s", option_name, message);
     }
-    while (!all) {
-        sl_int first = read_vertex(option_name, &text, n);
-        sl_int last = first;
-        if (*text == '-') {
-            text++;
-            last = read_vertex(option_name, &text, n);
-        }
-        if (last < first || last - first >= INT32_MAX - used) {
-            app_die_usage("--%s: %d-%d is an empty range or makes the list too long", option_name,
-                          (int)first, (int)last);
-        }
-        size_t needed = (size_t)used + (size_t)(last - first) + 1;
-        if (needed > capacity) {
-            capacity = 2 * needed;
-            sl_int *larger = realloc(list, capacity * sizeof *list);
-            if (larger == NULL) {
-                app_die("out of memory");
-            }
-            list = larger;
-        }
-        for (sl_int v = first; v <= last; v++) {
-            list[used++] = v;
-        }
-        if (*text == '\0') {
-            break;
-        }
-        if (*text++ != ',') {
-            app_die_usage("--%s: \"%s\": expected a comma between vertices", option_name, text - 1);
-        }
+    if (status != 0) {
+        app_die("--%s: %s", option_name, message);
     }
-    *count = used;
     return list;
 }
 

@@ -29,22 +29,32 @@ void app_set_up(app_output *o, const mesh *m, bool is_drawn) {
     o->up = app_guess_up(o->up, m, is_drawn);
 }
 
+/* Reads an integer of 1 to most, which `end` follows; NULL: there is none. Returns what comes
+ * after. */
+static const char *read_pixels(int *out, const char *text, int most, char end) {
+    char *after = NULL;
+    long value = text != NULL && *text >= '0' && *text <= '9' ? strtol(text, &after, 10) : 0;
+    *out = (int)(value < most ? value : most);
+    return value < 1 || value > most || *after != end ? NULL : after + 1;
+}
+
 void app_view(render_view *view, const app_output *o) {
     *view = render_view_default();
     char rest = 0;
     if (o->size != NULL &&
-        (sscanf(o->size, "%dx%d%c", &view->width, &view->height, &rest) != 2 || view->width < 1 ||
-         view->height < 1 || view->width > 8000 || view->height > 8000)) {
+        read_pixels(&view->height, read_pixels(&view->width, o->size, 8000, 'x'), 8000, '\0') ==
+            NULL) {
         app_die_usage("--size %s: expected WxH such as 800x600, each from 1 to 8000", o->size);
     }
     if (o->scale != NULL &&
-        (sscanf(o->scale, "%d%c", &view->scale, &rest) != 1 || view->scale < 1 || view->scale > 4 ||
+        (read_pixels(&view->scale, o->scale, 4, '\0') == NULL ||
          view->width > 8000 / view->scale || view->height > 8000 / view->scale)) {
         app_die_usage("--scale %s: expected 1 to 4, and at most 8000 pixels along each side",
                       o->scale);
     }
     if (o->view != NULL) {
-        if (sscanf(o->view, "%lf,%lf%c", &view->azimuth, &view->elevation, &rest) != 2) {
+        if (sscanf(o->view, "%lf,%lf%c", &view->azimuth, &view->elevation, &rest) != 2 ||
+            !isfinite(view->azimuth) || !isfinite(view->elevation)) {
             app_die_usage("--view %s: expected azimuth,elevation such as 30,20", o->view);
         }
         view->automatic = false;

@@ -101,11 +101,17 @@ static void write_shape(const deform_command *cmd, const app_output *output) {
     free(m.xyz);
 }
 
-static void write_frame(const deform_command *cmd, sl_int frame) {
+/* The name of the picture of a frame; release with free. */
+static char *frame_path(const deform_command *cmd, sl_int frame) {
     size_t room = strlen(cmd->frames) + 32;
     char *path = app_alloc(room, 1);
-    app_output one = cmd->output;
     (void)snprintf(path, room, "%s%04d.png", cmd->frames, (int)frame);
+    return path;
+}
+
+static void write_frame(const deform_command *cmd, sl_int frame) {
+    char *path = frame_path(cmd, frame);
+    app_output one = cmd->output;
     one.out = NULL;
     one.png = path;
     write_shape(cmd, &one);
@@ -277,8 +283,12 @@ static void check_options(const deform_command *cmd) {
         app_die_usage("--at: computes no surface for --frames, --out and --png");
     }
     app_check_output(&cmd->output, cmd->output.out);
-    if (cmd->frames != NULL && !output_is_possible(cmd->frames, message, sizeof message)) {
-        app_die("%s", message);
+    if (cmd->frames != NULL) {
+        char *first = frame_path(cmd, 0);
+        if (!output_is_possible(first, message, sizeof message)) {
+            app_die("%s", message);
+        }
+        free(first);
     }
 }
 

@@ -31,11 +31,18 @@ typedef struct query_line {
     long number;
 } query_line;
 
+/* Bounds the memory that an input without line ends takes. */
+enum { LONGEST_LINE = 1 << 30 };
+
 /* Reads the next line without its end; returns false at the end of the input. */
 static bool read_line(query_line *line, FILE *file) {
     size_t length = 0;
     int c;
     while ((c = getc(file)) != EOF && c != '\n') {
+        if (c == '\0' || length == LONGEST_LINE) {
+            app_die("line %ld: %s", line->number + 1,
+                    c == '\0' ? "a zero byte: this is not text" : "longer than 1 GiB");
+        }
         if (length + 1 >= line->capacity) {
             line->capacity = 2 * line->capacity + 256;
             char *larger = realloc(line->text, line->capacity);
@@ -63,6 +70,19 @@ static bool read_line(query_line *line, FILE *file) {
     return true;
 }
 
+/* Reads a list of different rows; name: the part of the question. */
+static sl_int *read_rows(const char *text, sl_int n, sl_int *count, char name, long number) {
+    char message[512];
+    sl_int *rows;
+    if (app_read_vertices(&rows, count, text, n, message, sizeof message) != 0) {
+        app_die("line %ld: %c: %s", number, name, message);
+    }
+    if (app_distinct(rows, *count, n) < *count) {
+        app_die("line %ld: %c: a row is repeated", number, name);
+    }
+    return rows;
+}
+
 /* Reads `count` values, or one for all. */
 static double *read_values(const char *text, sl_int count, long number) {
     double *values = app_alloc((size_t)count, sizeof *values);
@@ -72,7 +92,7 @@ static double *read_values(const char *text, sl_int count, long number) {
         const double value = strtod(at, &after);
         if (after == at || !isfinite(value) || found >= count ||
             (*after != ',' && *after != '\0')) {
-            app_die("line %ld: \"%s\": expected one value, or %d of them separated by commas",
+            app_die("line %ld: \"%.80s\": expected one value, or %d of them separated by commas",
                     number, text, (int)count);
         }
         values[found++] = value;
@@ -125,12 +145,12 @@ static void answer(const sl_saved_set *set, char *text, long number, sl_work *W)
     char *values = strchr(text, ';'), *xset = values == NULL ? NULL : strchr(values + 1, ';');
     sl_int nb = 0, nx = 0;
     if (xset == NULL || strchr(xset + 1, ';') != NULL) {
-        app_die("line %ld: \"%s\" is not B;VALUES;X", number, text);
+        app_die("line %ld: \"%.80s\" is not B;VALUES;X", number, text);
     }
     *values++ = '\0';
     *xset++ = '\0';
-    sl_int *b_rows = app_vertices("b", text, n, 1, &nb),
-           *x_rows = app_vertices("x", xset, n, 1, &nx);
+    sl_int *b_rows = read_rows(text, n, &nb, 'B', number),
+           *x_rows = read_rows(xset, n, &nx, 'X', number);
     double *b = read_values(values, nb, number), *x = app_alloc((size_t)nx, sizeof *x);
     const query_solve q = {b_rows, x_rows, nb, nx, b, x};
     bool found;

@@ -114,9 +114,6 @@ int command_save(int argc, char **argv) {
     if (out == NULL) {
         app_die_usage("save: --out FILE is missing");
     }
-    if (poisson != NULL && strcmp(out, poisson) == 0) {
-        app_die_usage("--out and --poisson: the same file");
-    }
     app_stage("factor");
     double begin = app_now();
     if (poisson != NULL) {

@@ -54,7 +54,7 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
     size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
     const option *o = word[1] == '-' ? option_named(options, name, length) : NULL;
     if (o == NULL) {
-        (void)snprintf(message, message_size, "unknown option %s", word);
+        (void)snprintf(message, message_size, "unknown option %.200s", word);
         return false;
     }
     if (o->kind == OPTION_FLAG) {
@@ -71,7 +71,7 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
         return false;
     }
     if (!store(o, text)) {
-        (void)snprintf(message, message_size, "--%s %s: %s", o->name, text,
+        (void)snprintf(message, message_size, "--%s %.200s: %s", o->name, text,
                        o->kind == OPTION_COUNT     ? "not an integer from 0 to 2^31-1"
                        : o->kind == OPTION_ABOVE_0 ? "not a finite number above 0"
                                                    : "not a finite number");
@@ -101,7 +101,7 @@ options_result options_parse(const options_usage *usage, const option *options, 
                 return OPTIONS_BAD;
             }
         } else if (count == usage->max_operands) {
-            (void)snprintf(message, message_size, "unexpected operand %s", argv[a]);
+            (void)snprintf(message, message_size, "unexpected operand %.200s", argv[a]);
             return OPTIONS_BAD;
         } else {
             operands[count++] = argv[a];
@@ -169,14 +169,27 @@ void options_help(const options_usage *usage, const options_manual *manual, cons
     print_examples(usage->command, manual->example);
 }
 
-/* Finds out before the work, and not after it, that its result cannot be written. */
+static const char *output_of(const option *o) {
+    return o->kind == OPTION_OUTPUT ? *(const char *const *)o->value : NULL;
+}
+
+/* Finds out before the work, and not after it, that its result cannot be written, or that another
+ * one would replace it. */
 static void check_outputs(const option *options) {
     char message[512];
     for (const option *o = options; o->kind != OPTION_END; o++) {
-        const char *path = o->kind == OPTION_OUTPUT ? *(const char *const *)o->value : NULL;
+        const char *path = output_of(o);
         if (path != NULL && !output_is_possible(path, message, sizeof message)) {
             (void)fprintf(stderr, "sparse-local: %s\n", message);
             exit(1);
+        }
+        for (const option *before = options; path != NULL && before < o; before++) {
+            const char *other = output_of(before);
+            if (other != NULL && output_is_same(path, other)) {
+                (void)fprintf(stderr, "sparse-local: --%s and --%s: the same file %s\n",
+                              before->name, o->name, path);
+                exit(2);
+            }
         }
     }
 }

@@ -15,9 +15,13 @@ bool input_error(input *in, const char *format, ...) {
     if (in->message == NULL || in->message_size == 0) {
         return false;
     }
-    int used = in->line > 0 ? snprintf(in->message, in->message_size, "%s:%lld: ", in->path,
+    /* Of a path that leaves no room for the reason the end is shown. */
+    const size_t length = strlen(in->path), room = in->message_size / 2;
+    const char *shown = length > room ? in->path + length - room : in->path;
+    const char *before = shown == in->path ? "" : "...";
+    int used = in->line > 0 ? snprintf(in->message, in->message_size, "%s%s:%lld: ", before, shown,
                                        (long long)in->line)
-                            : snprintf(in->message, in->message_size, "%s: ", in->path);
+                            : snprintf(in->message, in->message_size, "%s%s: ", before, shown);
     if (used >= 0 && (size_t)used < in->message_size) {
         va_list list;
         va_start(list, format);

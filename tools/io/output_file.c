@@ -39,11 +39,15 @@ static char *copy_of(const char *text, size_t room) {
     return copy != NULL ? strcpy(copy, text) : NULL;
 }
 
-/* error: an errno; 0: unknown. */
+/* error: an errno; 0: unknown. Of a path that does not fit the end is shown. */
 static void explain(char *message, size_t size, const char *path, const char *what, int error) {
+    const char *reason = error != 0 ? strerror(error) : "";
+    const size_t length = strlen(path), rest = strlen(what) + strlen(reason) + 8;
+    const size_t room = size > rest ? size - rest : 0;
     if (message != NULL && size > 0) {
-        (void)snprintf(message, size, "%s: %s%s%s", path, what, error != 0 ? ": " : "",
-                       error != 0 ? strerror(error) : "");
+        (void)snprintf(message, size, "%s%s: %s%s%s", length > room ? "..." : "",
+                       length > room ? path + length - room : path, what, error != 0 ? ": " : "",
+                       reason);
     }
 }
 
@@ -117,6 +121,21 @@ static int standard_descriptor(const struct stat *file) {
         }
     }
     return -1;
+}
+
+bool output_is_same(const char *a, const char *b) {
+    const char *last_a = strrchr(a, '/'), *last_b = strrchr(b, '/');
+    char folder_a[4096], folder_b[4096];
+    struct stat of_a, of_b;
+    const bool a_exists = stat(a, &of_a) == 0, b_exists = stat(b, &of_b) == 0;
+    if (a_exists || b_exists) {
+        return a_exists && b_exists && S_ISREG(of_a.st_mode) && of_a.st_dev == of_b.st_dev &&
+               of_a.st_ino == of_b.st_ino && standard_descriptor(&of_a) < 0;
+    }
+    return strcmp(last_a != NULL ? last_a + 1 : a, last_b != NULL ? last_b + 1 : b) == 0 &&
+           folder_of(folder_a, sizeof folder_a, a) && folder_of(folder_b, sizeof folder_b, b) &&
+           stat(folder_a, &of_a) == 0 && stat(folder_b, &of_b) == 0 &&
+           of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
 /* Gives the new file the owner, group and permissions of the old one; false if that is refused, or

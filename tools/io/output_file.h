@@ -32,6 +32,11 @@ FILE *output_open(const char *path, char *message, size_t message_size);
  */
 bool output_is_possible(const char *path, char *message, size_t message_size);
 
+/** Whether two outputs would be one file, so that the later one would replace the other: a regular
+ *  file, or one that does not exist yet. False for what is written in place, such as standard
+ *  output. */
+bool output_is_same(const char *a, const char *b);
+
 /** Flushes the stream, checks that everything was written, and gives the file its name. The stream
  *  is closed in any case.
  *
