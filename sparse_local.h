@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9c00cd983f0a77e4
+ * FNV-1a of the lines after this comment, without the license: 575e8c6331ac0b00
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,54 +38,54 @@
  *   4893 simd_scalar.h   5031 simd_avx2_single.h   5085 simd_avx2.h   5326 simd_avx512_single.h
  *   5381 simd_avx512.h   5557 simd_neon_single.h   5599 simd_neon.h   5834 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5926 csc.h   6069 csc_build.h   6203 csc64.h   6274 csc_triangle.h   6339 csc_products.h
- *   6456 permute.h   6522 sum.h   6604 output_file.h   6813 matrix_market.h
+ *   5927 csc.h   6070 csc_build.h   6204 csc64.h   6275 csc_triangle.h   6340 csc_products.h
+ *   6457 permute.h   6523 sum.h   6605 output_file.h   6814 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7259 graph.h   7377 contract.h   7631 coarsen.h   7794 labels.h   8015 subgraph.h   8209 heap.h
- *   8269 bisect.h   8496 separator.h   8758 mindeg.h   8941 dissect.h   9265 tree_cost.h
- *   9317 levelset.h   9423 geometric.h   9598 cells.h   9778 septree.h   9854 metis.h
- *  10003 metis_refined.h  10117 nd.h  10317 compress.h  10438 levels.h  10490 peel.h
- *  10696 quotient.h  11132 graph_kind.h  11203 order.h
+ *   7260 graph.h   7378 contract.h   7632 coarsen.h   7795 labels.h   8016 subgraph.h   8210 heap.h
+ *   8270 bisect.h   8497 separator.h   8759 mindeg.h   8942 dissect.h   9266 tree_cost.h
+ *   9318 levelset.h   9424 geometric.h   9599 cells.h   9779 septree.h   9855 metis.h
+ *  10004 metis_refined.h  10118 nd.h  10318 compress.h  10439 levels.h  10491 peel.h
+ *  10697 quotient.h  11133 graph_kind.h  11204 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11557 symbolic_types.h  11594 etree.h  11669 counts.h  11718 supernodes.h  11959 pattern.h
- *  12045 structure.h  12239 schedule.h  12519 symbolic.h  12967 reach.h
+ *  11558 symbolic_types.h  11595 etree.h  11670 counts.h  11719 supernodes.h  11960 pattern.h
+ *  12046 structure.h  12240 schedule.h  12520 symbolic.h  12968 reach.h
  * (factor: the numbers of L and D)
- *  13238 factor_types.h  13658 storage.h  13796 pivot_search.h  14142 pivoted.h  14211 scatter.h
- *  14369 uplooking.h  14441 null_product.h  14645 null_dense.h  14722 null_basis.h
- *  15030 null_vectors.h  15172 multifrontal.h  15366 gather.h  15414 kept.h  15584 front_tasks.h
- *  15927 nullspace.h  16130 growth.h  16208 factor_setup.h  16534 factor.h  16744 leftlooking.h
- *  16891 factor_query.h  17026 combination.h
+ *  13239 factor_types.h  13659 storage.h  13797 pivot_search.h  14143 pivoted.h  14212 scatter.h
+ *  14370 uplooking.h  14442 null_product.h  14646 null_dense.h  14723 null_basis.h
+ *  15031 null_vectors.h  15173 multifrontal.h  15367 gather.h  15415 kept.h  15585 front_tasks.h
+ *  15928 nullspace.h  16131 growth.h  16209 factor_setup.h  16535 factor.h  16745 leftlooking.h
+ *  16892 factor_query.h  17027 combination.h
  * (solve: full and local solves)
- *  17087 region_types.h  17191 work.h  17291 query.h  17507 singular.h  17781 backward.h
- *  17811 sweep_tasks.h  18142 sweep.h  18353 compile.h  18546 plan.h  18653 local.h  18805 parts.h
- *  19094 refine.h  19273 refine_local.h  19489 rcond.h  19648 defects.h
+ *  17088 region_types.h  17192 work.h  17292 query.h  17508 singular.h  17782 backward.h
+ *  17812 sweep_tasks.h  18143 sweep.h  18354 compile.h  18547 plan.h  18654 local.h  18806 parts.h
+ *  19095 refine.h  19274 refine_local.h  19490 rcond.h  19649 defects.h
  * (inverse: entries of the inverse, regions)
- *  19726 traversal.h  19975 traversal_run.h  20168 row_sets.h  20202 unit_vectors.h
- *  20429 bilinear.h  20601 entries.h  20878 block.h  21113 reserve.h  21305 selected.h
- *  21515 selected_query.h  21617 region_choose.h  21844 region.h
+ *  19727 traversal.h  19976 traversal_run.h  20169 row_sets.h  20203 unit_vectors.h
+ *  20430 bilinear.h  20602 entries.h  20879 block.h  21114 reserve.h  21306 selected.h
+ *  21516 selected_query.h  21618 region_choose.h  21845 region.h
  * (change: a factor that follows changes of its matrix)
- *  22092 update.h  22445 path.h  22572 rank.h  22948 edges.h  23102 choose.h  23313 pins_types.h
- *  23392 pins_nulls.h  23575 pins_capacitance.h  23827 pins_balance.h  24005 pins_held.h
- *  24221 pins_choose.h  24279 pins_rebuild.h  24497 pins_matrix.h  24648 pins.h  24917 pins_solve.h
- *  25188 subset.h  25309 restrict_analysis.h  25680 restrict_symbolic.h  25878 restrict.h
- *  26106 edit_match.h  26305 edit_place.h  26554 edit_separate.h  26868 edit_order.h
- *  27023 edit_graph.h  27118 edit_join.h  27394 edit.h  27557 edit_factor.h
+ *  22093 update.h  22446 path.h  22573 rank.h  22949 edges.h  23103 choose.h  23314 pins_types.h
+ *  23393 pins_nulls.h  23576 pins_capacitance.h  23828 pins_balance.h  24006 pins_held.h
+ *  24222 pins_choose.h  24280 pins_rebuild.h  24498 pins_matrix.h  24649 pins.h  24918 pins_solve.h
+ *  25189 subset.h  25310 restrict_analysis.h  25681 restrict_symbolic.h  25879 restrict.h
+ *  26107 edit_match.h  26306 edit_place.h  26555 edit_separate.h  26869 edit_order.h
+ *  27024 edit_graph.h  27119 edit_join.h  27395 edit.h  27558 edit_factor.h
  * (save: factors in files)
- *  27842 format.h  28138 decode.h  28286 check.h  28616 write.h  28921 load.h  29189 load_inverse.h
- *  29519 load_calls.h
+ *  27843 format.h  28139 decode.h  28287 check.h  28617 write.h  28922 load.h  29190 load_inverse.h
+ *  29520 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29718 batch_solve.h  29927 batch_factor.h  30128 batch_diagonal.h
+ *  29719 batch_solve.h  29928 batch_factor.h  30129 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30268 hermitian.h  30430 complex_rows.h
+ *  30269 hermitian.h  30431 complex_rows.h
  * (last: undefine every internal macro)
- *  30598 undef.h
+ *  30599 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30874 front.inl.h  30876 product.inl.h  31387 words_undef.inl.h  31464 copy_rows.inl.h
- *  31502 multi_rhs.inl.h  31521 complex_groups.inl.h  31660 multi_rhs_small.inl.h
- *  31832 multi_rhs_tiles.inl.h  32109 sweeps.inl.h  32111 unit_triangle.inl.h  32148 two_rhs.inl.h
- *  32317 small_supernode.inl.h  32498 single_rhs.inl.h  32742 kernel_set.inl.h
- *  32744 complex_small.inl.h  32914 complex_rows.inl.h  33129 inverse_front.inl.h  33414 row.inl.h
- *  33444 change.inl.h  33596 interleave.inl.h  33727 lanes_undef.inl.h
+ *  30875 front.inl.h  30877 product.inl.h  31388 words_undef.inl.h  31465 copy_rows.inl.h
+ *  31503 multi_rhs.inl.h  31522 complex_groups.inl.h  31661 multi_rhs_small.inl.h
+ *  31833 multi_rhs_tiles.inl.h  32110 sweeps.inl.h  32112 unit_triangle.inl.h  32149 two_rhs.inl.h
+ *  32318 small_supernode.inl.h  32499 single_rhs.inl.h  32743 kernel_set.inl.h
+ *  32745 complex_small.inl.h  32915 complex_rows.inl.h  33130 inverse_front.inl.h  33415 row.inl.h
+ *  33445 change.inl.h  33597 interleave.inl.h  33728 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5873,8 +5873,9 @@ SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsi
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86) && defined(SLI_GNU) && !defined(_WIN32)
   __builtin_cpu_init();
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    return SL_ISA_SCALAR; /* untested: without AVX2 */
+  if (!__builtin_cpu_supports("avx2") || /* untested: without AVX2 */
+    !__builtin_cpu_supports("fma")) {  /* untested: the same */
+    return SL_ISA_SCALAR;              /* untested: the same */
   }
 #if defined(SLI_AVX512)
   if (__builtin_cpu_supports("avx512f")) { /* untested: with AVX2 alone */
@@ -31184,12 +31185,12 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
 
 #define SLI_LOAD_FRONT(k, unused) \
   if (SLI_IS_IN(k, all)) { \
-    SLV_LOAD(a##k, ((k) < columns ? p : update) + SLI_TILE * (k)) \
+    SLV_LOAD(a##k, (SLI_IS_IN(k, columns) ? p : update) + SLI_TILE * (k)) \
   } else { \
     SLV_ZERO(a##k) \
   }
 #define SLI_STORE_UPDATE(k, unused) \
-  if ((k) >= columns && (k) < all) { \
+  if (!SLI_IS_IN(k, columns) && (k) < all) { \
     SLV_STORE(update + SLI_TILE * (k), a##k) \
   }
 

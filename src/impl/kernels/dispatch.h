@@ -56,8 +56,9 @@ SLI_INLINE sl_isa sli_isa_of(unsigned leaves, unsigned ecx1, unsigned ebx7, unsi
 static sl_isa sli_cpu_best(void) {
 #if defined(SLI_X86) && defined(SLI_GNU) && !defined(_WIN32)
     __builtin_cpu_init(); /* if a constructor calls before the program has started */
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-        return SL_ISA_SCALAR; /* untested: without AVX2 */
+    if (!__builtin_cpu_supports("avx2") || /* untested: without AVX2 */
+        !__builtin_cpu_supports("fma")) {  /* untested: the same */
+        return SL_ISA_SCALAR;              /* untested: the same */
     }
 #if defined(SLI_AVX512)
     if (__builtin_cpu_supports("avx512f")) { /* untested: with AVX2 alone */

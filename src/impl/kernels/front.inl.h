@@ -126,12 +126,12 @@
  * the update matrix. */
 #define SLI_LOAD_FRONT(k, unused) \
     if (SLI_IS_IN(k, all)) { \
-        SLV_LOAD(a##k, ((k) < columns ? p : update) + SLI_TILE * (k)) \
+        SLV_LOAD(a##k, (SLI_IS_IN(k, columns) ? p : update) + SLI_TILE * (k)) \
     } else { \
         SLV_ZERO(a##k) \
     }
 #define SLI_STORE_UPDATE(k, unused) \
-    if ((k) >= columns && (k) < all) { \
+    if (!SLI_IS_IN(k, columns) && (k) < all) { \
         SLV_STORE(update + SLI_TILE * (k), a##k) \
     }
 
