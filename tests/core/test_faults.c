@@ -142,6 +142,44 @@ static void minimum_degree_on_any_processor(void **state) {
     gen_list_free(&t);
 }
 
+/* Larger leaves keep their order: the bit matrix has no room for them. */
+static void large_leaves_keep_their_order(void **state) {
+    (void)state;
+    enum { LEAF = 8 * sizeof(((sli_mindeg *)0)->alive) + 1 };
+    static sl_off begin[LEAF + 1];
+    static sl_int local[LEAF], vertices[LEAF], scratch[LEAF];
+    sli_level g;
+    sli_mindeg m;
+    memset(&g, 0, sizeof g);
+    memset(&m, 0, sizeof m);
+    g.n = LEAF;
+    g.begin = begin;
+    m.room = LEAF * LEAF;
+    for (sl_int v = 0; v < LEAF; v++) {
+        local[v] = -1;
+        vertices[v] = (v * 37) % LEAF;
+    }
+    sli_mindeg_order(&m, &g, vertices, LEAF, local, scratch);
+    for (sl_int v = 0; v < LEAF; v++) {
+        assert_int_equal(vertices[v], (v * 37) % LEAF);
+        assert_int_equal(local[v], -1);
+    }
+}
+
+/* A hierarchy of as many levels as there may be gets no more. */
+static void levels_end(void **state) {
+    (void)state;
+    static sli_dissection d;
+    const int most = sizeof d.levels / sizeof *d.levels;
+    int working;
+    d.n_levels = most;
+    d.levels[0].n = d.total = 4000;
+    d.levels[most - 1].n = 1000;
+    SL_CHECK(sli_dissect_coarsen(&d, 0, &working));
+    assert_int_equal(d.n_levels, most);
+    assert_int_equal(working, most - 1);
+}
+
 /* Marks that have used up their numbers begin again, and the order stays the same. */
 static void marks_begin_again(void **state) {
     (void)state;
@@ -327,6 +365,8 @@ int main(void) {
 #endif
         cmocka_unit_test(borders_separate),
         cmocka_unit_test(minimum_degree_on_any_processor),
+        cmocka_unit_test(large_leaves_keep_their_order),
+        cmocka_unit_test(levels_end),
         cmocka_unit_test(marks_begin_again),
 #if defined(__x86_64__) && !defined(SL_NO_SIMD) && !defined(_WIN32)
         cmocka_unit_test(instruction_sets_are_recognized),

@@ -72,6 +72,30 @@ static gen_list_t horizon(sl_int steps) {
     return t;
 }
 
+/* Constraint k is one on the variables k - 2 .. k + 2; bounds. */
+static gen_list_t chain(sl_int variables) {
+    gen_list_t t = kkt(variables, 2 * variables);
+    for (sl_int k = 0; k < variables; k++) {
+        for (sl_int v = k < 2 ? 0 : k - 2; v <= k + 2 && v < variables; v++) {
+            gen_add(&t, variables + k, v, 0.5);
+        }
+    }
+    add_bounds(&t, 2 * variables, 0, variables);
+    return t;
+}
+
+/* All variables in one dense block; bounds. */
+static gen_list_t dense_program(sl_int variables) {
+    gen_list_t t = kkt(variables, variables);
+    for (sl_int v = 0; v < variables; v++) {
+        for (sl_int k = 0; k < v; k++) {
+            gen_add(&t, v, k, 0.5);
+        }
+    }
+    add_bounds(&t, variables, 0, variables);
+    return t;
+}
+
 /* What the default order costs relative to minimum degree. */
 static order_quality relative(gen_list_t *t) {
     gen_matrix_t M = gen_store(t, gen_style(0), 1);
@@ -111,11 +135,33 @@ static void horizons_are_dissected(void **state) {
     assert_true(q.path < 0.3);
 }
 
+/* Its graph is bipartite, as that of control in the plane is. */
+static void chains_of_constraints_are_dissected(void **state) {
+    (void)state;
+    gen_list_t t = chain(1000);
+    const order_quality q = relative(&t);
+    assert_true(q.path < 0.3);
+}
+
+/* Without the bounds each row has too many neighbors for minimum degree, which counts none. */
+static void dense_programs_have_no_fill(void **state) {
+    (void)state;
+    const sl_int variables = 200;
+    gen_list_t t = dense_program(variables);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    const order_quality q = order_quality_of(&M.view, NULL);
+    assert_true(q.fill == 0.5 * variables * (variables + 1) + 2 * variables);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(control_in_the_plane_is_not_dissected),
         cmocka_unit_test(random_constraints_are_not_dissected),
         cmocka_unit_test(horizons_are_dissected),
+        cmocka_unit_test(chains_of_constraints_are_dissected),
+        cmocka_unit_test(dense_programs_have_no_fill),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -221,12 +221,83 @@ static void points_cost_next_to_nothing(void **state) {
     assert_int_equal(failures, 0);
 }
 
+/* The points of a lattice of space with 12 neighbors are halved by planes: 0.90 times the entries,
+ * 0.79 times the path weight. */
+static void points_may_halve_volumes(void **state) {
+    (void)state;
+    enum { SIDE = 24, N = SIDE * SIDE * SIDE };
+    gen_list_t t = gen_list(N);
+    double *xyz = test_reals(3 * (size_t)N);
+    for (sl_int v = 0; v < N; v++) {
+        const sl_int at[3] = {v % SIDE, v / SIDE % SIDE, v / SIDE / SIDE};
+        gen_add(&t, v, v, 1.0);
+        for (int way = 1; way < 7; way++) { /* along one axis or two */
+            const sl_int x = at[0] + (way & 1), y = at[1] + (way >> 1 & 1), z = at[2] + (way >> 2);
+            if (x < SIDE && y < SIDE && z < SIDE) {
+                gen_add(&t, x + SIDE * (y + SIDE * z), v, 1.0);
+            }
+        }
+        for (int c = 0; c < 3; c++) {
+            xyz[3 * v + c] = at[c];
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    order_quality with = {0, 0}, without = {0, 0};
+    add_points(&M.view, xyz, &with, &without);
+    assert_false(is_worse("lattice", with, without, 0.95, 0.85));
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(xyz);
+}
+
+/* A chain of blocks of 12 equal rows, and three rows that know one block each, so numbered that no
+ * pair of vertices of the compressed graph is light enough to become one: dissection has to do
+ * without coarser levels. Minimum degree has no fill. */
+static void blocks_that_cannot_be_paired_are_dissected(void **state) {
+    (void)state;
+    enum { BLOCKS = 80, ROWS = 12, SLOT = ROWS + 3, N = BLOCKS * SLOT };
+    gen_list_t t = gen_list(N);
+    for (sl_int s = 0; s < BLOCKS; s++) { /* a row of the next block, 12, their own, of the last */
+        const sl_int first = s * SLOT, up = s + 1 < BLOCKS ? first + SLOT : first;
+        const sl_int before = s > 0 ? first - SLOT : first;
+        for (sl_int k = first; k < first + SLOT; k++) {
+            gen_add(&t, k, k, 1.0);
+        }
+        for (sl_int k = 1; k <= ROWS; k++) {
+            for (sl_int m = 1; m <= ROWS; m++) {
+                if (m < k) {
+                    gen_add(&t, first + k, first + m, 1.0);
+                }
+                if (s > 0) {
+                    gen_add(&t, first + k, before + m, 1.0);
+                }
+            }
+            gen_add(&t, up + k, first, 1.0);
+            gen_add(&t, first + ROWS + 1, first + k, 1.0);
+            gen_add(&t, first + ROWS + 2, before + k, 1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = options_none();
+    order_quality mindeg;
+    const order_quality ours = order_quality_of(&M.view, &opt);
+    opt.ordering = SL_ORDERING_MINDEG;
+    mindeg = order_quality_of(&M.view, &opt);
+    print_message("%.3f times the entries, %.3f times the path weight\n", ours.fill / mindeg.fill,
+                  ours.path / mindeg.path);
+    assert_true(ours.fill <= 1.5 * mindeg.fill && ours.path <= 0.5 * mindeg.path);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fill_is_near_that_of_metis),
         cmocka_unit_test(meshes_are_near_metis),
         cmocka_unit_test(rings_are_near_metis),
         cmocka_unit_test(points_cost_next_to_nothing),
+        cmocka_unit_test(points_may_halve_volumes),
+        cmocka_unit_test(blocks_that_cannot_be_paired_are_dissected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
