@@ -324,6 +324,46 @@ static void neighbors_and_spread_sets_match_the_dense_inverse(void **state) {
     factored_free(&y);
 }
 
+/* With a selected inverse: the subtree of the set would cost less, but the 30 rows below it do not
+ * fit into the memory; the two below the next supernode do. A leaf keeps the two apart. */
+static void a_subtree_may_be_too_wide(void **state) {
+    (void)state;
+    enum { SET = 30, LEAF = SET, NEXT = LEAF + 1, TOP = NEXT + 28, BELOW = 2, N = 120 };
+    gen_list_t t = gen_list(N);
+    sl_options opt = options_none();
+    sl_int set[SET];
+    sl_selected *all = NULL;
+    sl_region *R = NULL;
+    sl_stats stats;
+    for (sl_int j = 0; j < N; j++) {
+        const sl_int end = j == LEAF ? NEXT + 1 : j < TOP ? TOP + BELOW : N;
+        gen_add(&t, j, j, 2.0 * N);
+        for (sl_int i = j + 1; i < end; i++) {
+            if (i != LEAF) {
+                gen_add(&t, i, j, 1.0);
+            }
+        }
+    }
+    for (sl_int k = 0; k < SET; k++) {
+        set[k] = k;
+    }
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.relaxation = SL_RELAXATION_NONE;
+    factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, FOR_ANALYSIS(&opt), NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
+    SL_CHECK(sl_selected_create(&all, y.F, NULL, 0, NULL, NULL));
+    opt.region_bytes = SET * SET * sizeof(double) / 2 - 1;
+    SL_CHECK(sl_region_create(&R, y.F, set, SET, all, FOR_REGION(&opt), &stats));
+    NOTHING_WRONG(check_region(R, set, SET));
+    assert_int_equal(stats.region.boundary, BELOW);
+    assert_int_equal(stats.region.is_copied, 1);
+    sl_region_free(R);
+    sl_selected_free(all);
+    factored_free(&y);
+    gen_list_free(&t);
+}
+
 /* A region cannot know the weights outside it, nor what regularization changed there. */
 static void unknown_weights_and_shifts_are_refused(void **state) {
     (void)state;
@@ -430,6 +470,7 @@ int main(void) {
         cmocka_unit_test(every_matrix_kind_matches_the_dense_inverse),
         cmocka_unit_test(squares_of_a_grid_match_full_solves),
         cmocka_unit_test(neighbors_and_spread_sets_match_the_dense_inverse),
+        cmocka_unit_test(a_subtree_may_be_too_wide),
         cmocka_unit_test(null_pivots_match_the_full_solve),
         cmocka_unit_test(unknown_weights_and_shifts_are_refused),
     };
