@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 575e8c6331ac0b00
+ * FNV-1a of the lines after this comment, without the license: ebe6f7459ba7c922
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -65,27 +65,27 @@
  *  21516 selected_query.h  21618 region_choose.h  21845 region.h
  * (change: a factor that follows changes of its matrix)
  *  22093 update.h  22446 path.h  22573 rank.h  22949 edges.h  23103 choose.h  23314 pins_types.h
- *  23393 pins_nulls.h  23576 pins_capacitance.h  23828 pins_balance.h  24006 pins_held.h
- *  24222 pins_choose.h  24280 pins_rebuild.h  24498 pins_matrix.h  24649 pins.h  24918 pins_solve.h
- *  25189 subset.h  25310 restrict_analysis.h  25681 restrict_symbolic.h  25879 restrict.h
- *  26107 edit_match.h  26306 edit_place.h  26555 edit_separate.h  26869 edit_order.h
- *  27024 edit_graph.h  27119 edit_join.h  27395 edit.h  27558 edit_factor.h
+ *  23393 pins_nulls.h  23576 pins_capacitance.h  23828 pins_balance.h  24007 pins_held.h
+ *  24223 pins_choose.h  24281 pins_rebuild.h  24499 pins_matrix.h  24650 pins.h  24919 pins_solve.h
+ *  25190 subset.h  25311 restrict_analysis.h  25682 restrict_symbolic.h  25880 restrict.h
+ *  26108 edit_match.h  26307 edit_place.h  26556 edit_separate.h  26870 edit_order.h
+ *  27025 edit_graph.h  27120 edit_join.h  27396 edit.h  27559 edit_factor.h
  * (save: factors in files)
- *  27843 format.h  28139 decode.h  28287 check.h  28617 write.h  28922 load.h  29190 load_inverse.h
- *  29520 load_calls.h
+ *  27844 format.h  28140 decode.h  28288 check.h  28618 write.h  28923 load.h  29191 load_inverse.h
+ *  29521 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29719 batch_solve.h  29928 batch_factor.h  30129 batch_diagonal.h
+ *  29720 batch_solve.h  29929 batch_factor.h  30130 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30269 hermitian.h  30431 complex_rows.h
+ *  30270 hermitian.h  30432 complex_rows.h
  * (last: undefine every internal macro)
- *  30599 undef.h
+ *  30600 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30875 front.inl.h  30877 product.inl.h  31388 words_undef.inl.h  31465 copy_rows.inl.h
- *  31503 multi_rhs.inl.h  31522 complex_groups.inl.h  31661 multi_rhs_small.inl.h
- *  31833 multi_rhs_tiles.inl.h  32110 sweeps.inl.h  32112 unit_triangle.inl.h  32149 two_rhs.inl.h
- *  32318 small_supernode.inl.h  32499 single_rhs.inl.h  32743 kernel_set.inl.h
- *  32745 complex_small.inl.h  32915 complex_rows.inl.h  33130 inverse_front.inl.h  33415 row.inl.h
- *  33445 change.inl.h  33597 interleave.inl.h  33728 lanes_undef.inl.h
+ *  30876 front.inl.h  30878 product.inl.h  31389 words_undef.inl.h  31466 copy_rows.inl.h
+ *  31504 multi_rhs.inl.h  31523 complex_groups.inl.h  31662 multi_rhs_small.inl.h
+ *  31834 multi_rhs_tiles.inl.h  32111 sweeps.inl.h  32113 unit_triangle.inl.h  32150 two_rhs.inl.h
+ *  32319 small_supernode.inl.h  32500 single_rhs.inl.h  32744 kernel_set.inl.h
+ *  32746 complex_small.inl.h  32916 complex_rows.inl.h  33131 inverse_front.inl.h  33416 row.inl.h
+ *  33446 change.inl.h  33598 interleave.inl.h  33729 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23904,12 +23904,13 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
               const double *norms) {
   const sl_factor *F = P->base;
+  const int checks = F->checks && norms != NULL;
   sl_int m, r;
   for (m = 0; m < F->n_nulls; m++) {
     const sl_int at = sli_reach_index_of(R, F->nulls[m]);
     double *row = y + (ptrdiff_t)at * lanes;
     const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
-    for (r = 0; r < lanes && at != -1 && F->checks && norms != NULL && !is_known; r++) {
+    for (r = 0; r < lanes && at != -1 && checks && !is_known; r++) {
       if (P->uses[m] == 0 && fabs(row[r]) > F->consistency * norms[r]) {
         return 0;
       }

@@ -49,6 +49,74 @@ static void matrices_of_zeros_are_changed(void **state) {
     sl_symbolic_free(S);
 }
 
+/* Nor has one with pivots of both signs, and the square of the change is 0, too. Where a change
+ * adds nothing to the first supernode, the first row is the one that is named. */
+static void matrices_of_zeros_have_no_scale(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 2, 4, 5}, i[5] = {0, 1, 1, 2, 2}, q[2] = {0, 2}, rows[2] = {0, 1};
+    const double zeros[5] = {0.0};
+    const sl_csc A = {3, 3, p, i, zeros};
+    for (int both = 0; both < 2; both++) {
+        const sl_int signs[3] = {1, both ? -1 : 1, 1};
+        const double x[2] = {1e-200, both ? 0.0 : 1.0}, b[3] = {6.0, 4.0, 2.0};
+        const sl_csc V = {3, 1, q, rows, x};
+        double y[3];
+        sl_options opt = options_none();
+        sl_symbolic *S;
+        sl_factor *F;
+        sl_stats stats;
+        opt.ordering = SL_ORDERING_NATURAL;
+        opt.relaxation = SL_RELAXATION_NONE;
+        SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+        opt.regularization = 2.0;
+        opt.signs = signs;
+        opt.growth_limit = both ? 0.0 : 0.5;
+        opt.error_limit = -1.0;
+        SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
+        if (both) {
+            SL_CHECK(sl_factor_update(F, &V, NULL, NULL, &stats));
+            assert_true(stats.change.drift <= DBL_EPSILON);
+        } else {
+            SL_EXPECT(SL_ERR_INACCURATE, sl_factor_update(F, &V, NULL, NULL, &stats));
+            assert_int_equal(stats.error.row, 0);
+        }
+        SL_CHECK(sl_factor_solve(F, y, 3, b, 3, 1, NULL));
+        assert_true(y[0] == 3.0 && y[1] == 2.0 * signs[1] && y[2] == 1.0);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
+/* Two vectors in one pass: zeros that they store count for nothing, also outside of L; a pivot that
+ * becomes 0 is refused, in a pass that is tried first and in one that is logged. */
+static void two_vectors_may_store_zeros(void **state) {
+    (void)state;
+    const sl_int p[3] = {0, 1, 2}, i[2] = {0, 1}, q[3] = {0, 2, 4}, rows[4] = {0, 1, 0, 1};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double x[2] = {4.0, 9.0 * sign}, sigma[2] = {-1.0, -1.0};
+        double v[4] = {1.0, 0.0, 0.0, 1.0};
+        const sl_csc A = {2, 2, p, i, x}, V = {2, 2, q, rows, v};
+        sl_symbolic *S;
+        sl_factor *F;
+        sl_stats stats;
+        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+        const sl_int *at = sl_symbolic_view(S).iperm;
+        const double *D = sl_factor_view(F).D;
+        SL_CHECK(sl_factor_update(F, &V, NULL, NULL, NULL));
+        assert_true(D[at[0]] == 5.0 && D[at[1]] == 9.0 * sign + 1.0);
+        SL_CHECK(sl_factor_update(F, &V, sigma, NULL, NULL));
+        assert_true(D[at[0]] == 4.0 && D[at[1]] == 9.0 * sign);
+        v[0] = v[2] = 2.0;
+        v[3] = 0.0;
+        SL_EXPECT(SL_ERR_PIVOT, sl_factor_update(F, &V, sigma, NULL, &stats));
+        assert_int_equal(stats.error.row, 0);
+        assert_true(D[at[0]] == 4.0 && D[at[1]] == 9.0 * sign);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 /* A spring of 1e10 comes and goes: what rounding has left is large beside the entries that remain,
  * and the drift says so, also if others come and go afterwards. */
 static void drift_is_relative_to_what_remains(void **state) {
@@ -154,6 +222,8 @@ int main(void) {
         cmocka_unit_test(growth_is_relative_to_what_remains),
         cmocka_unit_test(zeros_change_nothing),
         cmocka_unit_test(matrices_of_zeros_are_changed),
+        cmocka_unit_test(matrices_of_zeros_have_no_scale),
+        cmocka_unit_test(two_vectors_may_store_zeros),
         cmocka_unit_test(a_pivot_of_rounding_is_null),
         cmocka_unit_test(entries_outside_of_L_are_refused),
     };

@@ -86,12 +86,13 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
                           const double *norms) {
     const sl_factor *F = P->base;
+    const int checks = F->checks && norms != NULL;
     sl_int m, r;
     for (m = 0; m < F->n_nulls; m++) {
         const sl_int at = sli_reach_index_of(R, F->nulls[m]);
         double *row = y + (ptrdiff_t)at * lanes;
         const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
-        for (r = 0; r < lanes && at != -1 && F->checks && norms != NULL && !is_known; r++) {
+        for (r = 0; r < lanes && at != -1 && checks && !is_known; r++) {
             if (P->uses[m] == 0 && fabs(row[r]) > F->consistency * norms[r]) {
                 return 0;
             }
