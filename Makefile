@@ -428,8 +428,7 @@ test-wasm: deps-wasm deps-clang sparse_local.h ## the portable tests for WebAsse
 	INCLUDES='-Itests/lib/cmocka -Itests/lib/wasi' TEST_PROGRAMS='$(WASM_TESTS:tests/%.c=build/wasm/tests/%)'
 
 # Counters are atomic because threads run too. The tests run without DATA, so that the figures are those
-# of any checkout. A program that another user runs cannot write its counts; its messages are dropped.
-# The limits are what the tests reach; they only rise. Both are meant to be 100.
+# of any checkout. The limits are what the tests reach; they only rise. Both are meant to be 100.
 COV_LINES = 99.9
 COV_BRANCHES = 99.7
 GCOVR = gcovr --root . --exclude-throw-branches --exclude-unreachable-branches --exclude-branches-by-pattern '.*SLI_ASSERT\(.*' \
@@ -437,7 +436,7 @@ GCOVR = gcovr --root . --exclude-throw-branches --exclude-unreachable-branches -
 
 cov: deps deps-cov deps-png sparse_local.h ## line and branch coverage of the header and of tools by the tests, with limits; build/cov/index.html
 	@if [ -d build/cov ]; then find build/cov -name '*.gcda' -delete; fi
-	@+GCOV_ERROR_FILE=/dev/null $(SUB_MAKE) run-tests B=build/cov SL_DATA= PROGRAM=build/cov/sparse-local \
+	@+$(SUB_MAKE) run-tests B=build/cov SL_DATA= PROGRAM=build/cov/sparse-local \
 	ALSO='$(PROGRAM_CHECKS)' OPT='-O0 -g --coverage -fprofile-update=atomic -DTEST_ALL_KERNELS'; status=$$?; \
 	echo 'tools/'; $(GCOVR) --filter 'tools/' --html build/cov/tools.html build/cov/obj 2>build/cov/gcovr.log || cat build/cov/gcovr.log; \
 	echo 'sparse_local.h'; $(GCOVR) --filter 'sparse_local\.h' --html-details build/cov/index.html \
