@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ebe6f7459ba7c922
+ * FNV-1a of the lines after this comment, without the license: f895255519af0a79
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,84 +8,84 @@
  *    163 config.h     macros that a user may define before the include, the version, and the integer types
  *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    412 options.h    options of all calls, threads, and the allocator
- *    553 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    748 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    920 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1064 factor.h     the numerical factorization P A P' = L D L'
- *   1346 solve.h      full solves, and the workspace of all solves
- *   1459 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1553 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1666 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1779 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1915 batch.h      many independent solves by one call, distributed over threads
- *   1965 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2143 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2263 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2367 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2506 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2624 change.h     a factor that follows small changes of its matrix
- *   2712 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2863 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   2994 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3048 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *    554 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    749 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    921 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1065 factor.h     the numerical factorization P A P' = L D L'
+ *   1354 solve.h      full solves, and the workspace of all solves
+ *   1467 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1561 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1674 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1787 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1923 batch.h      many independent solves by one call, distributed over threads
+ *   1973 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2151 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2271 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2375 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2514 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2632 change.h     a factor that follows small changes of its matrix
+ *   2720 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2871 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3002 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3056 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3140 base.h   3434 status.h   3495 options.h   3553 alloc.h   3709 hash.h   3839 file_map.h
- *   3936 sort.h   4000 parallel.h
+ *   3148 base.h   3442 status.h   3503 options.h   3561 alloc.h   3717 hash.h   3847 file_map.h
+ *   3944 sort.h   4008 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4196 panel.h   4222 step.h   4300 pivot_rule.h   4374 front.h   4435 pairs.h
- *   4642 inverse_front.h   4714 table.h   4752 simd.h   4847 simd_scalar_single.h
- *   4893 simd_scalar.h   5031 simd_avx2_single.h   5085 simd_avx2.h   5326 simd_avx512_single.h
- *   5381 simd_avx512.h   5557 simd_neon_single.h   5599 simd_neon.h   5834 dispatch.h
+ *   4204 panel.h   4230 step.h   4308 pivot_rule.h   4382 front.h   4443 pairs.h
+ *   4650 inverse_front.h   4722 table.h   4760 simd.h   4855 simd_scalar_single.h
+ *   4901 simd_scalar.h   5039 simd_avx2_single.h   5093 simd_avx2.h   5334 simd_avx512_single.h
+ *   5389 simd_avx512.h   5565 simd_neon_single.h   5607 simd_neon.h   5842 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5927 csc.h   6070 csc_build.h   6204 csc64.h   6275 csc_triangle.h   6340 csc_products.h
- *   6457 permute.h   6523 sum.h   6605 output_file.h   6814 matrix_market.h
+ *   5935 csc.h   6078 csc_build.h   6212 csc64.h   6283 csc_triangle.h   6348 csc_products.h
+ *   6465 permute.h   6531 sum.h   6613 output_file.h   6822 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7260 graph.h   7378 contract.h   7632 coarsen.h   7795 labels.h   8016 subgraph.h   8210 heap.h
- *   8270 bisect.h   8497 separator.h   8759 mindeg.h   8942 dissect.h   9266 tree_cost.h
- *   9318 levelset.h   9424 geometric.h   9599 cells.h   9779 septree.h   9855 metis.h
- *  10004 metis_refined.h  10118 nd.h  10318 compress.h  10439 levels.h  10491 peel.h
- *  10697 quotient.h  11133 graph_kind.h  11204 order.h
+ *   7268 graph.h   7386 contract.h   7640 coarsen.h   7803 labels.h   8024 subgraph.h   8218 heap.h
+ *   8278 bisect.h   8505 separator.h   8767 mindeg.h   8950 dissect.h   9274 tree_cost.h
+ *   9326 levelset.h   9432 geometric.h   9607 cells.h   9787 septree.h   9863 metis.h
+ *  10012 metis_refined.h  10126 nd.h  10326 compress.h  10447 levels.h  10499 peel.h
+ *  10705 quotient.h  11141 graph_kind.h  11212 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11558 symbolic_types.h  11595 etree.h  11670 counts.h  11719 supernodes.h  11960 pattern.h
- *  12046 structure.h  12240 schedule.h  12520 symbolic.h  12968 reach.h
+ *  11566 symbolic_types.h  11603 etree.h  11678 counts.h  11727 supernodes.h  11968 pattern.h
+ *  12054 structure.h  12248 schedule.h  12528 symbolic.h  12976 reach.h
  * (factor: the numbers of L and D)
- *  13239 factor_types.h  13659 storage.h  13797 pivot_search.h  14143 pivoted.h  14212 scatter.h
- *  14370 uplooking.h  14442 null_product.h  14646 null_dense.h  14723 null_basis.h
- *  15031 null_vectors.h  15173 multifrontal.h  15367 gather.h  15415 kept.h  15585 front_tasks.h
- *  15928 nullspace.h  16131 growth.h  16209 factor_setup.h  16535 factor.h  16745 leftlooking.h
- *  16892 factor_query.h  17027 combination.h
+ *  13247 factor_types.h  13671 storage.h  13809 pivot_search.h  14155 pivoted.h  14224 scatter.h
+ *  14382 uplooking.h  14454 null_product.h  14658 null_dense.h  14735 null_basis.h
+ *  15055 null_vectors.h  15197 multifrontal.h  15391 gather.h  15439 kept.h  15609 front_tasks.h
+ *  15952 null_center.h  16072 nullspace.h  16279 growth.h  16357 factor_setup.h  16682 factor.h
+ *  16892 leftlooking.h  17039 factor_query.h  17174 combination.h
  * (solve: full and local solves)
- *  17088 region_types.h  17192 work.h  17292 query.h  17508 singular.h  17782 backward.h
- *  17812 sweep_tasks.h  18143 sweep.h  18354 compile.h  18547 plan.h  18654 local.h  18806 parts.h
- *  19095 refine.h  19274 refine_local.h  19490 rcond.h  19649 defects.h
+ *  17235 region_types.h  17339 work.h  17439 query.h  17655 singular.h  17912 backward.h
+ *  17942 sweep_tasks.h  18273 sweep.h  18481 compile.h  18674 plan.h  18781 local.h  18933 parts.h
+ *  19222 refine.h  19401 refine_local.h  19617 rcond.h  19776 defects.h
  * (inverse: entries of the inverse, regions)
- *  19727 traversal.h  19976 traversal_run.h  20169 row_sets.h  20203 unit_vectors.h
- *  20430 bilinear.h  20602 entries.h  20879 block.h  21114 reserve.h  21306 selected.h
- *  21516 selected_query.h  21618 region_choose.h  21845 region.h
+ *  19835 traversal.h  20084 traversal_run.h  20277 row_sets.h  20311 unit_vectors.h
+ *  20538 bilinear.h  20710 entries.h  20987 block.h  21222 reserve.h  21414 selected.h
+ *  21624 selected_query.h  21726 region_choose.h  21953 region.h
  * (change: a factor that follows changes of its matrix)
- *  22093 update.h  22446 path.h  22573 rank.h  22949 edges.h  23103 choose.h  23314 pins_types.h
- *  23393 pins_nulls.h  23576 pins_capacitance.h  23828 pins_balance.h  24007 pins_held.h
- *  24223 pins_choose.h  24281 pins_rebuild.h  24499 pins_matrix.h  24650 pins.h  24919 pins_solve.h
- *  25190 subset.h  25311 restrict_analysis.h  25682 restrict_symbolic.h  25880 restrict.h
- *  26108 edit_match.h  26307 edit_place.h  26556 edit_separate.h  26870 edit_order.h
- *  27025 edit_graph.h  27120 edit_join.h  27396 edit.h  27559 edit_factor.h
+ *  22201 update.h  22554 path.h  22681 rank.h  23057 edges.h  23211 choose.h  23422 pins_types.h
+ *  23501 pins_nulls.h  23684 pins_capacitance.h  23936 pins_balance.h  24115 pins_held.h
+ *  24331 pins_choose.h  24389 pins_rebuild.h  24607 pins_matrix.h  24758 pins.h  25027 pins_solve.h
+ *  25298 subset.h  25419 restrict_analysis.h  25790 restrict_symbolic.h  25988 restrict.h
+ *  26216 edit_match.h  26415 edit_place.h  26664 edit_separate.h  26978 edit_order.h
+ *  27133 edit_graph.h  27228 edit_join.h  27504 edit.h  27667 edit_factor.h
  * (save: factors in files)
- *  27844 format.h  28140 decode.h  28288 check.h  28618 write.h  28923 load.h  29191 load_inverse.h
- *  29521 load_calls.h
+ *  27952 format.h  28249 decode.h  28397 check.h  28727 write.h  29032 load.h  29300 load_inverse.h
+ *  29630 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29720 batch_solve.h  29929 batch_factor.h  30130 batch_diagonal.h
+ *  29829 batch_solve.h  30038 batch_factor.h  30239 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30270 hermitian.h  30432 complex_rows.h
+ *  30379 hermitian.h  30541 complex_rows.h
  * (last: undefine every internal macro)
- *  30600 undef.h
+ *  30709 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30876 front.inl.h  30878 product.inl.h  31389 words_undef.inl.h  31466 copy_rows.inl.h
- *  31504 multi_rhs.inl.h  31523 complex_groups.inl.h  31662 multi_rhs_small.inl.h
- *  31834 multi_rhs_tiles.inl.h  32111 sweeps.inl.h  32113 unit_triangle.inl.h  32150 two_rhs.inl.h
- *  32319 small_supernode.inl.h  32500 single_rhs.inl.h  32744 kernel_set.inl.h
- *  32746 complex_small.inl.h  32916 complex_rows.inl.h  33131 inverse_front.inl.h  33416 row.inl.h
- *  33446 change.inl.h  33598 interleave.inl.h  33729 lanes_undef.inl.h
+ *  30985 front.inl.h  30987 product.inl.h  31498 words_undef.inl.h  31575 copy_rows.inl.h
+ *  31613 multi_rhs.inl.h  31632 complex_groups.inl.h  31771 multi_rhs_small.inl.h
+ *  31943 multi_rhs_tiles.inl.h  32220 sweeps.inl.h  32222 unit_triangle.inl.h  32259 two_rhs.inl.h
+ *  32428 small_supernode.inl.h  32609 single_rhs.inl.h  32853 kernel_set.inl.h
+ *  32855 complex_small.inl.h  33025 complex_rows.inl.h  33240 inverse_front.inl.h  33525 row.inl.h
+ *  33555 change.inl.h  33707 interleave.inl.h  33838 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -495,8 +495,9 @@ typedef struct sl_options {
      * negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
-     * solution has sum m x = 0, and b is made consistent by a multiple of m; NULL: x is 0 in the
-     * null rows */
+     * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
+     * vectors z it has sum m z x = 0 for each of them (sl_factor_create); NULL: x is 0 in the null
+     * rows */
     const double *mass;
     /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
@@ -1174,6 +1175,11 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *    solution of the Poisson problem. If all weights of a component are 0, as for a vertex without
  *    faces, all count as 1. A row of zeros is a component by itself, whatever the pattern; its x is
  *    0.
+ *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
+ *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
+ *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is singular
+ *    to rounding, as where the only weights are those of one vertex, the factorization is refused;
+ *    so are null pivots by the tolerance in components of more than one row.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -1199,14 +1205,15 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
- *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; with mass, also a mean that
- *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
- *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
- *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
+ *           pivot in its component, or one whose null vectors the weights do not fix (z' m = 0,
+ *           Z' M Z singular); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry
+ *           of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its limit,
+ *           caused by the pivot error.value of error.row, or an entry of L in the column of that
+ *           pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the entry
+ *           of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
- *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with several null vectors, or more of
- *           them in the tree of error.row than columns;
+ *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
+ *           than columns;
  *           SL_STORAGE_COMPLEX of a matrix that sl_matrix_from_hermitian did not make, of an
  *           analysis without block_size 2, of sums, or with null pivots that are replaced;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
@@ -1217,7 +1224,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
  *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
- *           bytes per row, and 2 k operations per visited column in solves.
+ *           bytes per row, and 2 k operations per visited column in solves; with mass another k
+ *           sweeps, k products with L, 16 (k + 1) bytes per row, and twice as many operations.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor, by one loop of the pool, whose bodies draw subtrees
  *           and pieces of large fronts until none is left. A thread that begins late, or never,
@@ -13537,6 +13545,10 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   return status;
 }
 
+SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
+  return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
+}
+
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
   return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
 }
@@ -14756,6 +14768,18 @@ static void sli_null_chain(sl_factor *F) {
   }
 }
 
+SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
+  return F->last[k] == k && F->chain[k] == -1;
+}
+
+SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
+  sl_int j = 0;
+  while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+    j++;
+  }
+  return j < F->null_vectors ? j : -1;
+}
+
 static double sli_null_largest(const sli_null_part *p, sl_int j) {
   const double *z = p->z + (size_t)j * p->n;
   double largest = 0.0;
@@ -15004,7 +15028,7 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
   for (k = 0; k < S->n; k++) {
     if (F->last[k] == k) {
       sli_null_part p = sli_null_part_of(F, k);
-      const int is_single = F->chain[k] == -1;
+      const int is_single = sli_null_is_row(F, k);
       if (F->rounding[k] == 0.0) {
         sli_null_orthonormalize(&p);
       } else {
@@ -15925,6 +15949,126 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
   return failure->status;
 }
 
+/* src/impl/factor/null_center.h: constants for centered solves where components have several null vectors */
+
+static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
+  const size_t n = (size_t)F->S->n;
+  sl_int m = sli_lower_bound(F->nulls, F->n_nulls, first), count = 0, k = root, i, j;
+  for (; m < F->n_nulls && F->nulls[m] <= root; m++) {
+    k = F->nulls[m];
+    if (sli_null_column(F, k) != -1) {
+      F->divisors[k] = 1.0;
+      count++;
+    } else if (F->rule.kinds[k] != SLI_PIVOT_NULL && !sli_null_is_row(F, k)) {
+      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, 0.0);
+    }
+  }
+  for (j = 0, m = k; j < count; j++) {
+    double *u = F->center + (size_t)j * n, *v = u + (size_t)F->null_vectors * n;
+    double size = 0.0, square = 0.0;
+    for (k = first; k <= root; k++) {
+      size += fabs(F->mass[k]) * u[k] * u[k];
+    }
+    for (i = 0; i < 2 * j; i++) {
+      const double *q = F->center + (size_t)(i % j) * n, *p = q + (v - u);
+      double dot = 0.0;
+      for (k = first; k <= root; k++) {
+        dot += p[k] * u[k];
+      }
+      for (k = first; k <= root; k++) {
+        u[k] -= dot * q[k];
+      }
+    }
+    for (k = first; k <= root; k++) {
+      square += F->mass[k] * u[k] * u[k];
+    }
+    if (!(fabs(square) > F->S->n * DBL_EPSILON * size + 1e-290)) {
+      return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[m], m, -1, square);
+    }
+    for (k = first; k <= root; k++) {
+      u[k] /= sqrt(fabs(square));
+      v[k] = square < 0.0 ? -F->mass[k] * u[k] : F->mass[k] * u[k];
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_center_multiply(sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int s, c, r, j;
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_step *step = &S->steps[s];
+    const sl_off below = S->rows_begin[s] - step->width;
+    for (c = 0; c < F->null_vectors; c++) {
+      double *u = F->center + (size_t)c * (size_t)S->n;
+      for (r = 1; r < step->width + step->below; r++) {
+        const double x = u[r < step->width ? step->column + r : S->rows[below + r]];
+        for (j = 0; j < sli_min(r, step->width) && x != 0.0; j++) {
+          u[step->column + j] +=
+            x * sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
+        }
+      }
+    }
+  }
+}
+
+static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
+  const size_t n = (size_t)F->S->n, count = (size_t)F->null_vectors;
+  double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
+  size_t i, j;
+  sl_int k;
+  for (k = first; k <= root; k++) {
+    double *v = F->center + count * n + k;
+    for (i = 0; i < count; i++) {
+      v[i * n] = sli_is_skipped(F, k) ? 0.0 : v[i * n] / F->D[k];
+      for (j = 0; j <= i; j++) {
+        q[i * count + j] += v[i * n] * F->D[k] * v[j * n];
+        q[j * count + i] = q[i * count + j];
+      }
+    }
+  }
+  for (k = first; k <= root; k++) {
+    double *u = F->center + k, *v = u + count * n;
+    for (i = 0; i < count * count; i++) {
+      v[i % count * n] -= u[i / count * n] * q[i] / 2.0;
+      size += fabs(q[i]);
+    }
+  }
+  return sli_is_finite(size)
+         ? SL_OK
+         : sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[root], root, -1, size);
+}
+
+static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sli_reach all = sli_reach_all(S);
+  const size_t n = (size_t)S->n, count = (size_t)F->null_vectors;
+  sl_status status = SL_OK;
+  sl_int k, first;
+  size_t j;
+  int pass;
+  memcpy(F->divisors, F->D, n * sizeof(double));
+  memcpy(F->center, F->g, n * count * sizeof(double));
+  memset(F->center + n * count, 0, n * count * sizeof(double));
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    for (j = count; j < 2 * count && pass == 1; j++) {
+      sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center + n * j,
+                F->center_scratch);
+    }
+    if (pass == 1) {
+      sli_center_multiply(F);
+    }
+    for (k = first = 0; k < S->n && status == SL_OK; k++) {
+      if (S->parent[k] == -1) {
+        status = pass == 0 ? sli_center_weigh(F, first, k, failure)
+                   : sli_center_finish(F, first, k, failure);
+        first = k + 1;
+      }
+    }
+  }
+  return status;
+}
+
 /* src/impl/factor/nullspace.h: after a factorization: the null pivots, and constants for centered solves */
 
 static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats) {
@@ -16038,9 +16182,13 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
 static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  sl_status status = sli_anchors_find(F, failure);
   double total = 0.0;
+  sl_status status;
   sl_int k, first = 0, m = 0;
+  if (F->null_vectors > 1) {
+    return sli_center_several(F, failure);
+  }
+  status = sli_anchors_find(F, failure);
   memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
   memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
   sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
@@ -16234,7 +16382,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
     F->squares = SLI_TAKE(b, double, S->stats.symbolic.components);
     F->mass = SLI_TAKE(b, double, n);
-    F->center = SLI_TAKE(b, double, n);
+    F->center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
     F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
   }
   F->values = sli_is_float(F)
@@ -16499,7 +16647,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.method = sli_method(S, opt);
   status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
            (S->n_pairs > 0 && sli_is_single(&draft)) ||
-           (draft.is_centered && draft.null_vectors > 1) ||
            (sli_is_complex(&draft) && !sli_complex_is_possible(&draft))
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
@@ -17599,14 +17746,6 @@ typedef struct sli_null_dot {
   double sums[SLI_TILE];
 } sli_null_dot;
 
-SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
-  sl_int j = 0;
-  while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
-    j++;
-  }
-  return j < F->null_vectors ? j : -1;
-}
-
 static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
                const double *b, sl_int lanes, sl_int *m, sli_null_dot *dot) {
   const sl_int last = sli_tree_range_of(F->S, &R->steps[root]).root;
@@ -17640,8 +17779,8 @@ SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int 
   return sli_lower_bound(F->nulls, F->n_nulls, sli_tree_range_of(F->S, &R->steps[root]).first);
 }
 
-static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const double *b,
-                   sl_int lanes, const double *norms) {
+static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b, sl_int lanes,
+             const double *norms, double *Y, size_t ldy, sl_int nrhs) {
   sl_int first = 0, s, m, r;
   for (s = 0; s < R->count; s++) {
     sli_null_dot dot;
@@ -17650,8 +17789,10 @@ static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const
     }
     m = sli_null_first(F, R, s);
     while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
-      for (r = 0; r < lanes; r++) {
-        if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+      for (r = 0; r < nrhs; r++) {
+        if (Y != NULL) {
+          Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
+        } else if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
           return 0;
         }
       }
@@ -17659,21 +17800,6 @@ static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const
     first = s + 1;
   }
   return 1;
-}
-
-static void sli_anchors_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-  sl_int s, m;
-  for (s = 0; s < R->count; s++) {
-    if (R->steps[s].up == -1) {
-      const sl_int last = sli_tree_range_of(F->S, &R->steps[s]).root;
-      for (m = sli_null_first(F, R, s); m < F->n_nulls && F->nulls[m] <= last; m++) {
-        const sl_int at = sli_reach_index_of(R, F->nulls[m]);
-        if (at != -1 && F->rule.kinds[F->nulls[m]] == SLI_PIVOT_NULL) {
-          memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
-        }
-      }
-    }
-  }
 }
 
 static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
@@ -17700,39 +17826,28 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
 }
 
 typedef struct sli_center_terms {
-  double c[SLI_TILE], t[SLI_TILE];
+  double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int s,
-                  const double *y, sl_int lanes, sl_int *m, sli_tree_range *tree,
+static void sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
+                  const double *y, sl_int lanes, sl_int m, sl_int count,
                   sli_center_terms *terms) {
-  double chains[SLI_TILE], sums[SLI_TILE];
-  sl_int r, at, up = s;
-  memset(terms, 0, sizeof *terms);
-  memset(chains, 0, sizeof chains);
-  while (up != -1) {
-    const sli_step *step = &R->steps[s++];
-    const double *v = F->center + step->column, *row = y + (ptrdiff_t)step->base * lanes;
-    const sl_int columns = sli_step_columns(step);
-    sli_chains_add(chains, v, row, columns, lanes);
-    up = step->up;
+  sl_int s, j, r, at;
+  for (j = 0; j < count; j++) {
+    double chains[SLI_TILE] = {0.0};
+    for (s = first; s <= root; s++) {
+      const sli_step *step = &R->steps[s];
+      sli_chains_add(chains, F->center + (size_t)j * (size_t)F->S->n + step->column,
+               y + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+    }
+    sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
   }
-  *tree = sli_tree_range_of(F->S, &R->steps[s - 1]);
-  *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
-  if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
-    *m = -1;
-    return s;
+  at = count == 1 ? sli_reach_index_of(R, F->anchors[m]) : -1;
+  for (r = 0; r < lanes && count == 1; r++) {
+    const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->ratios[m] : 0.0;
+    terms->t[r] = c * F->squares[m] - terms->c[0][r];
+    terms->c[0][r] = c;
   }
-  at = sli_reach_index_of(R, F->anchors[*m]);
-  if (at != -1) {
-    memcpy(terms->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
-  }
-  sli_chains_sum(chains, lanes, sums);
-  for (r = 0; r < lanes; r++) {
-    terms->c[r] *= F->ratios[*m];
-    terms->t[r] = terms->c[r] * F->squares[*m] - sums[r];
-  }
-  return s;
 }
 
 SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const double *D,
@@ -17749,31 +17864,46 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
 
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
              const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
-  sl_int s = 0, at = 0, m;
-  while (s < from->count && at < to->count) {
+  const int is_one = F->null_vectors == 1;
+  const sl_int *list = is_one ? F->anchors : F->nulls;
+  const sl_int listed = is_one ? F->n_anchors : F->n_nulls;
+  const sl_int count = F->is_centered ? sli_center_count(F) : 0;
+  sl_int first = 0, at = 0, root, m, j;
+  for (root = 0; root < from->count; root++) {
     sli_center_terms terms;
     sli_tree_range tree;
-    sl_int index;
-    s = sli_center_tree_terms(F, from, s, y, lanes, &m, &tree, &terms);
-    if (m != -1 && uses != NULL &&
-      uses[sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m])] > 0) {
-      m = -1;
+    if (from->steps[root].up != -1) {
+      continue;
     }
-    for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-      const sli_step *step = &to->steps[at];
-      const double *v = F->center + step->column, *D = F->D + step->column;
-      double *row = x + (ptrdiff_t)step->base * lanes;
-      const sl_int columns = sli_step_columns(step);
-      if (m != -1 && step->column >= tree.first) {
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c, constant)
-        SLI_FOR_LANES(lanes, SLI_CALL)
+    tree = sli_tree_range_of(F->S, &from->steps[root]);
+    m = sli_lower_bound(list, listed, tree.first);
+    if (m < listed && list[m] <= tree.root &&
+      (uses == NULL || uses[sli_lower_bound(F->nulls, F->n_nulls, list[m])] == 0)) {
+      sli_center_tree_terms(F, from, first, root, y, lanes, m, count, &terms);
+      for (; m < listed && list[m] <= tree.root && !is_one; m++) {
+        j = sli_reach_index_of(to, list[m]);
+        if (j != -1 && F->rule.kinds[list[m]] == SLI_PIVOT_NULL) {
+          memset(x + (ptrdiff_t)j * lanes, 0, (size_t)lanes * sizeof(double));
+        }
+      }
+      for (; at < to->count && to->steps[at].column <= tree.root; at++) {
+        const sli_step *step = &to->steps[at];
+        const double *D = F->divisors + step->column;
+        double *row = x + (ptrdiff_t)step->base * lanes;
+        const sl_int columns = sli_step_columns(step);
+        for (j = 0; j < count && step->column >= tree.first; j++) {
+          const double *v = F->center + (size_t)j * (size_t)F->S->n + step->column;
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
+          SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
+        }
+      }
+      j = is_one ? sli_reach_index_of(to, list[m]) : -1;
+      if (j != -1) {
+        memcpy(x + (ptrdiff_t)j * lanes, terms.t, (size_t)lanes * sizeof(double));
       }
     }
-    index = m != -1 ? sli_reach_index_of(to, F->anchors[m]) : -1;
-    if (index != -1) {
-      memcpy(x + (ptrdiff_t)index * lanes, terms.t, (size_t)lanes * sizeof(double));
-    }
+    first = root + 1;
   }
 }
 
@@ -18197,7 +18327,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   if (F->checks) {
     sli_norms(&q->forward, v->y, lanes, norms);
     if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
-      !sli_null_dots_are_small(F, &q->forward, v->y, lanes, norms)) {
+      !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
       return 0;
     }
   }
@@ -18209,16 +18339,13 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
                  sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
-  if (F->null_vectors > 1) {
-    sli_anchors_clear(F, &q->forward, v->y, lanes);
-  }
   if (!q->is_shared) {
     sli_sweep_transfer(q, v->y, v->x, lanes);
   }
   if (q->region != NULL) {
     sli_sweep_region(F, q, kind, v);
   }
-  if (F->is_centered) {
+  if (F->is_centered || F->null_vectors > 1) {
     sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
@@ -19648,25 +19775,6 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 
 /* src/impl/solve/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
 
-static void sli_defects_known(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
-                const double *b, sl_int lanes, sl_int nrhs) {
-  const sli_reach *R = &q->forward;
-  sl_int first = 0, s, m, r;
-  for (s = 0; s < R->count; s++) {
-    sli_null_dot dot;
-    if (R->steps[s].up != -1) {
-      continue;
-    }
-    m = sli_null_first(F, R, s);
-    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
-      for (r = 0; r < nrhs; r++) {
-        Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
-      }
-    }
-    first = s + 1;
-  }
-}
-
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
             const double *B, size_t ldb, sl_int nrhs, void *memory) {
   sl_int c, r, m;
@@ -19676,7 +19784,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
     sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
          lanes, block);
     if (F->null_vectors > 1) {
-      sli_defects_known(F, q, Y + (size_t)c * ldy, ldy, v.y, lanes, block);
+      (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
     }
     sli_sweep_forward(F, q, &v, block);
     for (m = 0; m < F->n_nulls; m++) {
@@ -27986,6 +28094,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
   const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
   const uint64_t weighted = g->has_mass ? n : 0;
+  const uint64_t centers = weighted * (g->null_vectors > 1 ? 2 * (uint64_t)g->null_vectors : 1);
   const uint64_t trees = g->has_mass ? (uint64_t)f->analysis.components : 0;
   const uint64_t anchors = g->is_centered ? (uint64_t)g->anchors : 0;
   const uint64_t panels = has_factor ? (uint64_t)f->analysis.panels : 0;
@@ -28009,7 +28118,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   SLI_ADD(4, anchors, trees, anchors);
   SLI_ADD(8, squares, trees, anchors);
   SLI_ADD(8, mass, weighted, weighted);
-  SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
+  SLI_ADD(8, center, centers, g->is_centered ? centers : 0);
   SLI_ADD(8, ratios, trees, anchors);
   if (g->storage != SL_STORAGE_DOUBLE) {
     SLI_ADD(8, values, 0, 0);
@@ -28244,7 +28353,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
     !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
     !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
-    !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
+    !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
     !sli_count_is_valid(g->storage,
               g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
     g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {

@@ -125,6 +125,7 @@ extern "C" {
 #include "impl/factor/gather.h"
 #include "impl/factor/kept.h"
 #include "impl/factor/front_tasks.h"
+#include "impl/factor/null_center.h"
 #include "impl/factor/nullspace.h"
 #include "impl/factor/growth.h"
 #include "impl/factor/factor_setup.h"

@@ -116,6 +116,11 @@
  *    solution of the Poisson problem. If all weights of a component are 0, as for a vertex without
  *    faces, all count as 1. A row of zeros is a component by itself, whatever the pattern; its x is
  *    0.
+ *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
+ *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
+ *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is singular
+ *    to rounding, as where the only weights are those of one vertex, the factorization is refused;
+ *    so are null pivots by the tolerance in components of more than one row.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -141,14 +146,15 @@
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
- *           pivot in its component, or one whose null vector z has z' m = 0; SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; with mass, also a mean that
- *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
- *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
- *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
+ *           pivot in its component, or one whose null vectors the weights do not fix (z' m = 0,
+ *           Z' M Z singular); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry
+ *           of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its limit,
+ *           caused by the pivot error.value of error.row, or an entry of L in the column of that
+ *           pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the entry
+ *           of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
- *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, mass with several null vectors, or more of
- *           them in the tree of error.row than columns;
+ *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
+ *           than columns;
  *           SL_STORAGE_COMPLEX of a matrix that sl_matrix_from_hermitian did not make, of an
  *           analysis without block_size 2, of sums, or with null pivots that are replaced;
  *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
@@ -159,7 +165,8 @@
  *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
  *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
  *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
- *           bytes per row, and 2 k operations per visited column in solves.
+ *           bytes per row, and 2 k operations per visited column in solves; with mass another k
+ *           sweeps, k products with L, 16 (k + 1) bytes per row, and twice as many operations.
  *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
  *           sl_factor_refactor of the factor, by one loop of the pool, whose bodies draw subtrees
  *           and pieces of large fronts until none is left. A thread that begins late, or never,

@@ -88,8 +88,9 @@ typedef struct sl_options {
      * negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
-     * solution has sum m x = 0, and b is made consistent by a multiple of m; NULL: x is 0 in the
-     * null rows */
+     * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
+     * vectors z it has sum m z x = 0 for each of them (sl_factor_create); NULL: x is 0 in the null
+     * rows */
     const double *mass;
     /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts

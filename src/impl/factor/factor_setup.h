@@ -37,7 +37,7 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
         F->squares = SLI_TAKE(b, double, S->stats.symbolic.components);
         F->mass = SLI_TAKE(b, double, n);
-        F->center = SLI_TAKE(b, double, n);
+        F->center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
         F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
     }
     F->values = sli_is_float(F)
@@ -327,7 +327,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.method = sli_method(S, opt);
     status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
                      (S->n_pairs > 0 && sli_is_single(&draft)) ||
-                     (draft.is_centered && draft.null_vectors > 1) ||
                      (sli_is_complex(&draft) && !sli_complex_is_possible(&draft))
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);

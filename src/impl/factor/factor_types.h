@@ -103,7 +103,8 @@ struct sl_factor {
      * |A| |z| and the diagonal of A */
     sl_int *chain, *row_entries;
     double *products;
-    /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h) */
+    /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h); where there are
+     * several null vectors, n x 2 null_vectors: U and V (null_center.h) */
     double *center;
     double *squares; /* components: w' D^+ w of the tree of each anchor */
     double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
@@ -355,6 +356,11 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
         }
     }
     return status;
+}
+
+/* Columns of F->center. */
+SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
+    return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
 }
 
 /* Was pivot k null and skipped? */

@@ -63,6 +63,21 @@ static void sli_null_chain(sl_factor *F) {
     }
 }
 
+/* Is a pivot that is no anchor the only row of its component? */
+SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
+    return F->last[k] == k && F->chain[k] == -1;
+}
+
+/* The column of g that holds the null vector of null pivot k; -1: it is not known, or k is a row of
+ * zeros. */
+SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
+    sl_int j = 0;
+    while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+        j++;
+    }
+    return j < F->null_vectors ? j : -1;
+}
+
 /* The largest entry of column j. */
 static double sli_null_largest(const sli_null_part *p, sl_int j) {
     const double *z = p->z + (size_t)j * p->n;
@@ -328,7 +343,7 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
     for (k = 0; k < S->n; k++) {
         if (F->last[k] == k) {
             sli_null_part p = sli_null_part_of(F, k);
-            const int is_single = F->chain[k] == -1;
+            const int is_single = sli_null_is_row(F, k);
             if (F->rounding[k] == 0.0) {
                 sli_null_orthonormalize(&p);
             } else {

@@ -4,6 +4,7 @@
 
 #include "../analysis/reach.h"
 #include "storage.h"
+#include "null_center.h"
 #include "null_vectors.h"
 
 /* A skipped null pivot k has the null vector z = P' L^-T e_k, which is 1 in the pivot's own row.
@@ -147,9 +148,13 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
 static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    sl_status status = sli_anchors_find(F, failure);
     double total = 0.0;
+    sl_status status;
     sl_int k, first = 0, m = 0;
+    if (F->null_vectors > 1) {
+        return sli_center_several(F, failure);
+    }
+    status = sli_anchors_find(F, failure);
     memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
     memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
     sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);

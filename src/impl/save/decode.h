@@ -115,7 +115,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->regularized, g->regularization != 0.0 ? n : 0) ||
         !sli_count_is_valid(g->positive, n) || !sli_count_is_valid(g->negative, n) ||
         !sli_count_is_valid(g->weak, n) || !sli_count_is_valid(g->regular, n) ||
-        !sli_count_is_valid(g->null_vectors, skips && !g->has_mass ? SLI_NULL_VECTORS_MAX : 1) ||
+        !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
         !sli_count_is_valid(g->storage,
                             g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
         g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {

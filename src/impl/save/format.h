@@ -163,6 +163,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     const uint64_t skipped = g->null_pivots == SL_NULL_PIVOT_SKIP ? n : 0;
     const uint64_t vectors = g->null_vectors > 1 ? skipped * (uint64_t)g->null_vectors : skipped;
     const uint64_t weighted = g->has_mass ? n : 0;
+    const uint64_t centers = weighted * (g->null_vectors > 1 ? 2 * (uint64_t)g->null_vectors : 1);
     const uint64_t trees = g->has_mass ? (uint64_t)f->analysis.components : 0;
     const uint64_t anchors = g->is_centered ? (uint64_t)g->anchors : 0;
     const uint64_t panels = has_factor ? (uint64_t)f->analysis.panels : 0;
@@ -186,7 +187,7 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     SLI_ADD(4, anchors, trees, anchors);
     SLI_ADD(8, squares, trees, anchors);
     SLI_ADD(8, mass, weighted, weighted);
-    SLI_ADD(8, center, weighted, g->is_centered ? weighted : 0);
+    SLI_ADD(8, center, centers, g->is_centered ? centers : 0);
     SLI_ADD(8, ratios, trees, anchors);
     if (g->storage != SL_STORAGE_DOUBLE) {
         SLI_ADD(8, values, 0, 0);

@@ -5,26 +5,6 @@
 #include "../../public/accuracy.h"
 #include "sweep.h"
 
-/* Y := z' b at the null pivots of known null vectors, for one block b. */
-static void sli_defects_known(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
-                              const double *b, sl_int lanes, sl_int nrhs) {
-    const sli_reach *R = &q->forward;
-    sl_int first = 0, s, m, r;
-    for (s = 0; s < R->count; s++) {
-        sli_null_dot dot;
-        if (R->steps[s].up != -1) {
-            continue;
-        }
-        m = sli_null_first(F, R, s);
-        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
-            for (r = 0; r < nrhs; r++) {
-                Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
-            }
-        }
-        first = s + 1;
-    }
-}
-
 /* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides. */
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
                         const double *B, size_t ldb, sl_int nrhs, void *memory) {
@@ -35,7 +15,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
         sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
                  lanes, block);
         if (F->null_vectors > 1) {
-            sli_defects_known(F, q, Y + (size_t)c * ldy, ldy, v.y, lanes, block);
+            (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
         }
         sli_sweep_forward(F, q, &v, block);
         for (m = 0; m < F->n_nulls; m++) {

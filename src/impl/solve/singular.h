@@ -3,7 +3,7 @@
 #define SLI_SOLVE_SINGULAR_H
 
 #include "../analysis/reach.h"
-#include "../factor/factor_types.h"
+#include "../factor/null_basis.h"
 
 /* Sums over the columns of a step, which begins at a whole tile. 8 independent chains of additions
  * hide the latency. Double f of a step goes to chain f % 8, in a local sweep as in a full one, so
@@ -105,16 +105,6 @@ typedef struct sli_null_dot {
     double sums[SLI_TILE];
 } sli_null_dot;
 
-/* The column of g that holds the null vector of null pivot k; -1: it is not known, or k is a row of
- * zeros. */
-SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
-    sl_int j = 0;
-    while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
-        j++;
-    }
-    return j < F->null_vectors ? j : -1;
-}
-
 /* Finds the next null pivot of a tree, from number *m on, whose null vector is known, and computes
  * z' b before the forward sweep of the tree's steps first .. root. Returns 0 if there is none. */
 static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
@@ -151,10 +141,10 @@ SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int 
     return sli_lower_bound(F->nulls, F->n_nulls, sli_tree_range_of(F->S, &R->steps[root]).first);
 }
 
-/* Before the forward sweep, where components have several null vectors: is |z' b| small for all
- * that are known? Their null pivots need not be in the reach. */
-static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const double *b,
-                                   sl_int lanes, const double *norms) {
+/* Before the forward sweep, where components have several null vectors: Y := z' b for all that are
+ * known or, if Y is NULL, is |z' b| small? Their null pivots need not be in the reach. */
+static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b, sl_int lanes,
+                         const double *norms, double *Y, size_t ldy, sl_int nrhs) {
     sl_int first = 0, s, m, r;
     for (s = 0; s < R->count; s++) {
         sli_null_dot dot;
@@ -163,8 +153,10 @@ static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const
         }
         m = sli_null_first(F, R, s);
         while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
-            for (r = 0; r < lanes; r++) {
-                if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+            for (r = 0; r < nrhs; r++) {
+                if (Y != NULL) {
+                    Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
+                } else if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
                     return 0;
                 }
             }
@@ -172,23 +164,6 @@ static int sli_null_dots_are_small(const sl_factor *F, const sli_reach *R, const
         first = s + 1;
     }
     return 1;
-}
-
-/* y := 0 at the null pivots of known null vectors where components have several. Their columns of L
- * are 0, and a local solve may reach some of them with b only, or with x. */
-static void sli_anchors_clear(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-    sl_int s, m;
-    for (s = 0; s < R->count; s++) {
-        if (R->steps[s].up == -1) {
-            const sl_int last = sli_tree_range_of(F->S, &R->steps[s]).root;
-            for (m = sli_null_first(F, R, s); m < F->n_nulls && F->nulls[m] <= last; m++) {
-                const sl_int at = sli_reach_index_of(R, F->nulls[m]);
-                if (at != -1 && F->rule.kinds[F->nulls[m]] == SLI_PIVOT_NULL) {
-                    memset(y + (ptrdiff_t)at * lanes, 0, (size_t)lanes * sizeof(double));
-                }
-            }
-        }
-    }
 }
 
 /* After the forward sweep: is |z' b| small at every null pivot? NaN and overflow pass: they show in
@@ -216,43 +191,33 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
     return 1;
 }
 
-/* For one tree and each right-hand side: c' and t of nullspace.h. */
+/* For one tree and each right-hand side: c' and t of nullspace.h; with several null vectors
+ * (null_center.h) c is U' y for the columns of V, and V' y for those of U. */
 typedef struct sli_center_terms {
-    double c[SLI_TILE], t[SLI_TILE];
+    double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-/* Computes the terms of the tree that begins at step s. Returns the step after its root. m: the
- * number of its anchor, or -1. */
-static sl_int sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int s,
-                                    const double *y, sl_int lanes, sl_int *m, sli_tree_range *tree,
-                                    sli_center_terms *terms) {
-    double chains[SLI_TILE], sums[SLI_TILE];
-    sl_int r, at, up = s;
-    memset(terms, 0, sizeof *terms);
-    memset(chains, 0, sizeof chains);
-    while (up != -1) {
-        const sli_step *step = &R->steps[s++];
-        const double *v = F->center + step->column, *row = y + (ptrdiff_t)step->base * lanes;
-        const sl_int columns = sli_step_columns(step);
-        sli_chains_add(chains, v, row, columns, lanes);
-        up = step->up;
+/* Computes the terms of the tree of steps first .. root, for `count` columns. m: the number of its
+ * anchor, if it has only one. */
+static void sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
+                                  const double *y, sl_int lanes, sl_int m, sl_int count,
+                                  sli_center_terms *terms) {
+    sl_int s, j, r, at;
+    for (j = 0; j < count; j++) {
+        double chains[SLI_TILE] = {0.0};
+        for (s = first; s <= root; s++) {
+            const sli_step *step = &R->steps[s];
+            sli_chains_add(chains, F->center + (size_t)j * (size_t)F->S->n + step->column,
+                           y + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+        }
+        sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
     }
-    *tree = sli_tree_range_of(F->S, &R->steps[s - 1]);
-    *m = sli_lower_bound(F->anchors, F->n_anchors, tree->first);
-    if (*m == F->n_anchors || F->anchors[*m] > tree->root) {
-        *m = -1;
-        return s;
+    at = count == 1 ? sli_reach_index_of(R, F->anchors[m]) : -1;
+    for (r = 0; r < lanes && count == 1; r++) {
+        const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->ratios[m] : 0.0;
+        terms->t[r] = c * F->squares[m] - terms->c[0][r];
+        terms->c[0][r] = c;
     }
-    at = sli_reach_index_of(R, F->anchors[*m]);
-    if (at != -1) {
-        memcpy(terms->c, y + (ptrdiff_t)at * lanes, (size_t)lanes * sizeof(double));
-    }
-    sli_chains_sum(chains, lanes, sums);
-    for (r = 0; r < lanes; r++) {
-        terms->c[r] *= F->ratios[*m];
-        terms->t[r] = terms->c[r] * F->squares[*m] - sums[r];
-    }
-    return s;
 }
 
 /* row := y - c w on the columns of one step of the backward sweep. Called with constant lanes. */
@@ -270,34 +235,51 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
 
 /* Centers between the sweeps. y holds the columns of the reach `from`; x, which may be y, those of
  * the reach `to`. Trees ascend in both. Trees without a row of b need nothing. uses: how many pins
- * hold each null pivot, which is then left alone; NULL: none. */
+ * hold each null pivot, which is then left alone; NULL: none. Where components have several null
+ * vectors, x is 0 at their null pivots before, also if there are no weights: the columns of L are 0
+ * there, and a local solve may reach some of them with b only, or with x. */
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
                        const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
-    sl_int s = 0, at = 0, m;
-    while (s < from->count && at < to->count) {
+    const int is_one = F->null_vectors == 1;
+    const sl_int *list = is_one ? F->anchors : F->nulls;
+    const sl_int listed = is_one ? F->n_anchors : F->n_nulls;
+    const sl_int count = F->is_centered ? sli_center_count(F) : 0;
+    sl_int first = 0, at = 0, root, m, j;
+    for (root = 0; root < from->count; root++) {
         sli_center_terms terms;
         sli_tree_range tree;
-        sl_int index;
-        s = sli_center_tree_terms(F, from, s, y, lanes, &m, &tree, &terms);
-        if (m != -1 && uses != NULL &&
-            uses[sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m])] > 0) {
-            m = -1;
+        if (from->steps[root].up != -1) {
+            continue;
         }
-        for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-            const sli_step *step = &to->steps[at];
-            const double *v = F->center + step->column, *D = F->D + step->column;
-            double *row = x + (ptrdiff_t)step->base * lanes;
-            const sl_int columns = sli_step_columns(step);
-            if (m != -1 && step->column >= tree.first) {
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c, constant)
-                SLI_FOR_LANES(lanes, SLI_CALL)
+        tree = sli_tree_range_of(F->S, &from->steps[root]);
+        m = sli_lower_bound(list, listed, tree.first);
+        if (m < listed && list[m] <= tree.root &&
+            (uses == NULL || uses[sli_lower_bound(F->nulls, F->n_nulls, list[m])] == 0)) {
+            sli_center_tree_terms(F, from, first, root, y, lanes, m, count, &terms);
+            for (; m < listed && list[m] <= tree.root && !is_one; m++) {
+                j = sli_reach_index_of(to, list[m]);
+                if (j != -1 && F->rule.kinds[list[m]] == SLI_PIVOT_NULL) {
+                    memset(x + (ptrdiff_t)j * lanes, 0, (size_t)lanes * sizeof(double));
+                }
+            }
+            for (; at < to->count && to->steps[at].column <= tree.root; at++) {
+                const sli_step *step = &to->steps[at];
+                const double *D = F->divisors + step->column;
+                double *row = x + (ptrdiff_t)step->base * lanes;
+                const sl_int columns = sli_step_columns(step);
+                for (j = 0; j < count && step->column >= tree.first; j++) {
+                    const double *v = F->center + (size_t)j * (size_t)F->S->n + step->column;
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
+                    SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
+                }
+            }
+            j = is_one ? sli_reach_index_of(to, list[m]) : -1;
+            if (j != -1) { /* the backward sweep divides by 1 there */
+                memcpy(x + (ptrdiff_t)j * lanes, terms.t, (size_t)lanes * sizeof(double));
             }
         }
-        index = m != -1 ? sli_reach_index_of(to, F->anchors[m]) : -1;
-        if (index != -1) { /* the backward sweep divides by 1 there */
-            memcpy(x + (ptrdiff_t)index * lanes, terms.t, (size_t)lanes * sizeof(double));
-        }
+        first = root + 1;
     }
 }
 

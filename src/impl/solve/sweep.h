@@ -69,7 +69,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     if (F->checks) {
         sli_norms(&q->forward, v->y, lanes, norms);
         if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
-            !sli_null_dots_are_small(F, &q->forward, v->y, lanes, norms)) {
+            !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
             return 0;
         }
     }
@@ -82,16 +82,13 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
                                sl_int nrhs) {
     const int kind = sli_lanes_kind(nrhs);
     const sl_int lanes = (sl_int)1 << kind;
-    if (F->null_vectors > 1) {
-        sli_anchors_clear(F, &q->forward, v->y, lanes);
-    }
     if (!q->is_shared) {
         sli_sweep_transfer(q, v->y, v->x, lanes);
     }
     if (q->region != NULL) {
         sli_sweep_region(F, q, kind, v);
     }
-    if (F->is_centered) {
+    if (F->is_centered || F->null_vectors > 1) {
         sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
     }
     sli_backward(F, &q->backward, kind, v->x, v->scratch);

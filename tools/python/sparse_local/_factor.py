@@ -33,7 +33,8 @@ class Factor:
     null_tolerance  see sparse_local.h; 0 is its default, negative: only an exact 0 is null.
     mass            n weights m: solutions of a singular A have sum m x = 0 in each component.
     null_vector     n numbers, if the null vector is not constant; n x k: several null vectors a
-                    component, such as the 3 or 6 rigid motions of an elastic body.
+                    component, such as the 3 or 6 rigid motions of an elastic body; with mass,
+                    solutions have sum m z x = 0 for each of these vectors z.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
     storage         'double', or 'float': half the bytes for L; solutions have the accuracy of
                     float until refine.
