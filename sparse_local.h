@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f895255519af0a79
+ * FNV-1a of the lines after this comment, without the license: 486dd7a6a69fabfd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -53,39 +53,39 @@
  *  13247 factor_types.h  13671 storage.h  13809 pivot_search.h  14155 pivoted.h  14224 scatter.h
  *  14382 uplooking.h  14454 null_product.h  14658 null_dense.h  14735 null_basis.h
  *  15055 null_vectors.h  15197 multifrontal.h  15391 gather.h  15439 kept.h  15609 front_tasks.h
- *  15952 null_center.h  16072 nullspace.h  16279 growth.h  16357 factor_setup.h  16682 factor.h
- *  16892 leftlooking.h  17039 factor_query.h  17174 combination.h
+ *  15952 null_center.h  16072 nullspace.h  16259 growth.h  16337 factor_setup.h  16662 factor.h
+ *  16872 leftlooking.h  17019 factor_query.h  17154 combination.h
  * (solve: full and local solves)
- *  17235 region_types.h  17339 work.h  17439 query.h  17655 singular.h  17912 backward.h
- *  17942 sweep_tasks.h  18273 sweep.h  18481 compile.h  18674 plan.h  18781 local.h  18933 parts.h
- *  19222 refine.h  19401 refine_local.h  19617 rcond.h  19776 defects.h
+ *  17215 region_types.h  17319 work.h  17419 query.h  17635 singular.h  17892 backward.h
+ *  17922 sweep_tasks.h  18253 sweep.h  18461 compile.h  18654 plan.h  18761 local.h  18913 parts.h
+ *  19202 refine.h  19381 refine_local.h  19597 rcond.h  19756 defects.h
  * (inverse: entries of the inverse, regions)
- *  19835 traversal.h  20084 traversal_run.h  20277 row_sets.h  20311 unit_vectors.h
- *  20538 bilinear.h  20710 entries.h  20987 block.h  21222 reserve.h  21414 selected.h
- *  21624 selected_query.h  21726 region_choose.h  21953 region.h
+ *  19815 traversal.h  20064 traversal_run.h  20257 row_sets.h  20291 unit_vectors.h
+ *  20518 bilinear.h  20690 entries.h  20967 block.h  21202 reserve.h  21394 selected.h
+ *  21604 selected_query.h  21706 region_choose.h  21933 region.h
  * (change: a factor that follows changes of its matrix)
- *  22201 update.h  22554 path.h  22681 rank.h  23057 edges.h  23211 choose.h  23422 pins_types.h
- *  23501 pins_nulls.h  23684 pins_capacitance.h  23936 pins_balance.h  24115 pins_held.h
- *  24331 pins_choose.h  24389 pins_rebuild.h  24607 pins_matrix.h  24758 pins.h  25027 pins_solve.h
- *  25298 subset.h  25419 restrict_analysis.h  25790 restrict_symbolic.h  25988 restrict.h
- *  26216 edit_match.h  26415 edit_place.h  26664 edit_separate.h  26978 edit_order.h
- *  27133 edit_graph.h  27228 edit_join.h  27504 edit.h  27667 edit_factor.h
+ *  22181 update.h  22534 path.h  22661 rank.h  23037 edges.h  23191 choose.h  23402 pins_types.h
+ *  23481 pins_nulls.h  23664 pins_capacitance.h  23916 pins_balance.h  24095 pins_held.h
+ *  24311 pins_choose.h  24369 pins_rebuild.h  24587 pins_matrix.h  24738 pins.h  25007 pins_solve.h
+ *  25278 subset.h  25399 restrict_analysis.h  25770 restrict_symbolic.h  25968 restrict.h
+ *  26196 edit_match.h  26395 edit_place.h  26644 edit_separate.h  26958 edit_order.h
+ *  27113 edit_graph.h  27208 edit_join.h  27484 edit.h  27647 edit_factor.h
  * (save: factors in files)
- *  27952 format.h  28249 decode.h  28397 check.h  28727 write.h  29032 load.h  29300 load_inverse.h
- *  29630 load_calls.h
+ *  27932 format.h  28229 decode.h  28377 check.h  28707 write.h  29012 load.h  29280 load_inverse.h
+ *  29610 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29829 batch_solve.h  30038 batch_factor.h  30239 batch_diagonal.h
+ *  29809 batch_solve.h  30018 batch_factor.h  30219 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30379 hermitian.h  30541 complex_rows.h
+ *  30359 hermitian.h  30521 complex_rows.h
  * (last: undefine every internal macro)
- *  30709 undef.h
+ *  30689 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30985 front.inl.h  30987 product.inl.h  31498 words_undef.inl.h  31575 copy_rows.inl.h
- *  31613 multi_rhs.inl.h  31632 complex_groups.inl.h  31771 multi_rhs_small.inl.h
- *  31943 multi_rhs_tiles.inl.h  32220 sweeps.inl.h  32222 unit_triangle.inl.h  32259 two_rhs.inl.h
- *  32428 small_supernode.inl.h  32609 single_rhs.inl.h  32853 kernel_set.inl.h
- *  32855 complex_small.inl.h  33025 complex_rows.inl.h  33240 inverse_front.inl.h  33525 row.inl.h
- *  33555 change.inl.h  33707 interleave.inl.h  33838 lanes_undef.inl.h
+ *  30965 front.inl.h  30967 product.inl.h  31478 words_undef.inl.h  31555 copy_rows.inl.h
+ *  31593 multi_rhs.inl.h  31612 complex_groups.inl.h  31751 multi_rhs_small.inl.h
+ *  31923 multi_rhs_tiles.inl.h  32200 sweeps.inl.h  32202 unit_triangle.inl.h  32239 two_rhs.inl.h
+ *  32408 small_supernode.inl.h  32589 single_rhs.inl.h  32833 kernel_set.inl.h
+ *  32835 complex_small.inl.h  33005 complex_rows.inl.h  33220 inverse_front.inl.h  33505 row.inl.h
+ *  33535 change.inl.h  33687 interleave.inl.h  33818 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -16091,44 +16091,24 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
   return SL_OK;
 }
 
-static void sli_rows_nonzero(const sl_factor *F, double *flags) {
-  const sl_symbolic *S = F->S;
-  sl_int s, r, j;
-  memset(flags, 0, (size_t)S->n * sizeof(double));
-  for (s = 0; s < S->n_supers; s++) {
-    const sli_step *step = &S->steps[s];
-    for (r = 1; r < step->width + step->below; r++) {
-      const sl_int row =
-        r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
-      for (j = 0; j < sli_min(r, step->width); j++) {
-        const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
-        flags[row] = l != 0.0 ? 1.0 : flags[row];
-      }
-    }
-  }
-}
-
 static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   double *used = F->divisors;
-  int has_used = 0;
-  sl_int k, m = 0, first;
+  sl_int k, m = 0;
   F->n_anchors = 0;
+  memset(used, 0, (size_t)S->n * sizeof(double));
+  for (k = 0; k < S->n; k++) {
+    if (F->last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
+      used[k] = used[F->last[k]] = 1.0;
+    }
+  }
   for (k = 0; k < S->n && m < F->n_nulls; k++) {
     sl_int anchor = -1;
     if (S->parent[k] != -1) {
       continue;
     }
-    for (first = m; m < F->n_nulls && F->nulls[m] <= k; m++) {
-    }
-    if (m - first == 1) {
-      anchor = F->nulls[first++];
-    } else if (m - first > 1 && !has_used) {
-      sli_rows_nonzero(F, used);
-      has_used = 1;
-    }
-    for (; first < m; first++) {
-      const sl_int null = F->nulls[first];
+    for (; m < F->n_nulls && F->nulls[m] <= k; m++) {
+      const sl_int null = F->nulls[m];
       if (used[null] != 0.0 && anchor != -1) {
         return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
       }

@@ -137,6 +137,32 @@ static void rows_of_zeros_are_components(void **state) {
     }
 }
 
+/* A row of zeros, whatever its weight and b, leaves the solution of a regular component alone that
+ * explicit zeros join to its tree. */
+static void a_row_of_zeros_shifts_no_other_row(void **state) {
+    (void)state;
+    static const sl_int p[5] = {0, 3, 6, 8, 9}, i[9] = {0, 1, 3, 1, 2, 3, 2, 3, 3};
+    static const double a[9] = {2, -1, 0, 2, -1, 0, 2, 0, 0}, wanted[4] = {2.5, 4, 3.5, 0};
+    const sl_csc A = {4, 4, p, i, a};
+    const double m[4] = {1, 2, 3, 4}, b[4] = {1, 2, 3, 5};
+    variant_list_t variants = variants_present();
+    sl_symbolic *S = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    for (int k = 0; k < variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k);
+        sl_factor *F = NULL;
+        double x[4];
+        opt.mass = m;
+        SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL));
+        SL_CHECK(sl_factor_solve(F, x, 4, b, 4, 1, NULL));
+        for (int j = 0; j < 4; j++) {
+            assert_true(fabs(x[j] - wanted[j]) <= 1e-15 * wanted[j] + 1e-290);
+        }
+        sl_factor_free(F);
+    }
+    sl_symbolic_free(S);
+}
+
 /* A null vector that is not constant: that of S A S is S^-1 1. z' b decides whether b is
  * consistent, and the weights still select x. */
 static void a_null_vector_need_not_be_constant(void **state) {
@@ -235,6 +261,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(invalid_weights_are_refused),
         cmocka_unit_test(rows_of_zeros_are_components),
+        cmocka_unit_test(a_row_of_zeros_shifts_no_other_row),
         cmocka_unit_test(a_null_vector_need_not_be_constant),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -49,48 +49,27 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     return SL_OK;
 }
 
-/* flags(k) := 1 if row k of L has a nonzero, else 0. */
-static void sli_rows_nonzero(const sl_factor *F, double *flags) {
-    const sl_symbolic *S = F->S;
-    sl_int s, r, j;
-    memset(flags, 0, (size_t)S->n * sizeof(double));
-    for (s = 0; s < S->n_supers; s++) {
-        const sli_step *step = &S->steps[s];
-        for (r = 1; r < step->width + step->below; r++) {
-            const sl_int row =
-                r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
-            for (j = 0; j < sli_min(r, step->width); j++) {
-                const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
-                flags[row] = l != 0.0 ? 1.0 : flags[row];
-            }
-        }
-    }
-}
-
 /* Finds the anchor of each tree. A row of zeros, such as that of a vertex whose faces are all
- * degenerate, is a component by itself: its row of L is empty and its x is 0. Apart from such rows
- * a tree may have one null pivot. */
+ * degenerate, is a component by itself, and its x is 0. Apart from such rows a tree may have one
+ * null pivot. */
 static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    double *used = F->divisors;
-    int has_used = 0;
-    sl_int k, m = 0, first;
+    double *used = F->divisors; /* 0 in components of one row, unless they are trees */
+    sl_int k, m = 0;
     F->n_anchors = 0;
+    memset(used, 0, (size_t)S->n * sizeof(double));
+    for (k = 0; k < S->n; k++) {
+        if (F->last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
+            used[k] = used[F->last[k]] = 1.0;
+        }
+    }
     for (k = 0; k < S->n && m < F->n_nulls; k++) {
         sl_int anchor = -1;
         if (S->parent[k] != -1) {
             continue;
         }
-        for (first = m; m < F->n_nulls && F->nulls[m] <= k; m++) {
-        }
-        if (m - first == 1) {
-            anchor = F->nulls[first++];
-        } else if (m - first > 1 && !has_used) {
-            sli_rows_nonzero(F, used);
-            has_used = 1;
-        }
-        for (; first < m; first++) {
-            const sl_int null = F->nulls[first];
+        for (; m < F->n_nulls && F->nulls[m] <= k; m++) {
+            const sl_int null = F->nulls[m];
             if (used[null] != 0.0 && anchor != -1) {
                 return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
             }
