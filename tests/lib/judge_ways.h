@@ -168,15 +168,13 @@ static inline sl_int judge_change(judge_t *t, gen_matrix_t *M, sl_int *rows, sl_
     return count;
 }
 
-static inline void judge_apply(gen_matrix_t *M, const sl_int *rows, const sl_int *columns,
-                               const double *deltas, sl_int count, double sign) {
-    for (sl_int k = 0; k < count; k++) {
-        sl_int p = M->p[columns[k]];
-        while (M->i[p] != rows[k]) {
-            p++;
-        }
-        M->x[p] += sign * deltas[k];
+/* The value of an entry, which is stored. */
+static inline double *judge_entry(gen_matrix_t *M, sl_int row, sl_int column) {
+    sl_int p = M->p[column];
+    while (M->i[p] != row) {
+        p++;
     }
+    return &M->x[p];
 }
 
 /* A random sequence of changes by all calls that follow values, some of them undone later. */
@@ -187,7 +185,7 @@ static inline void judge_way_change(judge_t *t) {
     sl_factor *F = NULL;
     sl_stats stats;
     sl_int rows[3], columns[3], count = 0;
-    double deltas[3];
+    double deltas[3], before[3];
     opt.storage = opt.storage == SL_STORAGE_COMPLEX ? SL_STORAGE_DOUBLE : opt.storage;
     SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
     sl_status status = sl_factor_create(&F, S, &M.view, &opt, &stats);
@@ -198,16 +196,22 @@ static inline void judge_way_change(judge_t *t) {
         for (sl_int c = 0; c < count && undoes; c++) {
             deltas[c] = -deltas[c];
         }
-        judge_apply(&M, rows, columns, deltas, count, 1.0);
+        for (sl_int c = 0; c < count; c++) {
+            double *entry = judge_entry(&M, rows[c], columns[c]);
+            before[c] = *entry;
+            *entry += deltas[c];
+        }
         if (kind == 0) {
             status = sl_factor_update_entries(F, rows, columns, deltas, count, NULL, &stats);
             if (status == SL_ERR_UNSUPPORTED) {
                 status = sl_factor_refactor(F, &M.view, &stats);
             } else if (status != SL_OK && status != SL_ERR_NOT_FINITE) { /* F is as before */
-                judge_apply(&M, rows, columns, deltas, count, -1.0);
+                while (count > 0) { /* subtracting the deltas would leave their rounding */
+                    count--;
+                    *judge_entry(&M, rows[count], columns[count]) = before[count];
+                }
                 sl_factor_stats(F, &stats);
                 status = SL_OK;
-                count = 0;
             }
         } else if (kind == 1) {
             status = sl_factor_refactor_changed(F, &M.view, columns, count, &stats);
