@@ -179,8 +179,78 @@ static inline void judge_load(judge_t *t, double *b) {
     }
 }
 
-/* With weights and constants as null vectors: b := b - c m in each component; extra := |c m|. The
- * worst mean, relative to sum |m| max |x|. In a row of zeros x has to be 0. */
+/* Are the means of solutions known? */
+static inline int judge_is_centered(const judge_t *t) {
+    return t->y->mass != NULL && (t->y->constant || t->y->vectors > 0);
+}
+
+/* C := the null vectors in the rows of component c, orthonormal in the product of the weights.
+ * Returns their number. */
+static inline sl_int judge_motions(const judge_t *t, sl_int c, long double *C) {
+    const size_t n = t->n;
+    const double *m = t->y->mass;
+    sl_int rank = 0;
+    for (sl_int j = 0; j < t->y->vectors; j++) {
+        long double *v = C + (size_t)rank * n, before = 0.0L, square = 0.0L;
+        for (size_t i = 0; i < n; i++) {
+            v[i] = t->y->of[i] == c ? (long double)t->y->Z[i + (size_t)j * n] : 0.0L;
+            before += m[i] * v[i] * v[i];
+        }
+        for (sl_int k = 0; k < 2 * rank; k++) { /* twice */
+            const long double *q = C + (size_t)(k % rank) * n;
+            long double dot = 0.0L;
+            for (size_t i = 0; i < n; i++) {
+                dot += m[i] * q[i] * v[i];
+            }
+            for (size_t i = 0; i < n; i++) {
+                v[i] -= dot * q[i];
+            }
+        }
+        for (size_t i = 0; i < n; i++) {
+            square += m[i] * v[i] * v[i];
+        }
+        for (size_t i = 0; i < n; i++) {
+            v[i] /= square > 0.0L ? sqrtl(square) : 1.0L;
+        }
+        rank += square > 1e-28L * before;
+    }
+    return rank;
+}
+
+/* judge_center for component c with several null vectors. */
+static inline double judge_center_motions(const judge_t *t, sl_int c, double *b, double *extra,
+                                          const double *x) {
+    const size_t n = t->n;
+    const double *m = t->y->mass;
+    long double *C = (long double *)test_array(n * (size_t)t->y->vectors, sizeof *C), most = 0.0L;
+    long double *own = (long double *)test_array(n, sizeof *own);
+    const sl_int rank = judge_motions(t, c, C);
+    double worst = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        own[i] = t->y->of[i] == c ? b[i] : 0.0;
+        most = t->y->of[i] == c && fabs(x[i]) > most ? (long double)fabs(x[i]) : most;
+    }
+    for (sl_int k = 0; k < rank; k++) {
+        const long double *q = C + (size_t)k * n;
+        long double force = 0.0L, mean = 0.0L, size = 0.0L;
+        for (size_t i = 0; i < n; i++) {
+            force += q[i] * own[i];
+            mean += q[i] * m[i] * x[i];
+            size += fabs((double)q[i]) * m[i] * most;
+        }
+        for (size_t i = 0; i < n; i++) {
+            extra[i] += fabs((double)(m[i] * q[i] * force));
+            b[i] = (double)((long double)b[i] - m[i] * q[i] * force);
+        }
+        worst = size > 0.0L ? fmax(worst, fabs((double)(mean / size))) : worst;
+    }
+    free(C);
+    free(own);
+    return worst;
+}
+
+/* With weights and known null vectors: b := b - c m in each component, or b - M Z c; extra := what
+ * was subtracted. The worst mean, relative to sum |m| max |x|. In a row of zeros x has to be 0. */
 static inline double judge_center(const judge_t *t, double *b, double *extra, const double *x,
                                   const unsigned char *is_regular) {
     const size_t n = t->n;
@@ -203,6 +273,12 @@ static inline double judge_center(const judge_t *t, double *b, double *extra, co
         if (D[i + i * n] == 0.0) { /* a row of zeros: its x is 0 */
             worst = fmax(worst, fabs(x[i]) > 1e-280 ? 1.0 : 0.0);
             b[i] = 0.0;
+            continue;
+        }
+        if (t->y->vectors > 0) {
+            worst = of[i] == (sl_int)i
+                        ? fmax(worst, judge_center_motions(t, (sl_int)i, b, extra, x))
+                        : worst;
             continue;
         }
         const double c = (double)(s[0] / s[1] * m[i]);

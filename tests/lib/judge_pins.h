@@ -171,7 +171,7 @@ static inline void judge_pins_solve(judge_t *t, const judge_pins_t *p) {
     if (judge_succeeded(t, status, "pins")) {
         const sl_int rank = judge_pins_basis(t, p, Q);
         double mean = 0.0;
-        if (t->y->mass != NULL && t->y->constant && p->equalities == 0) {
+        if (judge_is_centered(t) && p->equalities == 0) {
             mean = judge_center(t, b, extra, x, is_held);
         }
         sl_int *of = judge_pins_join(t, p);

@@ -22,7 +22,7 @@ static inline void judge_solve_with(judge_t *t, const sl_factor *F, const sl_csc
     }
     if (judge_succeeded(t, sl_factor_solve(F, X, n, B, n, nrhs, NULL), what)) {
         double *b = B + n * (size_t)(nrhs - 1), *x = X + n * (size_t)(nrhs - 1);
-        if (t->y->mass != NULL && t->y->constant) {
+        if (judge_is_centered(t)) {
             double *extra = test_reals(n);
             gen_reals(b, n, t->seed); /* inconsistent, for the weights to make good */
             SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
