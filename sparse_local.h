@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 486dd7a6a69fabfd
+ * FNV-1a of the lines after this comment, without the license: 786e1f1f357ca6fd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -22274,7 +22274,7 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
 static double sli_update_cancelled(const sl_factor *F, double d, double e) {
   const sl_factor_info *info = &F->stats.factor;
   const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
-  return d != 0.0 && fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
+  return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {

@@ -115,11 +115,11 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
 
 /* Where a pivot grows, what is added to a row of L cancels the row: the error is that of the old
  * row, times the new pivot. An entry of the row is at most the root of the largest |l d l| over
- * |d|. */
+ * |d|, which is not 0: a factor with null pivots is not changed. */
 static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     const sl_factor_info *info = &F->stats.factor;
     const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
-    return d != 0.0 && fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
+    return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
 /* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
