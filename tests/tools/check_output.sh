@@ -35,13 +35,14 @@ no_temporary() {
     record $? "$1: no temporary file is left"
 }
 
-mkdir "$dir/files" "$dir/kept" "$dir/counts"
+mkdir "$dir/files" "$dir/kept"
 cd "$dir/files" || exit 1
 
 # uncounted COMMAND ...: with counts of its own, which are dropped. What make cov builds adds to its
 # counts when it ends: a limit would damage them, and another user cannot write those of root.
-chmod 777 "$dir/counts"
 uncounted() {
+    rm -rf "$dir/counts"
+    mkdir -m 777 "$dir/counts"
     GCOV_PREFIX="$dir/counts" "$@"
 }
 
