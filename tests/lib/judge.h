@@ -134,7 +134,7 @@ static inline double judge_error(const sl_csc *A, const sl_int *of, const double
 }
 
 /* What two ways to one answer may differ by, relative to the largest entry. rcond: of A; 0: not
- * known. Selected inversion has lost 32 times growth * epsilon / rcond in one of 250,000 systems. */
+ * known. Selected inversion has lost 32 growth * epsilon / rcond in one of 125,000 systems. */
 static inline double judge_forward(const judge_t *t, double rcond) {
     const double growth = fmax(t->stats.factor.growth, 1e3);
     return judge_limit(&t->stats) + (rcond > 0.0 ? 100.0 * growth * DBL_EPSILON / rcond : 1e-3);

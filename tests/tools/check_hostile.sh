@@ -92,4 +92,36 @@ asks 'a zero byte' '1;1;1\0002'
 [ $? -eq 1 ] && grep -q 'line 1: a zero byte' err
 record $? 'query refuses an endless line'
 
+# Little memory: what is missing is said, and nothing else is blamed for it. A sanitized program
+# reserves terabytes.
+
+# within KILOBYTES ARGUMENT ...: runs the program with this much memory.
+within() {
+    (
+        ulimit -v "$1"
+        shift
+        "$program" "$@" >out 2>err
+    )
+    status=$?
+}
+
+least=1000 # with which the program is loaded
+while within $least --help 2>/dev/null && [ $status -ne 0 ] && [ $least -lt 200000 ]; do
+    least=$((least + 500))
+done
+for command in heat adf hks pairs reach param arap scp geodesic vectors edit info; do
+    for more in 0 1000 2000 4000 8000; do
+        [ $least -lt 200000 ] || continue
+        within $((least + more)) "$command" hills:60x60
+        [ $status -eq 0 ] ||
+            { [ $status -eq 1 ] && grep -q -e 'memory' -e 'warning' err &&
+                ! grep -q -e 'all edges have no' -e 'length is 0' -e 'memory (vertex' err; }
+        record $? "$command with $more kB of memory more than to begin: status $status"
+    done
+done
+printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj
+"$program" info point.obj --mesh-only >out 2>err
+[ $? -eq 0 ] && grep -q '^angles  *none' out && ! grep -q nan out
+record $? 'info: no face has an area'
+
 checks_end

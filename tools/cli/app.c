@@ -49,7 +49,7 @@ void app_must(sl_status status, const char *what, const sl_stats *stats) {
     if (status == SL_OK) {
         return;
     }
-    if (stats != NULL && stats->error.row >= 0) {
+    if (stats != NULL && stats->error.row >= 0 && status != SL_ERR_MEMORY) {
         app_die("%s: %s (vertex %d)", what, sl_status_string(status), (int)stats->error.row);
     }
     app_die("%s: %s", what, sl_status_string(status));

@@ -124,6 +124,9 @@ extern const char app_mesh_help[];
  */
 void app_mesh(mesh *out, const char *operand, bool faces_needed);
 
+/** mesh_mean_edge_length (laplacian.h); dies if out of memory. */
+double app_mean_edge_length(const mesh *m);
+
 /** Whether an operand is a file of sparse-local save: its name ends in .slf. */
 bool app_is_saved(const char *operand);
 

@@ -2,6 +2,7 @@
 #include "app.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,6 +31,14 @@ void app_mesh(mesh *out, const char *operand, bool faces_needed) {
         app_die("%s: has no faces, only %d vertices; this command needs a surface", operand,
                 (int)out->n_vertices);
     }
+}
+
+double app_mean_edge_length(const mesh *m) {
+    const double length = mesh_mean_edge_length(m);
+    if (isnan(length)) {
+        app_die("out of memory for the edges of %d vertices", (int)m->n_vertices);
+    }
+    return length;
 }
 
 bool app_is_saved(const char *operand) {

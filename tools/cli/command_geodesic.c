@@ -375,7 +375,7 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     app_mesh(&cmd->m, operand, true);
     app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL);
     cmd->sources = sources_of(cmd->from, &cmd->m, &cmd->n_sources);
-    double edge = mesh_mean_edge_length(&cmd->m);
+    double edge = app_mean_edge_length(&cmd->m);
     double t = time > 0 ? time : (scaled > 0 ? scaled : HEAT_FACTORS_FIRST) * edge * edge;
     bool is_saved = cmd->heat_file != NULL;
     if (!(t > 0)) {

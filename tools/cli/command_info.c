@@ -1,4 +1,5 @@
 /* command_info.c: statistics of a mesh and the cost of factoring its Laplacian */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,7 +38,11 @@ static void print_mesh(const mesh *m, const mesh_stats *f) {
            (int)f->nonmanifold_vertices);
     printf("edge length          %12.6g   from %.6g to %.6g\n", f->edge_mean, f->edge_min,
            f->edge_max);
-    printf("angles, degrees      %12.6g   to %.6g\n", f->angle_min, f->angle_max);
+    if (isnan(f->angle_min)) {
+        printf("angles                       none   no face has an area\n");
+    } else {
+        printf("angles, degrees      %12.6g   to %.6g\n", f->angle_min, f->angle_max);
+    }
     printf("area                 %12.6g   box %.6g x %.6g x %.6g\n", f->area,
            f->box_max[0] - f->box_min[0], f->box_max[1] - f->box_min[1],
            f->box_max[2] - f->box_min[2]);

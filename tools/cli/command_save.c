@@ -52,7 +52,7 @@ static void make_inverses(sl_saved_set *set, sl_region **R, const char *region, 
 static void make_pair(heat_solver *s, intrinsic *surface, const mesh *m, const heat_time *time,
                       const sl_options *opt) {
     const bool is_given = time->time > 0 || time->scaled > 0 || time->area > 0;
-    const double edge = mesh_mean_edge_length(m);
+    const double edge = app_mean_edge_length(m);
     heat_time chosen = *time;
     if (!is_given) {
         chosen.scaled = HEAT_FACTORS_FIRST;

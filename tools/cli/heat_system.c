@@ -198,7 +198,7 @@ double heat_time_value(const heat_time *h, const mesh *m, double default_area) {
     if (given > 1) {
         app_die_usage("--time, --scaled-time, --area-time: give only one of them");
     }
-    double edge = mesh_mean_edge_length(m);
+    double edge = app_mean_edge_length(m);
     double t = h->time > 0                            ? h->time
                : h->scaled > 0                        ? h->scaled * edge * edge
                : h->area > 0                          ? h->area * heat_area(m)

@@ -13,7 +13,7 @@ void path_check_open(path_check *check, const mesh *m) {
     const double began = app_now();
     memset(check, 0, sizeof *check);
     check->m = m;
-    check->edge = mesh_mean_edge_length(m);
+    check->edge = app_mean_edge_length(m);
     if (!incidence_create(&check->inc, m) || !surface_search_create(&check->one, &check->inc, 1) ||
         !surface_search_create(&check->three, &check->inc, 3)) {
         app_die("out of memory for paths over the faces");

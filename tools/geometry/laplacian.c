@@ -201,7 +201,7 @@ bool laplacian_uniform(sl_matrix **out, const mesh *m, double shift) {
 double mesh_mean_edge_length(const mesh *m) {
     adjacency a;
     if (!adjacency_from_mesh(&a, m)) {
-        return 0;
+        return NAN;
     }
     double sum = 0;
     for (sl_int v = 0; v < a.n; v++) {

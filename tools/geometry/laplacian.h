@@ -82,8 +82,8 @@ bool laplacian_system_of(sl_matrix **out, const mesh *m, const double *lengths, 
                          double t);
 void laplacian_mass_of(double *mass, const mesh *m, const double *lengths, double share);
 
-/** The mean edge length, each edge counted once; 0 for a mesh without edges and if memory runs
- *  out. */
+/** The mean edge length, each edge counted once; 0 for a mesh without edges, NAN if a face
+ *  names no vertex and if memory runs out. */
 double mesh_mean_edge_length(const mesh *m);
 
 #endif
