@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 786e1f1f357ca6fd
+ * FNV-1a of the lines after this comment, without the license: 62268c42f82148dd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,58 +34,58 @@
  *   3944 sort.h   4008 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4204 panel.h   4230 step.h   4308 pivot_rule.h   4382 front.h   4443 pairs.h
- *   4650 inverse_front.h   4722 table.h   4760 simd.h   4855 simd_scalar_single.h
- *   4901 simd_scalar.h   5039 simd_avx2_single.h   5093 simd_avx2.h   5334 simd_avx512_single.h
- *   5389 simd_avx512.h   5565 simd_neon_single.h   5607 simd_neon.h   5842 dispatch.h
+ *   4650 inverse_front.h   4722 table.h   4771 simd.h   4866 simd_scalar_single.h
+ *   4912 simd_scalar.h   5050 simd_avx2_single.h   5104 simd_avx2.h   5345 simd_avx512_single.h
+ *   5400 simd_avx512.h   5576 simd_neon_single.h   5618 simd_neon.h   5853 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5935 csc.h   6078 csc_build.h   6212 csc64.h   6283 csc_triangle.h   6348 csc_products.h
- *   6465 permute.h   6531 sum.h   6613 output_file.h   6822 matrix_market.h
+ *   5946 csc.h   6089 csc_build.h   6223 csc64.h   6294 csc_triangle.h   6359 csc_products.h
+ *   6476 permute.h   6542 sum.h   6624 output_file.h   6833 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7268 graph.h   7386 contract.h   7640 coarsen.h   7803 labels.h   8024 subgraph.h   8218 heap.h
- *   8278 bisect.h   8505 separator.h   8767 mindeg.h   8950 dissect.h   9274 tree_cost.h
- *   9326 levelset.h   9432 geometric.h   9607 cells.h   9787 septree.h   9863 metis.h
- *  10012 metis_refined.h  10126 nd.h  10326 compress.h  10447 levels.h  10499 peel.h
- *  10705 quotient.h  11141 graph_kind.h  11212 order.h
+ *   7279 graph.h   7397 contract.h   7651 coarsen.h   7814 labels.h   8035 subgraph.h   8229 heap.h
+ *   8289 bisect.h   8516 separator.h   8778 mindeg.h   8961 dissect.h   9285 tree_cost.h
+ *   9337 levelset.h   9443 geometric.h   9618 cells.h   9798 septree.h   9874 metis.h
+ *  10023 metis_refined.h  10137 nd.h  10337 compress.h  10458 levels.h  10510 peel.h
+ *  10716 quotient.h  11152 graph_kind.h  11223 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11566 symbolic_types.h  11603 etree.h  11678 counts.h  11727 supernodes.h  11968 pattern.h
- *  12054 structure.h  12248 schedule.h  12528 symbolic.h  12976 reach.h
+ *  11577 symbolic_types.h  11614 etree.h  11689 counts.h  11738 supernodes.h  11979 pattern.h
+ *  12065 structure.h  12259 schedule.h  12539 symbolic.h  12987 reach.h
  * (factor: the numbers of L and D)
- *  13247 factor_types.h  13671 storage.h  13809 pivot_search.h  14155 pivoted.h  14224 scatter.h
- *  14382 uplooking.h  14454 null_product.h  14658 null_dense.h  14735 null_basis.h
- *  15055 null_vectors.h  15197 multifrontal.h  15391 gather.h  15439 kept.h  15609 front_tasks.h
- *  15952 null_center.h  16072 nullspace.h  16259 growth.h  16337 factor_setup.h  16662 factor.h
- *  16872 leftlooking.h  17019 factor_query.h  17154 combination.h
+ *  13258 factor_types.h  13682 storage.h  13820 pivot_search.h  14166 pivoted.h  14235 scatter.h
+ *  14393 uplooking.h  14465 null_product.h  14669 null_dense.h  14746 null_basis.h
+ *  15066 null_vectors.h  15208 multifrontal.h  15402 gather.h  15450 kept.h  15620 front_tasks.h
+ *  15963 null_center.h  16083 nullspace.h  16270 growth.h  16348 factor_setup.h  16673 factor.h
+ *  16883 leftlooking.h  17030 factor_query.h  17165 combination.h
  * (solve: full and local solves)
- *  17215 region_types.h  17319 work.h  17419 query.h  17635 singular.h  17892 backward.h
- *  17922 sweep_tasks.h  18253 sweep.h  18461 compile.h  18654 plan.h  18761 local.h  18913 parts.h
- *  19202 refine.h  19381 refine_local.h  19597 rcond.h  19756 defects.h
+ *  17226 region_types.h  17330 work.h  17430 query.h  17646 singular.h  17903 backward.h
+ *  17933 sweep_tasks.h  18264 sweep.h  18472 compile.h  18665 plan.h  18772 local.h  18924 parts.h
+ *  19213 refine.h  19392 refine_local.h  19608 rcond.h  19767 defects.h
  * (inverse: entries of the inverse, regions)
- *  19815 traversal.h  20064 traversal_run.h  20257 row_sets.h  20291 unit_vectors.h
- *  20518 bilinear.h  20690 entries.h  20967 block.h  21202 reserve.h  21394 selected.h
- *  21604 selected_query.h  21706 region_choose.h  21933 region.h
+ *  19826 traversal.h  20075 traversal_run.h  20268 row_sets.h  20302 unit_vectors.h
+ *  20529 bilinear.h  20701 entries.h  20978 block.h  21213 reserve.h  21405 selected.h
+ *  21615 selected_query.h  21717 region_choose.h  21944 region.h
  * (change: a factor that follows changes of its matrix)
- *  22181 update.h  22534 path.h  22661 rank.h  23037 edges.h  23191 choose.h  23402 pins_types.h
- *  23481 pins_nulls.h  23664 pins_capacitance.h  23916 pins_balance.h  24095 pins_held.h
- *  24311 pins_choose.h  24369 pins_rebuild.h  24587 pins_matrix.h  24738 pins.h  25007 pins_solve.h
- *  25278 subset.h  25399 restrict_analysis.h  25770 restrict_symbolic.h  25968 restrict.h
- *  26196 edit_match.h  26395 edit_place.h  26644 edit_separate.h  26958 edit_order.h
- *  27113 edit_graph.h  27208 edit_join.h  27484 edit.h  27647 edit_factor.h
+ *  22192 update.h  22556 path.h  22657 rank.h  23033 edges.h  23187 choose.h  23398 pins_types.h
+ *  23477 pins_nulls.h  23660 pins_capacitance.h  23912 pins_balance.h  24091 pins_held.h
+ *  24307 pins_choose.h  24365 pins_rebuild.h  24583 pins_matrix.h  24734 pins.h  25003 pins_solve.h
+ *  25274 subset.h  25395 restrict_analysis.h  25766 restrict_symbolic.h  25964 restrict.h
+ *  26192 edit_match.h  26391 edit_place.h  26640 edit_separate.h  26954 edit_order.h
+ *  27109 edit_graph.h  27204 edit_join.h  27480 edit.h  27643 edit_factor.h
  * (save: factors in files)
- *  27932 format.h  28229 decode.h  28377 check.h  28707 write.h  29012 load.h  29280 load_inverse.h
- *  29610 load_calls.h
+ *  27928 format.h  28225 decode.h  28373 check.h  28703 write.h  29008 load.h  29276 load_inverse.h
+ *  29606 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29809 batch_solve.h  30018 batch_factor.h  30219 batch_diagonal.h
+ *  29805 batch_solve.h  30014 batch_factor.h  30215 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30359 hermitian.h  30521 complex_rows.h
+ *  30355 hermitian.h  30517 complex_rows.h
  * (last: undefine every internal macro)
- *  30689 undef.h
+ *  30685 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30965 front.inl.h  30967 product.inl.h  31478 words_undef.inl.h  31555 copy_rows.inl.h
- *  31593 multi_rhs.inl.h  31612 complex_groups.inl.h  31751 multi_rhs_small.inl.h
- *  31923 multi_rhs_tiles.inl.h  32200 sweeps.inl.h  32202 unit_triangle.inl.h  32239 two_rhs.inl.h
- *  32408 small_supernode.inl.h  32589 single_rhs.inl.h  32833 kernel_set.inl.h
- *  32835 complex_small.inl.h  33005 complex_rows.inl.h  33220 inverse_front.inl.h  33505 row.inl.h
- *  33535 change.inl.h  33687 interleave.inl.h  33818 lanes_undef.inl.h
+ *  30961 front.inl.h  30963 product.inl.h  31474 words_undef.inl.h  31551 copy_rows.inl.h
+ *  31589 multi_rhs.inl.h  31608 complex_groups.inl.h  31747 multi_rhs_small.inl.h
+ *  31919 multi_rhs_tiles.inl.h  32196 sweeps.inl.h  32198 unit_triangle.inl.h  32235 two_rhs.inl.h
+ *  32404 small_supernode.inl.h  32585 single_rhs.inl.h  32829 kernel_set.inl.h
+ *  32831 complex_small.inl.h  33001 complex_rows.inl.h  33216 inverse_front.inl.h  33501 row.inl.h
+ *  33531 change.inl.h  33761 interleave.inl.h  33895 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4725,6 +4725,16 @@ typedef void (*sli_products_kernel)(sl_int count, const double *y, const double 
 
 typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
 
+typedef struct sli_ranks {
+  double U[SLI_TILE][SLI_TILE];
+  double alpha[SLI_TILE];
+  double e[SLI_TILE], magnitude[SLI_TILE];
+  sl_int ranks, lanes;
+} sli_ranks;
+
+typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
+                   const double *w, double *c);
+
 typedef struct sli_rank_one {
   double *panel;
   const double *D;
@@ -4738,7 +4748,7 @@ typedef struct sli_rank_one {
 typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
 
 typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
-                const double *M, size_t ldm, int is_streamed);
+                    const double *M, size_t ldm, int is_streamed);
 typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_int stride,
                   const sl_int *index, sl_int count);
 
@@ -4754,6 +4764,7 @@ typedef struct sli_kernels {
   sli_inverse_phase_kernel inverse_phase;
   sli_takahashi_kernel takahashi;
   sli_change_kernel change[SLI_NRHS_KINDS - 1];
+  sli_ranks_kernel change_ranks;
   sli_rank_one_kernel change_panel;
 } sli_kernels;
 
@@ -22188,9 +22199,8 @@ typedef struct sli_update {
   int keeps_signs;
   int is_trial;
   int is_tried;
-  sl_int ranks, lanes;
+  sl_int lanes;
   int kind;
-  double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
   double most;
   double fall;
   double top;
@@ -22200,6 +22210,7 @@ typedef struct sli_update {
   sl_int pivot;
   double value;
 
+  sli_ranks *state;
   sli_step *steps;
   sl_int *rows;
   double *x;
@@ -22217,12 +22228,13 @@ SLI_INLINE int sli_update_kind(sl_int count) {
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
                 int has_trial) {
   const uint64_t many = (uint64_t)lanes;
+  u->state = SLI_TAKE(b, sli_ranks, 1);
   u->steps = SLI_TAKE(b, sli_step, R->count);
   u->rows = SLI_TAKE(b, sl_int, R->n_rows);
   u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
   u->gain = SLI_TAKE(b, double, R->columns);
   u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
-  u->c = SLI_TAKE(b, double, 2 * many *SLI_TILE *(uint64_t)sli_tiles(R->widest));
+  u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
   u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
   u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
   u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
@@ -22298,65 +22310,62 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
   return SL_OK;
 }
 
-static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_int stride,
-                  double *c) {
-  const double d = u->F->D[k];
-  double e = d, inverse = 1.0 / d, magnitude = fabs(d), b[SLI_TILE];
-  sl_int i, r, any = 0;
-  sl_status status;
-  for (r = 0; r < u->lanes; r++) {
-    c[r] = y[stride * r];
-    c[u->lanes + r] = 0.0;
-    any |= c[r] != 0.0;
-  }
-  if (!any) {
-    return SL_OK;
-  }
-  for (r = 0; r < u->ranks; r++) {
-    const double before = e;
-    double f = c[r], p;
-    for (i = 0; i < r; i++) {
-      f += u->U[i][r] * c[i];
+static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, const double *e,
+                   const double *magnitudes) {
+  sl_factor *F = u->F;
+  sl_factor_info *info = &F->stats.factor;
+  const double known = F->extents[F->S->super_of[k]].magnitude;
+  const double tolerance = F->rule.null_tolerance;
+  double *D = F->D + k, least = info->pivot_min, top = u->top, most = u->most;
+  sl_status status = SL_OK;
+  sl_int j;
+  for (j = 0; j < count && status == SL_OK; j++) {
+    const double d = D[j], size = fabs(e[j]);
+    const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
+    if (e[j] == d && magnitude == size) {
+      continue;
     }
-    b[r] = u->alpha[r] * f;
-    e += b[r] * f;
-    magnitude += fabs(b[r] * f);
-    if (!(fabs(e) > 0.0)) {
-      return sli_update_take(u, k, e, magnitude);
-    }
-    p = -f * inverse;
-    inverse = 1.0 / e;
-    u->alpha[r] *= before * inverse;
-    for (i = 0; i < r; i++) {
-      const double t = u->U[i][r];
-      u->U[i][r] = t + b[i] * p;
-      b[i] += t * b[r];
+    if ((e[j] < 0.0) == (d < 0.0) && size >= DBL_MIN && size <= DBL_MAX &&
+      size <= 4.0 * fabs(d) &&
+      (size >= fabs(d) || u->is_tried || !sli_is_null(e[j], magnitude + known, tolerance))) {
+      if (!u->is_trial) {
+        most = magnitude > most ? magnitude : most;
+        least = size < least ? size : least;
+        top = size > top ? size : top;
+        D[j] = e[j];
+      }
+    } else {
+      status = sli_update_take(u, k + j, e[j], magnitude);
     }
   }
-  status = sli_update_take(u, k, e, magnitude);
-  for (r = 0; r < u->ranks; r++) {
-    c[u->lanes + r] = -b[r] * inverse;
-  }
+  info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
+  info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
+  u->top = top > u->top ? top : u->top;
+  u->most = most > u->most ? most : u->most;
   return status;
+}
+
+static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
+                   const double *w, double *c) {
+  sl_factor *F = u->F;
+  const sl_int done = F->kernels->change_ranks(u->state, l, columns, F->D + k, w, c);
+  return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
 }
 
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
   double *l = (double *)u->F->values + step->panel + sli_panel_at(step->width, first, first);
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
-  const sl_int start = step->column - SLI_TILE * step->first_tile;
-  sl_int j, i;
-  for (j = 0; j < columns; j++, l += SLI_TILE, at += 2 * (ptrdiff_t)u->lanes) {
-    const sl_status status = sli_update_pivot(u, start + first + j, w + j, SLI_TILE, at);
-    if (status != SL_OK) {
-      return status;
-    }
-    u->F->kernels->change[u->kind - 1](l, 1, at, w);
-    for (i = 0; i <= j; i++) {
-      l[i] = 0.0;
+  const sl_int k = step->column + first - SLI_TILE * step->first_tile;
+  const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
+  sl_int j;
+  if (status == SL_OK) {
+    u->F->kernels->change[u->kind - 1](l, columns, at, w);
+    for (j = 0; j < columns; j++) {
+      memset(l + SLI_TILE * j, 0, (size_t)(j + 1) * sizeof *l);
     }
   }
-  return SL_OK;
+  return status;
 }
 
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
@@ -22368,26 +22377,31 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t,
     u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
-static void sli_update_gather(const sli_update *u, const sli_step *step, const sl_int *rows) {
+static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
+              int is_back) {
+  const sli_kernels *kernels = u->F->kernels;
   const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
-  sl_int i, r;
-  for (i = 0; i < SLI_TILE * sli_tiles(all); i++) {
-    const sl_int from = i < own ? step->base + i : i < all ? rows[i - own] : 0;
-    const double *x = u->x + (ptrdiff_t)lanes * from;
-    double *to = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
-    for (r = 0; r < lanes; r++) {
-      to[SLI_TILE * r] = i < all ? x[r] : 0.0;
+  sl_int t, i, r, at[SLI_TILE];
+  double *w = u->local;
+  for (t = 0; t < all; t += SLI_TILE, w += SLI_TILE * lanes) {
+    const sl_int count = sli_min(SLI_TILE, all - t);
+    if (count < SLI_TILE && !is_back) {
+      memset(w, 0, SLI_TILE * (size_t)lanes * sizeof *w);
     }
-  }
-}
-
-static void sli_update_scatter(const sli_update *u, const sli_step *step, const sl_int *rows) {
-  const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
-  sl_int i, r;
-  for (i = own; i < all; i++) {
-    const double *from = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
-    for (r = 0; r < lanes; r++) {
-      u->x[(ptrdiff_t)lanes * rows[i - own] + r] = from[SLI_TILE * r];
+    for (i = 0; i < count; i++) {
+      at[i] = t + i < own ? step->base + t + i : rows[t + i - own];
+    }
+    if (lanes == SLI_TILE && is_back) {
+      kernels->interleave(u->x, lanes, at, count, w, SLI_TILE, 0);
+    } else if (lanes == SLI_TILE) {
+      kernels->separate(w, SLI_TILE, u->x, lanes, at, count);
+    } else {
+      for (i = 0; i < count; i++) {
+        for (r = 0; r < lanes; r++) {
+          double *x = u->x + (ptrdiff_t)lanes * at[i] + r, *y = w + SLI_TILE * r + i;
+          *(is_back ? x : y) = *(is_back ? y : x);
+        }
+      }
     }
   }
 }
@@ -22434,7 +22448,7 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
   const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
   const sl_int tiles = sli_tiles(step->width + step->below);
   sl_int c0, c1, t;
-  sli_update_gather(u, step, rows);
+  sli_update_move(u, step, rows, 0);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, -1.0);
   }
@@ -22447,15 +22461,15 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
                 sli_min(SLI_TILE * sli_min(t, c1), step->width));
       }
       if (t < c1) {
-        status = sli_update_tile(
-          u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+        status = sli_update_tile(u, step, t,
+                     u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
       }
       if (status != SL_OK) {
         return status;
       }
     }
   }
-  sli_update_scatter(u, step, rows);
+  sli_update_move(u, step, rows, 1);
   if (u->sign == 0.0) {
     sli_update_gains(u, step, rows, 1.0);
   }
@@ -22475,43 +22489,51 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
   sl_int r, p;
-  u->ranks = count;
   u->kind = sli_update_kind(count);
   u->lanes = (sl_int)1 << u->kind;
+  u->state->ranks = count;
+  u->state->lanes = u->lanes;
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
-  memset(u->U, 0, sizeof u->U);
+  memset(u->state->U, 0, sizeof u->state->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
   memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
   for (r = 0; r < count; r++) {
     const sl_int v = group[r];
+    const double alpha = u->sigma == NULL ? 1.0 : u->sigma[v];
     double most = 0.0;
-    u->alpha[r] = u->sigma == NULL ? 1.0 : u->sigma[v];
+    u->state->U[r][r] = 1.0;
+    u->state->alpha[r] = alpha;
     for (p = V->p[v]; p < V->p[v + 1]; p++) {
       const sl_int at = V->x[p] == 0.0 ? -1 : sli_reach_index_of(&u->R, S->iperm[V->i[p]]);
       if (at != -1) {
         const double x = V->x[p];
         u->x[(ptrdiff_t)at * u->lanes + r] += x;
-        u->gain[at] += u->sign == 0.0 ? fabs(u->alpha[r] * x * x)
-                        : fmax(0.0, 2.0 * u->sign * u->alpha[r] * x * x);
+        u->gain[at] +=
+          u->sign == 0.0 ? fabs(alpha * x * x) : fmax(0.0, 2.0 * u->sign * alpha * x * x);
         most = fmax(most, x * x);
       }
     }
-    u->fall += u->sign * u->alpha[r] > 0.0 ? 0.0 : fabs(u->alpha[r]) * most;
+    u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
   }
 }
 
 static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
   const sli_reach *R = &u->R;
   sl_status status = SL_OK;
-  sl_int s, j;
+  sl_int s, j, k;
+  memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
   memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
   sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
   u->is_trial = 1;
   for (s = 0; s < R->count; s++) {
     const sli_step *step = &R->steps[s];
-    for (j = 0; j < sli_step_columns(step) && status == SL_OK; j++) {
-      status = sli_update_pivot(u, step->column + j,
-                    u->trial + (ptrdiff_t)u->lanes * (step->base + j), 1, u->c);
+    for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
+      const double *y = u->trial + (ptrdiff_t)u->lanes * (step->base + j);
+      const sl_int columns = sli_min(SLI_TILE, sli_step_columns(step) - j);
+      for (k = 0; k < u->lanes * columns; k++) {
+        u->local[SLI_TILE * (k % u->lanes) + k / u->lanes] = y[k];
+      }
+      status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
     }
   }
   u->is_trial = 0;
@@ -22579,34 +22601,6 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
   return found;
 }
 
-static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s) {
-  sl_factor *F = u->F;
-  sl_factor_info *info = &F->stats.factor;
-  const double known = F->extents[s].magnitude, tolerance = F->rule.null_tolerance;
-  double *D = F->D + F->S->super_first[s], least = info->pivot_min, top = u->top;
-  sl_status status = SL_OK;
-  sl_int j;
-  for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
-    const double d = D[j], e = one->e[j], size = fabs(e);
-    const double magnitude = fabs(d) + fabs(e - d);
-    if (e * u->sign >= DBL_MIN && size <= DBL_MAX && size <= 4.0 * fabs(d) &&
-      (size >= fabs(d) || u->is_tried || !sli_is_null(e, magnitude + known, tolerance))) {
-      if (!u->is_trial) {
-        u->most = magnitude > u->most ? magnitude : u->most;
-        least = size < least ? size : least;
-        top = size > top ? size : top;
-        D[j] = e;
-      }
-    } else {
-      status = sli_update_take(u, F->S->super_first[s] + j, e, magnitude);
-    }
-  }
-  info->pivot_min = fmin(least, info->pivot_min);
-  info->pivot_max = fmax(top, info->pivot_max);
-  u->top = fmax(top, u->top);
-  return status;
-}
-
 static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   sl_factor *F = u->F;
   const sl_symbolic *S = F->S;
@@ -22630,7 +22624,9 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     one.below = step->below;
     one.w = w;
     F->kernels->change_panel(&one);
-    status = sli_path_take(u, &one, s);
+    status = sli_update_take_all(u, step->column + SLI_TILE * one.first_tile,
+                   step->width - SLI_TILE * one.first_tile,
+                   one.e + SLI_TILE * one.first_tile, NULL);
     if (!is_trial) {
       rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
       u->entry = fmax(u->entry, F->extents[s].entry);
@@ -22887,8 +22883,8 @@ static void sli_rank_note(const sli_update *u) {
   const double local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
-  info->growth = u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0))
-                  : fmax(info->growth * rise, growth);
+  info->growth =
+    u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
   F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
   F->lowest = fmin(F->lowest, scale);
   F->scale = scale;
@@ -23009,7 +23005,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
 
 SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
                   sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_rank q;
   sl_status status;
   sli_stats_clear_error(stats);
@@ -23171,7 +23167,7 @@ static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const
 SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, const sl_int *columns,
                       const double *deltas, sl_int count, sl_work *W,
                       sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_rank q;
   sl_status status;
   sli_stats_clear_error(stats);
@@ -33549,12 +33545,11 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     sl_int j; \
     SLV_DECLARE(a) \
     SLV_DECLARE(s) \
-    each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
-    for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
+    each(SLI_DECLARE, 0) \
+      each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
       SLV_LOAD_PINNED(a, l) \
       SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
-      each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) \
-      SLV_STORE(l, a) \
+      each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
     } \
     each(SLI_STORE, 0) \
   }
@@ -33565,6 +33560,90 @@ SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
 SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
+
+SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
+                          const double *d, const double *w, double *c) {
+  SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double b[SLI_TILE]);
+  const sl_int ranks = u->ranks, lanes = u->lanes;
+  sl_int i, j, r;
+  SLV_DECLARE(a)
+  SLV_DECLARE(x)
+  SLV_DECLARE(s)
+  SLV_DECLARE(t)
+  SLV_DECLARE(p)
+  memset(f, 0, sizeof f);
+  memcpy(f, w, SLI_TILE * (size_t)ranks * sizeof *f);
+  for (j = 0; j < columns && l != NULL; j++) {
+    SLV_LOAD_PINNED(a, l + SLI_TILE * j)
+    for (r = 0; r < ranks; r++) {
+      SLV_LOAD(x, f + SLI_TILE * r)
+      SLV_BROADCAST(s, f + SLI_TILE * r + j)
+      SLV_FNMA(x, a, s)
+      SLV_STORE(f + SLI_TILE * r, x)
+    }
+  }
+  SLV_TRANSPOSE(y, f)
+  for (r = ranks - 1; r > 0; r--) {
+    SLV_LOAD(x, f + SLI_TILE * r)
+    for (i = 0; i < r; i++) {
+      const double entry = -u->U[r][i];
+      SLV_BROADCAST(s, &entry)
+      SLV_LOAD(a, f + SLI_TILE * i)
+      SLV_FNMA(x, a, s)
+    }
+    SLV_STORE(f + SLI_TILE * r, x)
+  }
+  for (j = 0; j < columns; j++) {
+    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+    SLV_ZERO(s)
+    SLV_ZERO(t)
+    for (r = 0; r < ranks && fabs(e) > 0.0; r++) {
+      const double before = e, g = f[SLI_TILE * r + j];
+      const double beta = -u->alpha[r] * g, q = g * inverse;
+      if (g == 0.0) {
+        continue;
+      }
+      e -= beta * g;
+      magnitude += fabs(beta * g);
+      inverse = e == 0.0 ? 0.0 : 1.0 / e;
+      u->alpha[r] *= before * inverse;
+      SLV_BROADCAST(p, &q)
+      SLV_LOAD_PINNED(a, f + SLI_TILE * r)
+      SLV_LOAD(x, f + SLI_TILE * r)
+      SLV_FNMA(x, s, p)
+      SLV_STORE(f + SLI_TILE * r, x)
+      SLV_BELOW(a, j)
+      SLV_LOAD(x, u->U[r])
+      SLV_FNMA(x, t, p)
+      SLV_BROADCAST(p, &beta)
+      SLV_FNMA(s, a, p)
+      SLV_LOAD_PINNED(a, u->U[r])
+      SLV_FNMA(t, a, p)
+      SLV_STORE(u->U[r], x)
+    }
+    u->e[j] = e;
+    u->magnitude[j] = magnitude;
+    if (!(fabs(e) > 0.0)) {
+      return j + 1;
+    }
+    inverse = -inverse;
+    SLV_BROADCAST(p, &inverse)
+    SLV_MULTIPLY(x, t, p)
+    if (lanes == SLI_TILE) {
+      SLV_LOAD(a, y + SLI_TILE * j)
+      SLV_STORE(c, a)
+      SLV_STORE(c + SLI_TILE, x)
+    } else {
+      SLV_STORE(b, x)
+      memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
+      memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
+    }
+    c += 2 * lanes;
+  }
+  return columns;
+}
 
 #define SLI_POINT(t, unused) double *const l##t = tiles[t];
 #define SLI_CHANGE(t, unused) \
@@ -33582,13 +33661,9 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
     SLV_DECLARE(a) \
     SLV_DECLARE(s) \
     SLV_DECLARE(r) \
-    each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
-    for (j = first; j < last; j++) { \
-      SLV_BROADCAST(s, y + j) \
-      SLV_BROADCAST(r, b + j) \
-      each(SLI_CHANGE, 0) \
-    } \
-    each(SLI_STORE, 0) \
+    each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
+      SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
+        each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
   }
 #define SLI_EACH1(op, k) op(0, k)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
@@ -33669,8 +33744,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
     for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
       const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
       SLV_NAME(change_pivots)
-      (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum,
-       u->is_trial);
+      (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
       for (k = t + 1; k < count; k++) {
         SLV_NAME(change_tile)
         (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
@@ -33730,7 +33804,9 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
       }
     }
   }
-  SLV_STREAM_END
+  if (is_streamed) {
+    SLV_STREAM_END
+  }
   for (; k < count; k++) {
     for (r = 0; r < SLI_TILE; r++) {
       v[(ptrdiff_t)index[k] * stride + r] = M[(size_t)r * ldm + (size_t)k];
@@ -33805,6 +33881,7 @@ static const sli_kernels SLV_NAME(kernels) = {
   SLV_NAME(inverse_phase),
   SLV_NAME(takahashi),
   {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+  SLV_NAME(change_ranks),
   SLV_NAME(change_panel)};
 #endif
 

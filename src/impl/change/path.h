@@ -57,35 +57,6 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
     return found;
 }
 
-/* Takes the pivots that a kernel computed for supernode s. Nearly all pass the first test. */
-static sl_status sli_path_take(sli_update *u, const sli_rank_one *one, sl_int s) {
-    sl_factor *F = u->F;
-    sl_factor_info *info = &F->stats.factor;
-    const double known = F->extents[s].magnitude, tolerance = F->rule.null_tolerance;
-    double *D = F->D + F->S->super_first[s], least = info->pivot_min, top = u->top;
-    sl_status status = SL_OK;
-    sl_int j;
-    for (j = SLI_TILE * one->first_tile; j < one->width && status == SL_OK; j++) {
-        const double d = D[j], e = one->e[j], size = fabs(e);
-        const double magnitude = fabs(d) + fabs(e - d);
-        if (e * u->sign >= DBL_MIN && size <= DBL_MAX && size <= 4.0 * fabs(d) &&
-            (size >= fabs(d) || u->is_tried || !sli_is_null(e, magnitude + known, tolerance))) {
-            if (!u->is_trial) {
-                u->most = magnitude > u->most ? magnitude : u->most;
-                least = size < least ? size : least;
-                top = size > top ? size : top;
-                D[j] = e;
-            }
-        } else {
-            status = sli_update_take(u, F->S->super_first[s] + j, e, magnitude);
-        }
-    }
-    info->pivot_min = fmin(least, info->pivot_min);
-    info->pivot_max = fmax(top, info->pivot_max);
-    u->top = fmax(top, u->top);
-    return status;
-}
-
 /* Changes the columns on the path of a vector, or tries whether that is possible. seed: its first
  * column and its number. On failure some are changed. */
 static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
@@ -111,7 +82,9 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
         one.below = step->below;
         one.w = w;
         F->kernels->change_panel(&one);
-        status = sli_path_take(u, &one, s);
+        status = sli_update_take_all(u, step->column + SLI_TILE * one.first_tile,
+                                     step->width - SLI_TILE * one.first_tile,
+                                     one.e + SLI_TILE * one.first_tile, NULL);
         if (!is_trial) {
             rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
             u->entry = fmax(u->entry, F->extents[s].entry);

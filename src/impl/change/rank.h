@@ -252,8 +252,8 @@ static void sli_rank_note(const sli_update *u) {
     const double local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
-    info->growth = u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0))
-                                  : fmax(info->growth * rise, growth);
+    info->growth =
+        u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
     F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
     F->lowest = fmin(F->lowest, scale);
     F->scale = scale;
@@ -379,7 +379,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
 
 SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma, sl_work *W,
                                   sl_stats *stats) {
-    const double started = sli_seconds();
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_rank q;
     sl_status status;
     sli_stats_clear_error(stats);

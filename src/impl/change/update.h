@@ -20,13 +20,12 @@ typedef struct sli_update {
     sl_factor *F;
     const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
     const double *sigma;
-    double sign;         /* of all pivots, 1 or -1; 0: they have both signs */
-    int keeps_signs;     /* a pivot that changes its sign is refused */
-    int is_trial;        /* pivots are checked, and not changed */
-    int is_tried;        /* the trial of this pass has succeeded */
-    sl_int ranks, lanes; /* vectors of the pass, and the lanes that hold them */
+    double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
+    int keeps_signs; /* a pivot that changes its sign is refused */
+    int is_trial;    /* pivots are checked, and not changed */
+    int is_tried;    /* the trial of this pass has succeeded */
+    sl_int lanes;    /* that hold the vectors of the pass */
     int kind;
-    double U[SLI_TILE][SLI_TILE], alpha[SLI_TILE];
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
     double fall;   /* by at most this much the pass reduces the largest |a| */
     double top;    /* the largest new pivot */
@@ -36,6 +35,7 @@ typedef struct sli_update {
     sl_int pivot; /* the pivot that was refused, and its value */
     double value;
 
+    sli_ranks *state;
     sli_step *steps; /* of the reach */
     sl_int *rows;
     double *x;               /* lanes for each column of the reach */
@@ -55,12 +55,13 @@ SLI_INLINE int sli_update_kind(sl_int count) {
 static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
                               int has_trial) {
     const uint64_t many = (uint64_t)lanes;
+    u->state = SLI_TAKE(b, sli_ranks, 1);
     u->steps = SLI_TAKE(b, sli_step, R->count);
     u->rows = SLI_TAKE(b, sl_int, R->n_rows);
     u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
     u->gain = SLI_TAKE(b, double, R->columns);
     u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
-    u->c = SLI_TAKE(b, double, 2 * many *SLI_TILE *(uint64_t)sli_tiles(R->widest));
+    u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
     u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
     u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
     u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
@@ -144,47 +145,49 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_OK;
 }
 
-/* Changes pivot k. y: its row of W, entries `stride` apart. Writes y and -b to c. */
-static sl_status sli_update_pivot(sli_update *u, sl_int k, const double *y, sl_int stride,
-                                  double *c) {
-    const double d = u->F->D[k];
-    double e = d, inverse = 1.0 / d, magnitude = fabs(d), b[SLI_TILE];
-    sl_int i, r, any = 0;
-    sl_status status;
-    for (r = 0; r < u->lanes; r++) {
-        c[r] = y[stride * r];
-        c[u->lanes + r] = 0.0;
-        any |= c[r] != 0.0;
-    }
-    if (!any) {
-        return SL_OK;
-    }
-    for (r = 0; r < u->ranks; r++) {
-        const double before = e;
-        double f = c[r], p;
-        for (i = 0; i < r; i++) {
-            f += u->U[i][r] * c[i];
+/* Takes `count` pivots from k on, as a kernel computed them. magnitudes: the sums of magnitudes;
+ * NULL: of one vector. Nearly all pivots pass the first test. */
+static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, const double *e,
+                                     const double *magnitudes) {
+    sl_factor *F = u->F;
+    sl_factor_info *info = &F->stats.factor;
+    const double known = F->extents[F->S->super_of[k]].magnitude;
+    const double tolerance = F->rule.null_tolerance;
+    double *D = F->D + k, least = info->pivot_min, top = u->top, most = u->most;
+    sl_status status = SL_OK;
+    sl_int j;
+    for (j = 0; j < count && status == SL_OK; j++) {
+        const double d = D[j], size = fabs(e[j]);
+        const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
+        if (e[j] == d && magnitude == size) { /* no change */
+            continue;
         }
-        b[r] = u->alpha[r] * f;
-        e += b[r] * f;
-        magnitude += fabs(b[r] * f);
-        if (!(fabs(e) > 0.0)) { /* 0 or NaN */
-            return sli_update_take(u, k, e, magnitude);
-        }
-        p = -f * inverse;
-        inverse = 1.0 / e;
-        u->alpha[r] *= before * inverse;
-        for (i = 0; i < r; i++) {
-            const double t = u->U[i][r];
-            u->U[i][r] = t + b[i] * p;
-            b[i] += t * b[r];
+        if ((e[j] < 0.0) == (d < 0.0) && size >= DBL_MIN && size <= DBL_MAX &&
+            size <= 4.0 * fabs(d) &&
+            (size >= fabs(d) || u->is_tried || !sli_is_null(e[j], magnitude + known, tolerance))) {
+            if (!u->is_trial) {
+                most = magnitude > most ? magnitude : most;
+                least = size < least ? size : least;
+                top = size > top ? size : top;
+                D[j] = e[j];
+            }
+        } else {
+            status = sli_update_take(u, k + j, e[j], magnitude);
         }
     }
-    status = sli_update_take(u, k, e, magnitude);
-    for (r = 0; r < u->ranks; r++) {
-        c[u->lanes + r] = -b[r] * inverse;
-    }
+    info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
+    info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
+    u->top = top > u->top ? top : u->top;
+    u->most = most > u->most ? most : u->most;
     return status;
+}
+
+/* Changes the pivots of `columns` columns from k on. l, w: as for the kernel. Writes their c. */
+static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
+                                   const double *w, double *c) {
+    sl_factor *F = u->F;
+    const sl_int done = F->kernels->change_ranks(u->state, l, columns, F->D + k, w, c);
+    return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
 }
 
 /* The pivots of column tile c, and the rows of that tile. w: [lane][8] of its rows. */
@@ -192,19 +195,16 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);
     double *l = (double *)u->F->values + step->panel + sli_panel_at(step->width, first, first);
     double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
-    const sl_int start = step->column - SLI_TILE * step->first_tile;
-    sl_int j, i;
-    for (j = 0; j < columns; j++, l += SLI_TILE, at += 2 * (ptrdiff_t)u->lanes) {
-        const sl_status status = sli_update_pivot(u, start + first + j, w + j, SLI_TILE, at);
-        if (status != SL_OK) {
-            return status;
-        }
-        u->F->kernels->change[u->kind - 1](l, 1, at, w);
-        for (i = 0; i <= j; i++) { /* the kernel has changed the part above the diagonal, too */
-            l[i] = 0.0;
+    const sl_int k = step->column + first - SLI_TILE * step->first_tile;
+    const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
+    sl_int j;
+    if (status == SL_OK) {
+        u->F->kernels->change[u->kind - 1](l, columns, at, w);
+        for (j = 0; j < columns; j++) { /* the kernel has changed the part above them, too */
+            memset(l + SLI_TILE * j, 0, (size_t)(j + 1) * sizeof *l);
         }
     }
-    return SL_OK;
+    return status;
 }
 
 /* Applies columns from .. to-1 to row tile t. */
@@ -217,28 +217,32 @@ static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t,
         u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
-/* Moves the rows of a step between the compact vector and the tiles: into the tiles, or the rows
- * below back. */
-static void sli_update_gather(const sli_update *u, const sli_step *step, const sl_int *rows) {
+/* Moves the rows of a step between the compact vector and the tiles: into the tiles, or back. */
+static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
+                            int is_back) {
+    const sli_kernels *kernels = u->F->kernels;
     const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
-    sl_int i, r;
-    for (i = 0; i < SLI_TILE * sli_tiles(all); i++) {
-        const sl_int from = i < own ? step->base + i : i < all ? rows[i - own] : 0;
-        const double *x = u->x + (ptrdiff_t)lanes * from;
-        double *to = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
-        for (r = 0; r < lanes; r++) {
-            to[SLI_TILE * r] = i < all ? x[r] : 0.0;
+    sl_int t, i, r, at[SLI_TILE];
+    double *w = u->local;
+    for (t = 0; t < all; t += SLI_TILE, w += SLI_TILE * lanes) {
+        const sl_int count = sli_min(SLI_TILE, all - t);
+        if (count < SLI_TILE && !is_back) {
+            memset(w, 0, SLI_TILE * (size_t)lanes * sizeof *w);
         }
-    }
-}
-
-static void sli_update_scatter(const sli_update *u, const sli_step *step, const sl_int *rows) {
-    const sl_int lanes = u->lanes, own = sli_step_columns(step), all = own + step->below;
-    sl_int i, r;
-    for (i = own; i < all; i++) {
-        const double *from = u->local + SLI_TILE * (ptrdiff_t)lanes * (i / SLI_TILE) + i % SLI_TILE;
-        for (r = 0; r < lanes; r++) {
-            u->x[(ptrdiff_t)lanes * rows[i - own] + r] = from[SLI_TILE * r];
+        for (i = 0; i < count; i++) {
+            at[i] = t + i < own ? step->base + t + i : rows[t + i - own];
+        }
+        if (lanes == SLI_TILE && is_back) {
+            kernels->interleave(u->x, lanes, at, count, w, SLI_TILE, 0);
+        } else if (lanes == SLI_TILE) {
+            kernels->separate(w, SLI_TILE, u->x, lanes, at, count);
+        } else {
+            for (i = 0; i < count; i++) {
+                for (r = 0; r < lanes; r++) {
+                    double *x = u->x + (ptrdiff_t)lanes * at[i] + r, *y = w + SLI_TILE * r + i;
+                    *(is_back ? x : y) = *(is_back ? y : x);
+                }
+            }
         }
     }
 }
@@ -290,7 +294,7 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
     const sl_int entered = step->first_tile, wide = sli_tiles(step->width);
     const sl_int tiles = sli_tiles(step->width + step->below);
     sl_int c0, c1, t;
-    sli_update_gather(u, step, rows);
+    sli_update_move(u, step, rows, 0);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, -1.0);
     }
@@ -303,15 +307,15 @@ static sl_status sli_update_step(sli_update *u, const sli_step *step, const sl_i
                                 sli_min(SLI_TILE * sli_min(t, c1), step->width));
             }
             if (t < c1) {
-                status = sli_update_tile(
-                    u, step, t, u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+                status = sli_update_tile(u, step, t,
+                                         u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
             }
             if (status != SL_OK) {
                 return status;
             }
         }
     }
-    sli_update_scatter(u, step, rows);
+    sli_update_move(u, step, rows, 1);
     if (u->sign == 0.0) {
         sli_update_gains(u, step, rows, 1.0);
     }
@@ -333,28 +337,31 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     const sl_symbolic *S = u->F->S;
     const sl_csc *V = u->V;
     sl_int r, p;
-    u->ranks = count;
     u->kind = sli_update_kind(count);
     u->lanes = (sl_int)1 << u->kind;
+    u->state->ranks = count;
+    u->state->lanes = u->lanes;
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
-    memset(u->U, 0, sizeof u->U);
+    memset(u->state->U, 0, sizeof u->state->U);
     memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
     memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
     for (r = 0; r < count; r++) {
         const sl_int v = group[r];
+        const double alpha = u->sigma == NULL ? 1.0 : u->sigma[v];
         double most = 0.0;
-        u->alpha[r] = u->sigma == NULL ? 1.0 : u->sigma[v];
+        u->state->U[r][r] = 1.0;
+        u->state->alpha[r] = alpha;
         for (p = V->p[v]; p < V->p[v + 1]; p++) {
             const sl_int at = V->x[p] == 0.0 ? -1 : sli_reach_index_of(&u->R, S->iperm[V->i[p]]);
             if (at != -1) {
                 const double x = V->x[p];
                 u->x[(ptrdiff_t)at * u->lanes + r] += x;
-                u->gain[at] += u->sign == 0.0 ? fabs(u->alpha[r] * x * x)
-                                              : fmax(0.0, 2.0 * u->sign * u->alpha[r] * x * x);
+                u->gain[at] +=
+                    u->sign == 0.0 ? fabs(alpha * x * x) : fmax(0.0, 2.0 * u->sign * alpha * x * x);
                 most = fmax(most, x * x);
             }
         }
-        u->fall += u->sign * u->alpha[r] > 0.0 ? 0.0 : fabs(u->alpha[r]) * most;
+        u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
     }
 }
 
@@ -363,15 +370,20 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
 static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
     const sli_reach *R = &u->R;
     sl_status status = SL_OK;
-    sl_int s, j;
+    sl_int s, j, k;
+    memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
     memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
     sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
     u->is_trial = 1;
     for (s = 0; s < R->count; s++) {
         const sli_step *step = &R->steps[s];
-        for (j = 0; j < sli_step_columns(step) && status == SL_OK; j++) {
-            status = sli_update_pivot(u, step->column + j,
-                                      u->trial + (ptrdiff_t)u->lanes * (step->base + j), 1, u->c);
+        for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
+            const double *y = u->trial + (ptrdiff_t)u->lanes * (step->base + j);
+            const sl_int columns = sli_min(SLI_TILE, sli_step_columns(step) - j);
+            for (k = 0; k < u->lanes * columns; k++) {
+                u->local[SLI_TILE * (k % u->lanes) + k / u->lanes] = y[k];
+            }
+            status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
         }
     }
     u->is_trial = 0;

@@ -17,12 +17,11 @@
         sl_int j; \
         SLV_DECLARE(a) \
         SLV_DECLARE(s) \
-        each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
-        for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
+        each(SLI_DECLARE, 0) \
+            each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
             SLV_LOAD_PINNED(a, l) \
             SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
-            each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) \
-            SLV_STORE(l, a) \
+            each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
         } \
         each(SLI_STORE, 0) \
     }
@@ -33,6 +32,92 @@ SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
 SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
+
+/* See sli_ranks_kernel. Lanes are columns of the tile. f(r) is row r of U' Y'. Each vector changes
+ * a pivot, and with it f and U, as in a rank-one change: f(r) -= q s, s += beta f(r). */
+SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
+                                                  const double *d, const double *w, double *c) {
+    SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
+    SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
+    SLI_ALIGNED(double b[SLI_TILE]);
+    const sl_int ranks = u->ranks, lanes = u->lanes;
+    sl_int i, j, r;
+    SLV_DECLARE(a)
+    SLV_DECLARE(x)
+    SLV_DECLARE(s)
+    SLV_DECLARE(t)
+    SLV_DECLARE(p)
+    memset(f, 0, sizeof f);
+    memcpy(f, w, SLI_TILE * (size_t)ranks * sizeof *f);
+    for (j = 0; j < columns && l != NULL; j++) { /* Y' := what a forward sweep makes of W' */
+        SLV_LOAD_PINNED(a, l + SLI_TILE * j)
+        for (r = 0; r < ranks; r++) {
+            SLV_LOAD(x, f + SLI_TILE * r)
+            SLV_BROADCAST(s, f + SLI_TILE * r + j)
+            SLV_FNMA(x, a, s)
+            SLV_STORE(f + SLI_TILE * r, x)
+        }
+    }
+    SLV_TRANSPOSE(y, f)
+    for (r = ranks - 1; r > 0; r--) { /* f(r) = y(r) + sum over i < r of U(i, r) y(i) */
+        SLV_LOAD(x, f + SLI_TILE * r)
+        for (i = 0; i < r; i++) {
+            const double entry = -u->U[r][i];
+            SLV_BROADCAST(s, &entry)
+            SLV_LOAD(a, f + SLI_TILE * i)
+            SLV_FNMA(x, a, s)
+        }
+        SLV_STORE(f + SLI_TILE * r, x)
+    }
+    for (j = 0; j < columns; j++) {
+        double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+        SLV_ZERO(s)
+        SLV_ZERO(t)
+        for (r = 0; r < ranks && fabs(e) > 0.0; r++) { /* until it is 0 or NaN */
+            const double before = e, g = f[SLI_TILE * r + j];
+            const double beta = -u->alpha[r] * g, q = g * inverse;
+            if (g == 0.0) { /* not on the path of this vector */
+                continue;
+            }
+            e -= beta * g;
+            magnitude += fabs(beta * g);
+            inverse = e == 0.0 ? 0.0 : 1.0 / e;
+            u->alpha[r] *= before * inverse;
+            SLV_BROADCAST(p, &q)
+            SLV_LOAD_PINNED(a, f + SLI_TILE * r)
+            SLV_LOAD(x, f + SLI_TILE * r)
+            SLV_FNMA(x, s, p)
+            SLV_STORE(f + SLI_TILE * r, x)
+            SLV_BELOW(a, j)
+            SLV_LOAD(x, u->U[r])
+            SLV_FNMA(x, t, p)
+            SLV_BROADCAST(p, &beta)
+            SLV_FNMA(s, a, p)
+            SLV_LOAD_PINNED(a, u->U[r])
+            SLV_FNMA(t, a, p)
+            SLV_STORE(u->U[r], x)
+        }
+        u->e[j] = e;
+        u->magnitude[j] = magnitude;
+        if (!(fabs(e) > 0.0)) {
+            return j + 1;
+        }
+        inverse = -inverse;
+        SLV_BROADCAST(p, &inverse)
+        SLV_MULTIPLY(x, t, p)
+        if (lanes == SLI_TILE) {
+            SLV_LOAD(a, y + SLI_TILE * j)
+            SLV_STORE(c, a)
+            SLV_STORE(c + SLI_TILE, x)
+        } else {
+            SLV_STORE(b, x)
+            memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
+            memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
+        }
+        c += 2 * lanes;
+    }
+    return columns;
+}
 
 /* One vector and columns first .. last-1 of one row tile, or of four, whose chains of w overlap:
  * w -= l y, then l += b w. A trial leaves L alone. */
@@ -52,13 +137,9 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
         SLV_DECLARE(a) \
         SLV_DECLARE(s) \
         SLV_DECLARE(r) \
-        each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) \
-        for (j = first; j < last; j++) { \
-            SLV_BROADCAST(s, y + j) \
-            SLV_BROADCAST(r, b + j) \
-            each(SLI_CHANGE, 0) \
-        } \
-        each(SLI_STORE, 0) \
+        each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
+            SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
+                each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
     }
 #define SLI_EACH1(op, k) op(0, k)
 SLI_TILES_KERNEL(change_tile, SLI_EACH1)
@@ -142,8 +223,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
         for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
             const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
             SLV_NAME(change_pivots)
-            (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum,
-             u->is_trial);
+            (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
             for (k = t + 1; k < count; k++) {
                 SLV_NAME(change_tile)
                 (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);

@@ -48,7 +48,9 @@ SLV_FUNCTION static void SLV_NAME(interleave)(double *v, sl_int stride, const sl
             }
         }
     }
-    SLV_STREAM_END
+    if (is_streamed) {
+        SLV_STREAM_END
+    }
     for (; k < count; k++) {
         for (r = 0; r < SLI_TILE; r++) {
             v[(ptrdiff_t)index[k] * stride + r] = M[(size_t)r * ldm + (size_t)k];

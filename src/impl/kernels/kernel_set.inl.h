@@ -42,4 +42,5 @@ static const sli_kernels SLV_NAME(kernels) = {
     SLV_NAME(inverse_phase),
     SLV_NAME(takahashi),
     {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+    SLV_NAME(change_ranks),
     SLV_NAME(change_panel)};
