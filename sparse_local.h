@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 62268c42f82148dd
+ * FNV-1a of the lines after this comment, without the license: b25fdc57a69c3e2c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -18461,9 +18461,9 @@ SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int n
     return SL_ERR_ARGUMENT;
   }
   q = sli_query_all(F->S);
-  for (r = 1; r <= nrhs && status == SL_OK; r += sli_max(nrhs - 1, 1)) {
+  for (r = 0; r < sli_min(nrhs, 2) && status == SL_OK; r++) {
     sli_sweep_tasks t;
-    sli_sweep_tasks_plan(&t, F, &q, r, &W->threads);
+    sli_sweep_tasks_plan(&t, F, &q, r == 0 ? 1 : nrhs, &W->threads);
     status = sli_work_grow(W, t.workers > 1 ? t.total : 0);
   }
   return status == SL_OK ? sli_work_reserve(W, &q, nrhs) : status;

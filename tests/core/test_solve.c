@@ -243,6 +243,8 @@ static void a_grown_workspace_allocates_nothing(void **state) {
     assert_int_equal(sl_work_bytes(W), bytes);
     /* O(n min(nrhs, 8)), not O(n nrhs) */
     assert_true(bytes <= 4 * n * 8 * sizeof(double) + 100000);
+    SL_CHECK(sl_work_reserve_factor(W, y.F, INT32_MAX));
+    assert_true(sl_work_bytes(W) <= 4 * n * 32 * sizeof(double) + 100000);
     free(B);
     free(X);
     sl_work_free(W);
