@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: b25fdc57a69c3e2c
+ * FNV-1a of the lines after this comment, without the license: bbff5cc8d28b10e5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,44 +48,44 @@
  *  10716 quotient.h  11152 graph_kind.h  11223 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11577 symbolic_types.h  11614 etree.h  11689 counts.h  11738 supernodes.h  11979 pattern.h
- *  12065 structure.h  12259 schedule.h  12539 symbolic.h  12987 reach.h
+ *  12066 structure.h  12260 schedule.h  12540 symbolic.h  12988 reach.h
  * (factor: the numbers of L and D)
- *  13258 factor_types.h  13682 storage.h  13820 pivot_search.h  14166 pivoted.h  14235 scatter.h
- *  14393 uplooking.h  14465 null_product.h  14669 null_dense.h  14746 null_basis.h
- *  15066 null_vectors.h  15208 multifrontal.h  15402 gather.h  15450 kept.h  15620 front_tasks.h
- *  15963 null_center.h  16083 nullspace.h  16270 growth.h  16348 factor_setup.h  16673 factor.h
- *  16883 leftlooking.h  17030 factor_query.h  17165 combination.h
+ *  13259 factor_types.h  13683 storage.h  13821 pivot_search.h  14167 pivoted.h  14236 scatter.h
+ *  14394 uplooking.h  14466 null_product.h  14670 null_dense.h  14747 null_basis.h
+ *  15067 null_vectors.h  15209 multifrontal.h  15403 gather.h  15451 kept.h  15621 front_tasks.h
+ *  15964 null_center.h  16084 nullspace.h  16271 growth.h  16349 factor_setup.h  16674 factor.h
+ *  16884 leftlooking.h  17031 factor_query.h  17166 combination.h
  * (solve: full and local solves)
- *  17226 region_types.h  17330 work.h  17430 query.h  17646 singular.h  17903 backward.h
- *  17933 sweep_tasks.h  18264 sweep.h  18472 compile.h  18665 plan.h  18772 local.h  18924 parts.h
- *  19213 refine.h  19392 refine_local.h  19608 rcond.h  19767 defects.h
+ *  17227 region_types.h  17331 work.h  17431 query.h  17647 singular.h  17904 backward.h
+ *  17934 sweep_tasks.h  18265 sweep.h  18473 compile.h  18666 plan.h  18773 local.h  18925 parts.h
+ *  19214 refine.h  19393 refine_local.h  19609 rcond.h  19768 defects.h
  * (inverse: entries of the inverse, regions)
- *  19826 traversal.h  20075 traversal_run.h  20268 row_sets.h  20302 unit_vectors.h
- *  20529 bilinear.h  20701 entries.h  20978 block.h  21213 reserve.h  21405 selected.h
- *  21615 selected_query.h  21717 region_choose.h  21944 region.h
+ *  19827 traversal.h  20076 traversal_run.h  20269 row_sets.h  20303 unit_vectors.h
+ *  20530 bilinear.h  20702 entries.h  20979 block.h  21214 reserve.h  21406 selected.h
+ *  21616 selected_query.h  21718 region_choose.h  21945 region.h
  * (change: a factor that follows changes of its matrix)
- *  22192 update.h  22556 path.h  22657 rank.h  23033 edges.h  23187 choose.h  23398 pins_types.h
- *  23477 pins_nulls.h  23660 pins_capacitance.h  23912 pins_balance.h  24091 pins_held.h
- *  24307 pins_choose.h  24365 pins_rebuild.h  24583 pins_matrix.h  24734 pins.h  25003 pins_solve.h
- *  25274 subset.h  25395 restrict_analysis.h  25766 restrict_symbolic.h  25964 restrict.h
- *  26192 edit_match.h  26391 edit_place.h  26640 edit_separate.h  26954 edit_order.h
- *  27109 edit_graph.h  27204 edit_join.h  27480 edit.h  27643 edit_factor.h
+ *  22193 update.h  22557 path.h  22658 rank.h  23034 edges.h  23188 choose.h  23399 pins_types.h
+ *  23478 pins_nulls.h  23661 pins_capacitance.h  23913 pins_balance.h  24092 pins_held.h
+ *  24308 pins_choose.h  24366 pins_rebuild.h  24584 pins_matrix.h  24735 pins.h  25004 pins_solve.h
+ *  25275 subset.h  25403 restrict_kept.h  25600 restrict_analysis.h  25848 restrict_symbolic.h
+ *  26043 restrict.h  26273 edit_match.h  26472 edit_place.h  26721 edit_separate.h
+ *  27035 edit_order.h  27190 edit_graph.h  27272 edit_join.h  27548 edit.h  27711 edit_factor.h
  * (save: factors in files)
- *  27928 format.h  28225 decode.h  28373 check.h  28703 write.h  29008 load.h  29276 load_inverse.h
- *  29606 load_calls.h
+ *  27996 format.h  28293 decode.h  28441 check.h  28771 write.h  29076 load.h  29344 load_inverse.h
+ *  29674 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29805 batch_solve.h  30014 batch_factor.h  30215 batch_diagonal.h
+ *  29873 batch_solve.h  30082 batch_factor.h  30283 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30355 hermitian.h  30517 complex_rows.h
+ *  30423 hermitian.h  30585 complex_rows.h
  * (last: undefine every internal macro)
- *  30685 undef.h
+ *  30753 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30961 front.inl.h  30963 product.inl.h  31474 words_undef.inl.h  31551 copy_rows.inl.h
- *  31589 multi_rhs.inl.h  31608 complex_groups.inl.h  31747 multi_rhs_small.inl.h
- *  31919 multi_rhs_tiles.inl.h  32196 sweeps.inl.h  32198 unit_triangle.inl.h  32235 two_rhs.inl.h
- *  32404 small_supernode.inl.h  32585 single_rhs.inl.h  32829 kernel_set.inl.h
- *  32831 complex_small.inl.h  33001 complex_rows.inl.h  33216 inverse_front.inl.h  33501 row.inl.h
- *  33531 change.inl.h  33761 interleave.inl.h  33895 lanes_undef.inl.h
+ *  31029 front.inl.h  31031 product.inl.h  31542 words_undef.inl.h  31619 copy_rows.inl.h
+ *  31657 multi_rhs.inl.h  31676 complex_groups.inl.h  31815 multi_rhs_small.inl.h
+ *  31987 multi_rhs_tiles.inl.h  32264 sweeps.inl.h  32266 unit_triangle.inl.h  32303 two_rhs.inl.h
+ *  32472 small_supernode.inl.h  32653 single_rhs.inl.h  32897 kernel_set.inl.h
+ *  32899 complex_small.inl.h  33069 complex_rows.inl.h  33284 inverse_front.inl.h  33569 row.inl.h
+ *  33599 change.inl.h  33829 interleave.inl.h  33963 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12012,6 +12012,7 @@ typedef struct sli_analysis {
   sl_int *earlier;
   sli_septree septree;
   size_t ordered;
+  sl_int *spare;
   sl_symbolic *S;
   sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
@@ -12573,7 +12574,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->is_first = SLI_TAKE(b, unsigned char, n);
     w->earlier = SLI_TAKE(b, sl_int, n);
   }
-  (void)sli_take(b, (uint64_t)nnz + 256, 8);
+  w->spare = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz + 512);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
@@ -25347,7 +25348,8 @@ static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
 }
 
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                 uint64_t *list, uint64_t *scratch, sl_stats *stats) {
+                 sl_int *rank_of, uint64_t *list, uint64_t *scratch,
+                 sl_stats *stats) {
   sl_int k, rank = 0;
   if (!R->is_hashed) {
     memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
@@ -25361,42 +25363,52 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
     if (ahead >= 0 && ahead < S->n) {
       SLI_PREFETCH(S->iperm + ahead, 0);
     }
-    list[k] = sli_keyed(S->iperm[row], k);
-    if (!R->is_hashed) {
-      R->words[sli_key(list[k]) / SLI_SUBSET_BITS] |=
-        (uint64_t)1 << (sli_key(list[k]) % SLI_SUBSET_BITS);
+    if (R->is_hashed) {
+      list[k] = sli_keyed(S->iperm[row], k);
+    } else {
+      const sl_int column = rank_of[k] = S->iperm[row];
+      uint64_t *word = &R->words[column / SLI_SUBSET_BITS];
+      const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);
+      if ((*word & bit) != 0) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+      }
+      *word |= bit;
     }
   }
   if (R->is_hashed) {
     sli_sort(list, R->count, scratch);
     sli_subset_hash(R, list);
+    for (k = 0; k < R->count; k++) {
+      rank_of[R->row_of[k]] = k;
+      if (k > 0 && R->columns[k] == R->columns[k - 1]) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0);
+      }
+    }
+    return SL_OK;
   }
-  for (k = 0; k < R->n_words && !R->is_hashed; k++) {
+  for (k = 0; k < R->n_words; k++) {
+    uint64_t word = R->words[k];
     R->before[k] = rank;
-    rank += (sl_int)sli_popcount(R->words[k]);
-  }
-  for (k = 0; k < R->count && !R->is_hashed; k++) {
-    R->columns[k] = -1;
+    for (; word != 0; word &= word - 1) {
+      R->columns[rank++] = SLI_SUBSET_BITS * k + sli_lowest_bit(word);
+    }
   }
   for (k = 0; k < R->count; k++) {
-    const sl_int column = sli_key(list[k]);
-    const sl_int at = R->is_hashed ? k - 1 : sli_subset_find(R, column);
-    if (at >= 0 && R->columns[at] == column) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[column], -1, 0.0);
-    }
-    if (!R->is_hashed) {
-      R->columns[at] = column;
-      R->row_of[at] = k;
-    }
+    rank_of[k] = sli_subset_find(R, rank_of[k]);
+    R->row_of[rank_of[k]] = k;
   }
   return SL_OK;
 }
 
-/* src/impl/change/restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
+/* src/impl/change/restrict_kept.h: a set R of rows of A, and what the analysis of A[R, R] keeps of that of A */
 
 #define SLI_RESTRICT_KEPT 0.4
 
 #define SLI_RESTRICT_AHEAD 16
+
+#define SLI_RESTRICT_MANY 32
+
+#define SLI_RESTRICT_IN_PLACE 3
 
 typedef struct sli_restriction {
   const sl_symbolic *S;
@@ -25405,6 +25417,10 @@ typedef struct sli_restriction {
   int may_keep;
   sli_subset R;
   uint64_t *list, *scratch;
+  sl_int *number_of;
+  sl_int *number_at;
+  uint32_t *bits;
+  uint32_t bits_mask;
 
   sl_int n_kept;
   sl_int *kept;
@@ -25415,13 +25431,6 @@ typedef struct sli_restriction {
   sl_int n_fresh;
   sl_int *fresh;
   sl_int *fresh_of;
-  sl_int *number_of;
-  uint32_t *bits;
-  uint32_t bits_mask;
-
-  sl_csc B;
-  sl_int *B_begin, *B_rows;
-  double *B_values;
 
   sl_off *below_begin;
   sl_int *below;
@@ -25429,18 +25438,21 @@ typedef struct sli_restriction {
   sl_int n_entries;
   sl_int *entry_row, *entry_column;
   sl_int *entry_from;
+  sl_csc B;
+  sl_int *B_begin, *B_rows;
+  double *B_values;
 
   sli_analysis w;
   sl_symbolic T;
   sl_int *T_new, *head;
   sl_int *column_of;
   sl_off copied;
-  void *blocks[4];
+  void *blocks[6];
 } sli_restriction;
 
 static void sli_restriction_free(sli_restriction *r, const sl_allocator *a) {
   int k;
-  for (k = 0; k < 4; k++) {
+  for (k = 0; k < 6; k++) {
     sli_free(a, r->blocks[k]);
   }
 }
@@ -25473,7 +25485,8 @@ static int sli_restriction_has_runs(const sli_restriction *r) {
 static void sli_restriction_split(sli_restriction *r) {
   const sl_symbolic *S = r->S;
   const sl_int *columns = r->R.columns;
-  sl_int k = r->may_keep && sli_restriction_has_runs(r) ? 0 : r->R.count, q;
+  sl_int k = 0, q;
+  r->n_fresh = 0;
   while (k < r->R.count) {
     const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
     const sl_int low = S->super_first[S->first_descendant[s]];
@@ -25493,12 +25506,9 @@ static void sli_restriction_split(sli_restriction *r) {
       }
     }
   }
-  if (r->n_kept == 0 || r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
+  if (r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
     r->n_kept = 0;
     r->n_fresh = r->R.count;
-    for (k = 0; k < r->R.count; k++) {
-      r->fresh[k] = r->fresh_of[k] = k;
-    }
   }
   for (q = r->n_kept - 1; q >= 0; q--) {
     const sl_int s = r->kept[q], up = S->super_parent[s];
@@ -25507,10 +25517,26 @@ static void sli_restriction_split(sli_restriction *r) {
   }
 }
 
-static void sli_restriction_filter(sli_restriction *r) {
+static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *a) {
   const sl_symbolic *S = r->S;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  uint64_t rows = 0;
   sl_off at = 0, p;
   sl_int q;
+  int pass;
+  for (q = 0; q < r->n_kept; q++) {
+    rows += (uint64_t)(S->rows_begin[r->kept[q] + 1] - S->rows_begin[r->kept[q]]);
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);
+    r->below = SLI_TAKE(&b, sl_int, rows);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[4] = b.base;
+  if (status != SL_OK) {
+    return status;
+  }
   for (q = 0; q < r->n_kept; q++) {
     const sl_int s = r->kept[q], limit = r->limit[q];
     const sl_int shift = r->first_rank[q] - S->super_first[s];
@@ -25524,11 +25550,76 @@ static void sli_restriction_filter(sli_restriction *r) {
     }
   }
   r->below_begin[q] = at;
+  return SL_OK;
+}
+
+static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+  const uint64_t count = (uint64_t)r->R.count;
+  const int is_many = r->R.count >= r->S->n / SLI_RESTRICT_MANY;
+  sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  while (!is_many && r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
+    r->bits_mask = 2 * r->bits_mask + 1;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_subset_layout(&r->R, &b, r->S->n);
+    r->list = SLI_TAKE(&b, uint64_t, count);
+    r->scratch = SLI_TAKE(&b, uint64_t, count);
+    r->number_of = SLI_TAKE(&b, sl_int, count);
+    r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
+    r->number_at = is_many ? SLI_TAKE(&b, sl_int, r->S->n) : NULL;
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[0] = b.base;
+  r->n_fresh = r->R.count;
+  status = status == SL_OK
+         ? sli_subset_fill(&r->R, r->S, r->rows, r->number_of, r->list, r->scratch, stats)
+         : status;
+  if (status != SL_OK || !r->may_keep || !sli_restriction_has_runs(r)) {
+    return status;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    r->kept = SLI_TAKE(&kept, sl_int, count);
+    r->first_rank = SLI_TAKE(&kept, sl_int, count);
+    r->kept_new = SLI_TAKE(&kept, sl_int, count);
+    r->next = SLI_TAKE(&kept, sl_int, count);
+    r->limit = SLI_TAKE(&kept, sl_int, count);
+    r->fresh = SLI_TAKE(&kept, sl_int, count);
+    r->fresh_of = SLI_TAKE(&kept, sl_int, count);
+    r->column_of = SLI_TAKE(&kept, sl_int, count);
+    status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
+  }
+  r->blocks[1] = kept.base;
+  if (status == SL_OK) {
+    sli_restriction_split(r);
+  }
+  return status;
+}
+
+/* src/impl/change/restrict_analysis.h: the analysis of A[R, R] from that of A: new for columns with a removed */
+
+static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
+  sli_analysis *w = &r->w;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
+  int pass;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  r->blocks[2] = b.base;
+  if (status == SL_OK) {
+    r->entry_from = w->column;
+    r->entry_row = w->spare;
+    r->entry_column = w->spare + entries;
+  }
+  return status;
 }
 
 SLI_INLINE void sli_restriction_enter(sli_restriction *r, sl_int a, sl_int b, sl_int from) {
-  r->entry_row[r->n_entries] = sli_max(a, b);
-  r->entry_column[r->n_entries] = sli_min(a, b);
+  r->entry_row[r->n_entries] = a;
+  r->entry_column[r->n_entries] = b;
   r->entry_from[r->n_entries++] = from;
 }
 
@@ -25536,10 +25627,17 @@ SLI_INLINE uint32_t *sli_restriction_bits(const sli_restriction *r, sl_int row) 
   return &r->bits[((uint32_t)row / 32) & r->bits_mask];
 }
 
-static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
-  const sl_csc *A = r->A;
-  const sl_triangle triangle = r->S->stats.symbolic.triangle;
-  sl_int q, k, p, count = 0;
+SLI_INLINE sl_int sli_restriction_number(const sli_restriction *r, sl_int row) {
+  sl_int rank;
+  if ((*sli_restriction_bits(r, row) >> (row % 32) & 1) == 0) {
+    return -1;
+  }
+  rank = sli_subset_find(&r->R, r->S->iperm[row]);
+  return rank == -1 || r->n_kept == 0 ? rank : r->fresh_of[rank];
+}
+
+static void sli_restriction_cliques(sli_restriction *r) {
+  sl_int q;
   sl_off at;
   for (q = 0; q < r->n_kept; q++) {
     if (sli_restriction_is_root(r, q)) {
@@ -25549,129 +25647,147 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
       }
     }
   }
+}
+
+static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
+  const sl_csc *A = r->A;
+  const sl_triangle triangle = r->S->stats.symbolic.triangle;
+  const sl_int *number_at = r->number_at;
+  const int copies = r->B_values != NULL;
+  sl_int *row = r->entry_row, *column = r->entry_column, *from = r->entry_from;
+  sl_int k, p, e = r->n_entries;
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k], own = r->number_of[k];
     const sl_int end = own == -1 ? A->p[j] : A->p[j + 1];
     if (k + SLI_RESTRICT_AHEAD < r->R.count) {
-      SLI_PREFETCH(A->i + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
-      SLI_PREFETCH(A->x + A->p[r->rows[k + SLI_RESTRICT_AHEAD]], 0);
+      const sl_int ahead = A->p[r->rows[k + SLI_RESTRICT_AHEAD]];
+      SLI_PREFETCH(A->i + ahead, 0);
+      SLI_PREFETCH(A->x + ahead, 0);
     }
-    r->B_begin[k] = count;
+    if (copies) {
+      r->B_begin[k] = e;
+    }
     for (p = A->p[j]; p < end; p++) {
       const sl_int i = A->i[p];
-      sl_int other = own;
+      sl_int other = own, is_there;
       if (i < 0 || i >= A->n_rows) {
         return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
       }
-      if (i != j) {
-        const int may_be = (*sli_restriction_bits(r, i) >> (i % 32) & 1) != 0 &&
-                   sli_is_read(triangle, i, j);
-        other = may_be ? sli_subset_find(&r->R, r->S->iperm[i]) : -1;
-        other = other == -1 ? -1 : r->fresh_of[other];
+      if (number_at != NULL) {
+        other = number_at[i];
+      } else if (i != j) {
+        other = sli_restriction_number(r, i);
+        if (other == -1) {
+          continue;
+        }
       }
-      if (other != -1) {
-        r->B_rows[count] = i;
-        r->B_values[count] = A->x[p];
-        sli_restriction_enter(r, other, own, count++);
+      is_there = (other >= 0) & sli_is_read(triangle, i, j);
+      row[e] = other;
+      column[e] = own;
+      from[e] = copies ? e : p;
+      if (copies) {
+        r->B_rows[e] = i;
+        r->B_values[e] = A->x[p];
       }
+      e += is_there;
     }
   }
-  r->B_begin[k] = count;
+  if (copies) {
+    r->B_begin[k] = e;
+  }
+  r->n_entries = e;
   return SL_OK;
 }
 
-static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
-  const sl_symbolic *S = r->S;
-  const sl_int *p = r->A->p;
-  uint64_t rows = 0, entries = 0, own = 0;
+static sl_status sli_restriction_copy(sli_restriction *r, uint64_t entries, const sl_allocator *a) {
+  const int copies = r->R.count < r->S->n / SLI_RESTRICT_IN_PLACE;
   sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_int q, k;
+  sl_status status = sli_restriction_work(r, entries, a);
   int pass;
-  for (q = 0; q < r->n_kept; q++) {
-    const sl_off here = S->rows_begin[r->kept[q] + 1] - S->rows_begin[r->kept[q]];
-    rows += (uint64_t)here;
-    entries += sli_restriction_is_root(r, q) ? (uint64_t)here : 0;
+  for (pass = 0; pass < 2 && status == SL_OK && copies; pass++) {
+    r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
+    r->B_rows = SLI_TAKE(&b, sl_int, entries);
+    r->B_values = SLI_TAKE(&b, double, entries);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
-  memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
-  for (k = 0; k < r->R.count; k++) {
-    r->number_of[r->R.row_of[k]] = r->fresh_of[k];
+  r->blocks[5] = b.base;
+  r->B = *r->A;
+  if (copies) {
+    r->B.n_cols = r->R.count;
+    r->B.p = r->B_begin;
+    r->B.i = r->B_rows;
+    r->B.x = r->B_values;
+  }
+  return status;
+}
+
+static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+  const sl_int *p = r->A->p;
+  uint64_t entries = 0;
+  sl_int q, k;
+  for (q = 0; q < r->n_kept; q++) {
+    entries += sli_restriction_is_root(r, q)
+             ? (uint64_t)(r->below_begin[q + 1] - r->below_begin[q])
+             : 0;
+  }
+  if (r->number_at != NULL) {
+    memset(r->number_at, 0xff, (size_t)r->S->n * sizeof(sl_int));
+  } else {
+    memset(r->bits, 0, ((size_t)r->bits_mask + 1) * sizeof(uint32_t));
   }
   for (k = 0; k < r->R.count; k++) {
     const sl_int j = r->rows[k];
+    sl_int number = r->number_of[k];
     if (k + SLI_RESTRICT_AHEAD < r->R.count) {
       SLI_PREFETCH(p + r->rows[k + SLI_RESTRICT_AHEAD], 0);
     }
     if (p[j] < 0 || p[j + 1] < p[j] || p[j + 1] > sli_nnz(r->A)) {
       return sli_fail_at(stats, SL_ERR_PATTERN, -1, j, 0.0);
     }
-    own += r->number_of[k] == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
-    *sli_restriction_bits(r, j) |= (uint32_t)1 << (j % 32);
+    if (r->n_kept > 0) {
+      r->number_of[k] = number = r->fresh_of[number];
+    }
+    entries += number == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+    if (r->number_at != NULL) {
+      r->number_at[j] = number;
+    } else {
+      *sli_restriction_bits(r, j) |= (uint32_t)1 << (j % 32);
+    }
   }
-  entries += own;
-  if (entries > INT32_MAX) {   /* untested: 2^31 entries */
-    return SL_ERR_TOO_LARGE; /* untested: the same */
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);
-    r->below = SLI_TAKE(&b, sl_int, rows);
-    r->entry_row = SLI_TAKE(&b, sl_int, entries);
-    r->entry_column = SLI_TAKE(&b, sl_int, entries);
-    r->entry_from = SLI_TAKE(&b, sl_int, entries);
-    r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
-    r->B_rows = SLI_TAKE(&b, sl_int, own);
-    r->B_values = SLI_TAKE(&b, double, own);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  r->blocks[1] = b.base;
-  r->B.n_rows = r->A->n_rows;
-  r->B.n_cols = r->R.count;
-  r->B.p = r->B_begin;
-  r->B.i = r->B_rows;
-  r->B.x = r->B_values;
-  return status;
+  return sli_restriction_copy(r, entries, a);
 }
 
 static void sli_restriction_sort(sli_restriction *r) {
   sli_pattern *rows = &r->w.rows, *columns = &r->w.columns;
-  const size_t bytes = ((size_t)r->n_fresh + 1) * sizeof(sl_int);
+  const size_t bytes = (size_t)r->n_fresh * sizeof(sl_int);
   sl_int e;
   memset(rows->begin, 0, bytes);
   memset(columns->begin, 0, bytes);
   for (e = 0; e < r->n_entries; e++) {
-    rows->begin[r->entry_row[e]]++;
-    columns->begin[r->entry_column[e]]++;
+    const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
+    rows->begin[row]++;
+    columns->begin[a + b - row]++;
   }
   sli_pattern_starts(rows, r->n_fresh, rows->begin, 1, 0);
   sli_pattern_starts(columns, r->n_fresh, columns->begin, 1, 0);
   for (e = 0; e < r->n_entries; e++) {
-    const sl_int at = rows->begin[r->entry_row[e]]++;
-    rows->to[at] = r->entry_column[e];
+    const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
+    const sl_int column = a + b - row, at = rows->begin[row]++;
+    rows->to[at] = column;
     rows->from[at] = r->entry_from[e];
-    columns->to[columns->begin[r->entry_column[e]]++] = r->entry_row[e];
+    columns->to[columns->begin[column]++] = row;
   }
-  memmove(rows->begin + 1, rows->begin, bytes - sizeof(sl_int));
-  memmove(columns->begin + 1, columns->begin, bytes - sizeof(sl_int));
+  memmove(rows->begin + 1, rows->begin, bytes);
+  memmove(columns->begin + 1, columns->begin, bytes);
   rows->begin[0] = columns->begin[0] = 0;
 }
 
-static sl_status sli_restriction_tree(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
+static void sli_restriction_tree(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
   sl_options given = sli_options_with(a);
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_analysis_layout(&r->w, &b, r->n_fresh, r->n_entries);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  r->blocks[2] = b.base;
-  if (status == SL_OK) {
-    sli_restriction_sort(r);
-    given.ordering = SL_ORDERING_GIVEN;
-    given.relaxation = r->relaxation;
-    sli_analyze_tree(&r->w, &given, stats);
-  }
-  return status;
+  sli_restriction_sort(r);
+  given.ordering = SL_ORDERING_GIVEN;
+  given.relaxation = r->relaxation;
+  sli_analyze_tree(&r->w, &given, stats);
 }
 
 static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator *a,
@@ -25679,13 +25795,11 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   sli_analysis *w = &r->w;
   sl_symbolic *T = &r->T;
   sli_block b = {NULL, 0, 0};
-  sl_status status = sli_restriction_tree(r, a, stats);
+  sl_status status = SL_OK;
   uint64_t rows = 0;
   sl_int t;
   int pass;
-  if (status != SL_OK) {
-    return status;
-  }
+  sli_restriction_tree(r, a, stats);
   T->n = r->n_fresh;
   T->n_supers = w->amalgamation.count;
   T->super_of = w->super_of;
@@ -25721,45 +25835,13 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   return SL_OK;
 }
 
-static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
-  const uint64_t count = (uint64_t)r->R.count;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  int pass;
-  while (r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
-    r->bits_mask = 2 * r->bits_mask + 1;
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_subset_layout(&r->R, &b, r->S->n);
-    r->list = SLI_TAKE(&b, uint64_t, count);
-    r->scratch = SLI_TAKE(&b, uint64_t, count);
-    r->kept = SLI_TAKE(&b, sl_int, count);
-    r->first_rank = SLI_TAKE(&b, sl_int, count);
-    r->kept_new = SLI_TAKE(&b, sl_int, count);
-    r->next = SLI_TAKE(&b, sl_int, count);
-    r->limit = SLI_TAKE(&b, sl_int, count);
-    r->number_of = SLI_TAKE(&b, sl_int, count);
-    r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
-    r->fresh = SLI_TAKE(&b, sl_int, count);
-    r->fresh_of = SLI_TAKE(&b, sl_int, count);
-    r->column_of = SLI_TAKE(&b, sl_int, count);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  r->blocks[0] = b.base;
-  status = status == SL_OK ? sli_subset_fill(&r->R, r->S, r->rows, r->list, r->scratch, stats)
-               : status;
-  if (status == SL_OK) {
-    sli_restriction_split(r);
-  }
-  return status;
-}
-
 static sl_status sli_restriction_list(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {
-  const sl_status status = sli_restriction_room(r, a, stats);
+  sl_status status = r->n_kept > 0 ? sli_restriction_filter(r, a) : SL_OK;
+  status = status == SL_OK ? sli_restriction_room(r, a, stats) : status;
   if (status != SL_OK) {
     return status;
   }
-  sli_restriction_filter(r);
+  sli_restriction_cliques(r);
   return sli_restriction_graph(r, stats);
 }
 
@@ -25924,10 +26006,7 @@ static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allo
 static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
                     sl_stats *stats) {
   sl_symbolic draft = sli_restriction_draft(r, a);
-  const sl_status status = sli_restriction_tree(r, a, stats);
-  if (status != SL_OK) {
-    return status;
-  }
+  sli_restriction_tree(r, a, stats);
   (void)sli_analysis_lap(&r->w);
   memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
   return sli_symbolic_build(out, &draft, &r->w, NULL, stats);
@@ -26023,6 +26102,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     sli_factor_begin(G);
     G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
     G->kept = r->n_kept > 0 ? &kept : NULL;
+    G->marks = NULL;
     if (sli_restrict_check(F, r, &failure) == SL_OK) {
       (void)sli_factor_eliminate(G, &source, &failure);
     }
@@ -26079,7 +26159,6 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   sli_free(&G->allocator, G->scratch);
   G->stack = NULL;
   G->scratch = NULL;
-  G->marks = NULL;
   (void)sli_take(&b, 1, sizeof(sl_factor));
   sli_factor_layout(&counted, &b, 0);
   G->stats.factor.bytes = b.used;
@@ -26091,7 +26170,9 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
 
 static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
   if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) {
-    stats->error.column = r->rows[stats->error.column];
+    if (r->B_values != NULL) {
+      stats->error.column = r->rows[stats->error.column];
+    }
   } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
          status == SL_ERR_NOT_FINITE) {
     stats->error.row = r->rows[stats->error.row];
@@ -27130,27 +27211,14 @@ static sl_int sli_edit_first_below(const sli_edit *e, sl_int s) {
 static sl_status sli_edit_graph_room(const sli_edit *e, sli_restriction *r, const sl_allocator *a) {
   const sl_symbolic *S = e->S;
   uint64_t entries = 0;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
   sl_int s, k;
-  int pass;
   for (s = 0; s < S->n_supers; s++) {
     entries += sli_edit_is_root(e, s) ? (uint64_t)(S->rows_begin[s + 1] - S->rows_begin[s]) : 0;
   }
   for (k = 0; k < e->n_fresh; k++) {
     entries += (uint64_t)(e->B->p[e->fresh[k] + 1] - e->B->p[e->fresh[k]]);
   }
-  if (entries > INT32_MAX) {   /* untested: 2^31 entries */
-    return SL_ERR_TOO_LARGE; /* untested: the same */
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    r->entry_row = SLI_TAKE(&b, sl_int, entries);
-    r->entry_column = SLI_TAKE(&b, sl_int, entries);
-    r->entry_from = SLI_TAKE(&b, sl_int, entries);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  r->blocks[1] = b.base;
-  return status;
+  return sli_restriction_work(r, entries, a);
 }
 
 static void sli_edit_list_graph(const sli_edit *e, sli_restriction *r) {

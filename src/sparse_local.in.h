@@ -179,6 +179,7 @@ extern "C" {
 #include "impl/change/pins.h"
 #include "impl/change/pins_solve.h"
 #include "impl/change/subset.h"
+#include "impl/change/restrict_kept.h"
 #include "impl/change/restrict_analysis.h"
 #include "impl/change/restrict_symbolic.h"
 #include "impl/change/restrict.h"

@@ -174,6 +174,40 @@ static void restrictions_are_independent_and_complete(void **state) {
     }
 }
 
+/* Where R has few rows of A, many and most: its entries are found by a filter or by an array, and
+ * read from a copy or in place. */
+static void every_entry_that_is_not_finite_is_named(void **state) {
+    (void)state;
+    const sl_int counts[] = {5, 40, 150};
+    factored_t y = factored_make(GEN_GRID2, 225, 1, 0, NULL);
+    for (int c = 0; c < 3; c++) {
+        sl_int rows[150], named = 0;
+        for (sl_int k = 0; k < counts[c]; k++) {
+            rows[k] = counts[c] - 1 - k;
+        }
+        for (sl_int j = 0; j < counts[c]; j++) {
+            for (sl_int p = y.M.p[j]; p < y.M.p[j + 1]; p++) {
+                const double keep = y.M.x[p];
+                sl_symbolic *S = NULL;
+                sl_factor *G = NULL;
+                sl_stats stats;
+                y.M.x[p] = NAN;
+                if (sl_factor_restrict(&S, &G, y.F, &y.M.view, rows, counts[c], NULL, &stats) !=
+                    SL_OK) {
+                    assert_int_equal(stats.error.row, y.M.i[p]);
+                    assert_int_equal(stats.error.column, j);
+                    named += y.M.i[p] != j;
+                }
+                y.M.x[p] = keep;
+                sl_factor_free(G);
+                sl_symbolic_free(S);
+            }
+        }
+        assert_true(named > 0);
+    }
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(restrictions_are_factors_of_the_submatrix),
@@ -181,6 +215,7 @@ int main(void) {
         cmocka_unit_test(kept_pivots_have_the_same_bits),
         cmocka_unit_test(rows_may_be_in_any_order),
         cmocka_unit_test(few_rows_of_many),
+        cmocka_unit_test(every_entry_that_is_not_finite_is_named),
         cmocka_unit_test(restrictions_are_independent_and_complete),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

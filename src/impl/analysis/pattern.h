@@ -43,6 +43,7 @@ typedef struct sli_analysis {
     sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
     sli_septree septree;     /* n each: by rows of A */
     size_t ordered;          /* bytes of the block that hold what the ordering fills */
+    sl_int *spare;           /* 2 for each entry: only the ordering uses it */
     sl_symbolic *S;          /* what is filled, by runs of supernodes, in descending order */
     sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;

@@ -44,7 +44,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
         w->is_first = SLI_TAKE(b, unsigned char, n);
         w->earlier = SLI_TAKE(b, sl_int, n);
     }
-    (void)sli_take(b, (uint64_t)nnz + 256, 8);
+    w->spare = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz + 512);
 }
 
 /* All arrays. A saved analysis has them in this order (save/format.h). */

@@ -35,27 +35,14 @@ static sl_int sli_edit_first_below(const sli_edit *e, sl_int s) {
 static sl_status sli_edit_graph_room(const sli_edit *e, sli_restriction *r, const sl_allocator *a) {
     const sl_symbolic *S = e->S;
     uint64_t entries = 0;
-    sli_block b = {NULL, 0, 0};
-    sl_status status = SL_OK;
     sl_int s, k;
-    int pass;
     for (s = 0; s < S->n_supers; s++) {
         entries += sli_edit_is_root(e, s) ? (uint64_t)(S->rows_begin[s + 1] - S->rows_begin[s]) : 0;
     }
     for (k = 0; k < e->n_fresh; k++) {
         entries += (uint64_t)(e->B->p[e->fresh[k] + 1] - e->B->p[e->fresh[k]]);
     }
-    if (entries > INT32_MAX) {   /* untested: 2^31 entries */
-        return SL_ERR_TOO_LARGE; /* untested: the same */
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        r->entry_row = SLI_TAKE(&b, sl_int, entries);
-        r->entry_column = SLI_TAKE(&b, sl_int, entries);
-        r->entry_from = SLI_TAKE(&b, sl_int, entries);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    r->blocks[1] = b.base;
-    return status;
+    return sli_restriction_work(r, entries, a);
 }
 
 /* Lists the graph: the cliques, and the entries of B between fresh rows. */

@@ -68,6 +68,7 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         sli_factor_begin(G);
         G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
         G->kept = r->n_kept > 0 ? &kept : NULL;
+        G->marks = NULL; /* no later factorization compares its entries */
         if (sli_restrict_check(F, r, &failure) == SL_OK) {
             (void)sli_factor_eliminate(G, &source, &failure);
         }
@@ -128,7 +129,6 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     sli_free(&G->allocator, G->scratch);
     G->stack = NULL;
     G->scratch = NULL;
-    G->marks = NULL;
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&counted, &b, 0);
     G->stats.factor.bytes = b.used;
@@ -140,8 +140,10 @@ static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
 
 /* Reports an error in rows and columns of A. */
 static void sli_restrict_report(const sli_restriction *r, sl_status status, sl_stats *stats) {
-    if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) { /* an entry of B */
-        stats->error.column = r->rows[stats->error.column];
+    if (status == SL_ERR_NOT_FINITE && stats->error.column != -1) { /* an entry of A or B */
+        if (r->B_values != NULL) {
+            stats->error.column = r->rows[stats->error.column];
+        }
     } else if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE ||
                status == SL_ERR_NOT_FINITE) {
         stats->error.row = r->rows[stats->error.row];

@@ -174,10 +174,7 @@ static sl_symbolic sli_restriction_draft(const sli_restriction *r, const sl_allo
 static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
                                       sl_stats *stats) {
     sl_symbolic draft = sli_restriction_draft(r, a);
-    const sl_status status = sli_restriction_tree(r, a, stats);
-    if (status != SL_OK) {
-        return status;
-    }
+    sli_restriction_tree(r, a, stats);
     (void)sli_analysis_lap(&r->w);
     memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
     return sli_symbolic_build(out, &draft, &r->w, NULL, stats);

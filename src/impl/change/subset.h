@@ -87,9 +87,11 @@ static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
     }
 }
 
-/* Fills the set from rows of A. Refuses a row out of range or given twice. list, scratch: count. */
+/* Fills the set from rows of A, and rank_of: the rank of each. Refuses a row out of range or given
+ * twice. list, scratch: count. */
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                                 uint64_t *list, uint64_t *scratch, sl_stats *stats) {
+                                 sl_int *rank_of, uint64_t *list, uint64_t *scratch,
+                                 sl_stats *stats) {
     sl_int k, rank = 0;
     if (!R->is_hashed) {
         memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
@@ -103,33 +105,39 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
         if (ahead >= 0 && ahead < S->n) {
             SLI_PREFETCH(S->iperm + ahead, 0);
         }
-        list[k] = sli_keyed(S->iperm[row], k);
-        if (!R->is_hashed) {
-            R->words[sli_key(list[k]) / SLI_SUBSET_BITS] |=
-                (uint64_t)1 << (sli_key(list[k]) % SLI_SUBSET_BITS);
+        if (R->is_hashed) {
+            list[k] = sli_keyed(S->iperm[row], k);
+        } else {
+            const sl_int column = rank_of[k] = S->iperm[row];
+            uint64_t *word = &R->words[column / SLI_SUBSET_BITS];
+            const uint64_t bit = (uint64_t)1 << (column % SLI_SUBSET_BITS);
+            if ((*word & bit) != 0) {
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, row, -1, 0.0);
+            }
+            *word |= bit;
         }
     }
     if (R->is_hashed) {
         sli_sort(list, R->count, scratch);
         sli_subset_hash(R, list);
+        for (k = 0; k < R->count; k++) {
+            rank_of[R->row_of[k]] = k;
+            if (k > 0 && R->columns[k] == R->columns[k - 1]) {
+                return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[R->columns[k]], -1, 0.0);
+            }
+        }
+        return SL_OK;
     }
-    for (k = 0; k < R->n_words && !R->is_hashed; k++) {
+    for (k = 0; k < R->n_words; k++) {
+        uint64_t word = R->words[k];
         R->before[k] = rank;
-        rank += (sl_int)sli_popcount(R->words[k]);
-    }
-    for (k = 0; k < R->count && !R->is_hashed; k++) {
-        R->columns[k] = -1;
+        for (; word != 0; word &= word - 1) {
+            R->columns[rank++] = SLI_SUBSET_BITS * k + sli_lowest_bit(word);
+        }
     }
     for (k = 0; k < R->count; k++) {
-        const sl_int column = sli_key(list[k]);
-        const sl_int at = R->is_hashed ? k - 1 : sli_subset_find(R, column);
-        if (at >= 0 && R->columns[at] == column) { /* in a sorted list, the one before */
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[column], -1, 0.0);
-        }
-        if (!R->is_hashed) {
-            R->columns[at] = column;
-            R->row_of[at] = k;
-        }
+        rank_of[k] = sli_subset_find(R, rank_of[k]);
+        R->row_of[rank_of[k]] = k;
     }
     return SL_OK;
 }
