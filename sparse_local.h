@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bbff5cc8d28b10e5
+ * FNV-1a of the lines after this comment, without the license: c2a8cb8c0a56d27c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -68,24 +68,24 @@
  *  23478 pins_nulls.h  23661 pins_capacitance.h  23913 pins_balance.h  24092 pins_held.h
  *  24308 pins_choose.h  24366 pins_rebuild.h  24584 pins_matrix.h  24735 pins.h  25004 pins_solve.h
  *  25275 subset.h  25403 restrict_kept.h  25600 restrict_analysis.h  25848 restrict_symbolic.h
- *  26043 restrict.h  26273 edit_match.h  26472 edit_place.h  26721 edit_separate.h
- *  27035 edit_order.h  27190 edit_graph.h  27272 edit_join.h  27548 edit.h  27711 edit_factor.h
+ *  26043 restrict.h  26274 edit_match.h  26473 edit_place.h  26722 edit_separate.h
+ *  27036 edit_order.h  27191 edit_graph.h  27273 edit_join.h  27549 edit.h  27712 edit_factor.h
  * (save: factors in files)
- *  27996 format.h  28293 decode.h  28441 check.h  28771 write.h  29076 load.h  29344 load_inverse.h
- *  29674 load_calls.h
+ *  27997 format.h  28294 decode.h  28442 check.h  28772 write.h  29077 load.h  29345 load_inverse.h
+ *  29675 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29873 batch_solve.h  30082 batch_factor.h  30283 batch_diagonal.h
+ *  29874 batch_solve.h  30083 batch_factor.h  30284 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30423 hermitian.h  30585 complex_rows.h
+ *  30424 hermitian.h  30586 complex_rows.h
  * (last: undefine every internal macro)
- *  30753 undef.h
+ *  30754 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31029 front.inl.h  31031 product.inl.h  31542 words_undef.inl.h  31619 copy_rows.inl.h
- *  31657 multi_rhs.inl.h  31676 complex_groups.inl.h  31815 multi_rhs_small.inl.h
- *  31987 multi_rhs_tiles.inl.h  32264 sweeps.inl.h  32266 unit_triangle.inl.h  32303 two_rhs.inl.h
- *  32472 small_supernode.inl.h  32653 single_rhs.inl.h  32897 kernel_set.inl.h
- *  32899 complex_small.inl.h  33069 complex_rows.inl.h  33284 inverse_front.inl.h  33569 row.inl.h
- *  33599 change.inl.h  33829 interleave.inl.h  33963 lanes_undef.inl.h
+ *  31030 front.inl.h  31032 product.inl.h  31543 words_undef.inl.h  31620 copy_rows.inl.h
+ *  31658 multi_rhs.inl.h  31677 complex_groups.inl.h  31816 multi_rhs_small.inl.h
+ *  31988 multi_rhs_tiles.inl.h  32265 sweeps.inl.h  32267 unit_triangle.inl.h  32304 two_rhs.inl.h
+ *  32473 small_supernode.inl.h  32654 single_rhs.inl.h  32898 kernel_set.inl.h
+ *  32900 complex_small.inl.h  33070 complex_rows.inl.h  33285 inverse_front.inl.h  33570 row.inl.h
+ *  33600 change.inl.h  33830 interleave.inl.h  33964 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -26139,7 +26139,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
   opt.storage = F->storage;
   if (F->storage == SL_STORAGE_COMPLEX &&
-    (!sli_are_pairs(r->rows, r->R.count) || !sli_rows_are_paired(S))) {
+    (!sli_are_pairs(r->rows, r->R.count) ||
+     !sli_rows_are_paired(S))) {     /* untested: the order of F keeps pairs together */
     opt.storage = SL_STORAGE_DOUBLE;
   }
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);

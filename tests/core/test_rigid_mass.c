@@ -395,6 +395,42 @@ static void what_weights_do_not_fix_is_refused(void **state) {
     }
 }
 
+/* Two springs and a row of zeros, where all null vectors are 0: nothing is missing there. Weights
+ * whose sum is 0 are refused in the first of several trees, springs of 1e-306 where the squares of
+ * their pivots overflow. */
+static void small_trees_are_centered_or_refused(void **state) {
+    (void)state;
+    enum { N = 5 };
+    static const sl_int p[N + 1] = {0, 2, 3, 5, 6, 7}, i[7] = {0, 1, 1, 2, 3, 3, 4};
+    static const double Z[2 * N] = {1.0, 1.0, 1.0, 1.0};
+    for (int kind = 0; kind < 3; kind++) {
+        const double k = kind == 2 ? 1e-306 : 1.0, x[7] = {k, -k, k, k, -k, k, 0.0};
+        const double b[N] = {1.0, 2.0, 3.0, 5.0, 0.0};
+        const double m[N] = {1e12, kind == 1 ? -1e12 : 1e12, 1e12, kind == 1 ? -1e12 : 1e12, 1e12};
+        const sl_csc A = {N, N, p, i, x};
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        double y[N];
+        opt.null_pivots = SL_NULL_PIVOT_SKIP;
+        opt.null_vector = Z;
+        opt.null_vector_count = 2;
+        opt.mass = m;
+        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+        SL_EXPECT(kind == 0   ? SL_OK
+                  : kind == 1 ? SL_ERR_PIVOT
+                              : SL_ERR_NOT_FINITE,
+                  sl_factor_create(&F, S, &A, &opt, NULL));
+        if (kind == 0) { /* b without its means, 1.5 and 4 */
+            SL_CHECK(sl_factor_solve(F, y, N, b, N, 1, NULL));
+            assert_true(fabs(y[0] + 0.25) <= 1e-15 && fabs(y[1] - 0.25) <= 1e-15);
+            assert_true(fabs(y[2] + 0.5) <= 1e-15 && fabs(y[3] - 0.5) <= 1e-15 && y[4] == 0.0);
+        }
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 /* A body that hangs on one node can turn about it: this is all that is left out. */
 static void what_a_support_leaves_is_centered(void **state) {
     (void)state;
@@ -487,6 +523,7 @@ int main(void) {
         cmocka_unit_test(one_of_several_vectors_is_as_one),
         cmocka_unit_test(components_of_one_tree_have_their_own_means),
         cmocka_unit_test(what_weights_do_not_fix_is_refused),
+        cmocka_unit_test(small_trees_are_centered_or_refused),
         cmocka_unit_test(what_a_support_leaves_is_centered),
         cmocka_unit_test(every_allocation_may_fail),
     };
