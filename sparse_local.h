@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c2a8cb8c0a56d27c
+ * FNV-1a of the lines after this comment, without the license: 559ca9ad2ba1fc66
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26139,8 +26139,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
   opt.storage = F->storage;
   if (F->storage == SL_STORAGE_COMPLEX &&
-    (!sli_are_pairs(r->rows, r->R.count) ||
-     !sli_rows_are_paired(S))) {     /* untested: the order of F keeps pairs together */
+    (!sli_are_pairs(r->rows, r->R.count) || /* untested: the order keeps pairs together */
+     !sli_rows_are_paired(S))) {            /* untested: the same */
     opt.storage = SL_STORAGE_DOUBLE;
   }
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);

@@ -107,8 +107,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
     opt.storage = F->storage;
     if (F->storage == SL_STORAGE_COMPLEX &&
-        (!sli_are_pairs(r->rows, r->R.count) ||
-         !sli_rows_are_paired(S))) {     /* untested: the order of F keeps pairs together */
+        (!sli_are_pairs(r->rows, r->R.count) || /* untested: the order keeps pairs together */
+         !sli_rows_are_paired(S))) {            /* untested: the same */
         opt.storage = SL_STORAGE_DOUBLE; /* A[R, R] is not complex, or not its order */
     }
     status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
