@@ -129,6 +129,35 @@ static void few_rows_of_many(void **state) {
     factored_free(&y);
 }
 
+/* Small sets of neighbors, with and without kept supernodes, and one row far away: the filter takes
+ * a row below the first one, which is not in the set, for this one. */
+static void few_neighbors_of_many(void **state) {
+    (void)state;
+    enum { COUNT = 24, SETS = 60, PERIOD = 4096, SIDE = 80 };
+    factored_t y = factored_make(GEN_GRID2, SIDE * SIDE, 1, 0, NULL);
+    const sl_int *perm = sl_symbolic_view(y.S).perm;
+    int with_kept = 0;
+    for (sl_int set = 0; set < SETS; set++) {
+        sl_int rows[COUNT + 1];
+        restricted_t t;
+        memset(&t, 0, sizeof t);
+        for (sl_int k = 0; k < COUNT; k++) {
+            rows[k] = perm[101 * set + k];
+        }
+        rows[COUNT] = rows[0] + SIDE + PERIOD;
+        t.count = rows[COUNT] < SIDE * SIDE ? COUNT + 1 : COUNT;
+        t.B = subset_matrix(&y.M.view, rows, t.count);
+        SL_CHECK(sl_factor_restrict(&t.S, &t.G, y.F, &y.M.view, rows, t.count, NULL, &t.stats));
+        restricted_check(&t);
+        with_kept += t.stats.restriction.kept > 0;
+        sl_factor_free(t.G);
+        sl_symbolic_free(t.S);
+        gen_matrix_free(&t.B);
+    }
+    assert_in_range(with_kept, 1, SETS - 1);
+    factored_free(&y);
+}
+
 /* F may be released; inverse, selected inverse, region, pins work on what remains. */
 static void restrictions_are_independent_and_complete(void **state) {
     (void)state;
@@ -215,6 +244,7 @@ int main(void) {
         cmocka_unit_test(kept_pivots_have_the_same_bits),
         cmocka_unit_test(rows_may_be_in_any_order),
         cmocka_unit_test(few_rows_of_many),
+        cmocka_unit_test(few_neighbors_of_many),
         cmocka_unit_test(every_entry_that_is_not_finite_is_named),
         cmocka_unit_test(restrictions_are_independent_and_complete),
     };
