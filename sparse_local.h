@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 559ca9ad2ba1fc66
+ * FNV-1a of the lines after this comment, without the license: 4d88e994f0132976
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -53,39 +53,39 @@
  *  13259 factor_types.h  13683 storage.h  13821 pivot_search.h  14167 pivoted.h  14236 scatter.h
  *  14394 uplooking.h  14466 null_product.h  14670 null_dense.h  14747 null_basis.h
  *  15067 null_vectors.h  15209 multifrontal.h  15403 gather.h  15451 kept.h  15621 front_tasks.h
- *  15964 null_center.h  16084 nullspace.h  16271 growth.h  16349 factor_setup.h  16674 factor.h
- *  16884 leftlooking.h  17031 factor_query.h  17166 combination.h
+ *  15964 null_center.h  16088 nullspace.h  16275 growth.h  16353 factor_setup.h  16678 factor.h
+ *  16888 leftlooking.h  17035 factor_query.h  17170 combination.h
  * (solve: full and local solves)
- *  17227 region_types.h  17331 work.h  17431 query.h  17647 singular.h  17904 backward.h
- *  17934 sweep_tasks.h  18265 sweep.h  18473 compile.h  18666 plan.h  18773 local.h  18925 parts.h
- *  19214 refine.h  19393 refine_local.h  19609 rcond.h  19768 defects.h
+ *  17231 region_types.h  17335 work.h  17435 query.h  17651 singular.h  17908 backward.h
+ *  17938 sweep_tasks.h  18269 sweep.h  18477 compile.h  18670 plan.h  18777 local.h  18929 parts.h
+ *  19218 refine.h  19397 refine_local.h  19613 rcond.h  19772 defects.h
  * (inverse: entries of the inverse, regions)
- *  19827 traversal.h  20076 traversal_run.h  20269 row_sets.h  20303 unit_vectors.h
- *  20530 bilinear.h  20702 entries.h  20979 block.h  21214 reserve.h  21406 selected.h
- *  21616 selected_query.h  21718 region_choose.h  21945 region.h
+ *  19831 traversal.h  20080 traversal_run.h  20273 row_sets.h  20307 unit_vectors.h
+ *  20534 bilinear.h  20706 entries.h  20983 block.h  21218 reserve.h  21410 selected.h
+ *  21620 selected_query.h  21722 region_choose.h  21949 region.h
  * (change: a factor that follows changes of its matrix)
- *  22193 update.h  22557 path.h  22658 rank.h  23034 edges.h  23188 choose.h  23399 pins_types.h
- *  23478 pins_nulls.h  23661 pins_capacitance.h  23913 pins_balance.h  24092 pins_held.h
- *  24308 pins_choose.h  24366 pins_rebuild.h  24584 pins_matrix.h  24735 pins.h  25004 pins_solve.h
- *  25275 subset.h  25403 restrict_kept.h  25600 restrict_analysis.h  25848 restrict_symbolic.h
- *  26043 restrict.h  26274 edit_match.h  26473 edit_place.h  26722 edit_separate.h
- *  27036 edit_order.h  27191 edit_graph.h  27273 edit_join.h  27549 edit.h  27712 edit_factor.h
+ *  22197 update.h  22561 path.h  22662 rank.h  23038 edges.h  23192 choose.h  23403 pins_types.h
+ *  23482 pins_nulls.h  23665 pins_capacitance.h  23917 pins_balance.h  24096 pins_held.h
+ *  24312 pins_choose.h  24370 pins_rebuild.h  24588 pins_matrix.h  24739 pins.h  25008 pins_solve.h
+ *  25279 subset.h  25407 restrict_kept.h  25604 restrict_analysis.h  25852 restrict_symbolic.h
+ *  26047 restrict.h  26278 edit_match.h  26477 edit_place.h  26726 edit_separate.h
+ *  27040 edit_order.h  27195 edit_graph.h  27277 edit_join.h  27553 edit.h  27716 edit_factor.h
  * (save: factors in files)
- *  27997 format.h  28294 decode.h  28442 check.h  28772 write.h  29077 load.h  29345 load_inverse.h
- *  29675 load_calls.h
+ *  28001 format.h  28298 decode.h  28446 check.h  28776 write.h  29081 load.h  29349 load_inverse.h
+ *  29679 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29874 batch_solve.h  30083 batch_factor.h  30284 batch_diagonal.h
+ *  29878 batch_solve.h  30087 batch_factor.h  30288 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30424 hermitian.h  30586 complex_rows.h
+ *  30428 hermitian.h  30590 complex_rows.h
  * (last: undefine every internal macro)
- *  30754 undef.h
+ *  30758 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31030 front.inl.h  31032 product.inl.h  31543 words_undef.inl.h  31620 copy_rows.inl.h
- *  31658 multi_rhs.inl.h  31677 complex_groups.inl.h  31816 multi_rhs_small.inl.h
- *  31988 multi_rhs_tiles.inl.h  32265 sweeps.inl.h  32267 unit_triangle.inl.h  32304 two_rhs.inl.h
- *  32473 small_supernode.inl.h  32654 single_rhs.inl.h  32898 kernel_set.inl.h
- *  32900 complex_small.inl.h  33070 complex_rows.inl.h  33285 inverse_front.inl.h  33570 row.inl.h
- *  33600 change.inl.h  33830 interleave.inl.h  33964 lanes_undef.inl.h
+ *  31034 front.inl.h  31036 product.inl.h  31547 words_undef.inl.h  31624 copy_rows.inl.h
+ *  31662 multi_rhs.inl.h  31681 complex_groups.inl.h  31820 multi_rhs_small.inl.h
+ *  31992 multi_rhs_tiles.inl.h  32269 sweeps.inl.h  32271 unit_triangle.inl.h  32308 two_rhs.inl.h
+ *  32477 small_supernode.inl.h  32658 single_rhs.inl.h  32902 kernel_set.inl.h
+ *  32904 complex_small.inl.h  33074 complex_rows.inl.h  33289 inverse_front.inl.h  33574 row.inl.h
+ *  33604 change.inl.h  33834 interleave.inl.h  33968 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1177,9 +1177,9 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *    0.
  *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
  *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
- *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is singular
- *    to rounding, as where the only weights are those of one vertex, the factorization is refused;
- *    so are null pivots by the tolerance in components of more than one row.
+ *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is not
+ *    definite beyond rounding, as where the only weights are those of one vertex, the factorization
+ *    is refused; so are null pivots by the tolerance in components of more than one row.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -1206,11 +1206,11 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vectors the weights do not fix (z' m = 0,
- *           Z' M Z singular); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry
- *           of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its limit,
- *           caused by the pivot error.value of error.row, or an entry of L in the column of that
- *           pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the entry
- *           of A at error.row, error.column;
+ *           Z' M Z not definite); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an
+ *           entry of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its
+ *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
+ *           that pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the
+ *           entry of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
  *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
  *           than columns;
@@ -15966,6 +15966,8 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
 static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
   const size_t n = (size_t)F->S->n;
   sl_int m = sli_lower_bound(F->nulls, F->n_nulls, first), count = 0, k = root, i, j;
+  const double rounding = 16.0 * F->S->n * DBL_EPSILON;
+  double sign = 1.0;
   for (; m < F->n_nulls && F->nulls[m] <= root; m++) {
     k = F->nulls[m];
     if (sli_null_column(F, k) != -1) {
@@ -15977,9 +15979,9 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
   }
   for (j = 0, m = k; j < count; j++) {
     double *u = F->center + (size_t)j * n, *v = u + (size_t)F->null_vectors * n;
-    double size = 0.0, square = 0.0;
+    double size = 0.0, square = 0.0, left = 0.0;
     for (k = first; k <= root; k++) {
-      size += fabs(F->mass[k]) * u[k] * u[k];
+      size += fabs(F->mass[k]) * (u[k] * u[k] + rounding);
     }
     for (i = 0; i < 2 * j; i++) {
       const double *q = F->center + (size_t)(i % j) * n, *p = q + (v - u);
@@ -15993,13 +15995,15 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
     }
     for (k = first; k <= root; k++) {
       square += F->mass[k] * u[k] * u[k];
+      left += fabs(F->mass[k]) * u[k] * u[k];
     }
-    if (!(fabs(square) > F->S->n * DBL_EPSILON * size + 1e-290)) {
+    sign = j == 0 && square < 0.0 ? -1.0 : sign;
+    if (!(sign * square > fmax(rounding * size + 1e-290, 1e-4 * left))) {
       return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[m], m, -1, square);
     }
     for (k = first; k <= root; k++) {
-      u[k] /= sqrt(fabs(square));
-      v[k] = square < 0.0 ? -F->mass[k] * u[k] : F->mass[k] * u[k];
+      u[k] /= sqrt(sign * square);
+      v[k] = sign * F->mass[k] * u[k];
     }
   }
   return SL_OK;
@@ -17880,11 +17884,11 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
       }
       for (; at < to->count && to->steps[at].column <= tree.root; at++) {
         const sli_step *step = &to->steps[at];
-        const double *D = F->divisors + step->column;
         double *row = x + (ptrdiff_t)step->base * lanes;
         const sl_int columns = sli_step_columns(step);
         for (j = 0; j < count && step->column >= tree.first; j++) {
           const double *v = F->center + (size_t)j * (size_t)F->S->n + step->column;
+          const double *D = F->divisors + step->column;
 #define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
           SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL

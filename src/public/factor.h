@@ -118,9 +118,9 @@
  *    0.
  *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
  *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
- *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is singular
- *    to rounding, as where the only weights are those of one vertex, the factorization is refused;
- *    so are null pivots by the tolerance in components of more than one row.
+ *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is not
+ *    definite beyond rounding, as where the only weights are those of one vertex, the factorization
+ *    is refused; so are null pivots by the tolerance in components of more than one row.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -147,11 +147,11 @@
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
  *           pivot in its component, or one whose null vectors the weights do not fix (z' m = 0,
- *           Z' M Z singular); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry
- *           of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its limit,
- *           caused by the pivot error.value of error.row, or an entry of L in the column of that
- *           pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the entry
- *           of A at error.row, error.column;
+ *           Z' M Z not definite); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an
+ *           entry of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its
+ *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
+ *           that pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the
+ *           entry of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
  *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
  *           than columns;

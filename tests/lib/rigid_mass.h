@@ -109,4 +109,51 @@ static inline void assert_rigid_mean(const elastic_t *y, const double *C, const 
     free(none);
 }
 
+/* Elastic bodies with weights, their factor, and any right-hand side. */
+typedef struct weighed_t {
+    elastic_t y;
+    sl_options opt;
+    sl_symbolic *S;
+    sl_factor *F;
+    double *m, *C, *b, *x; /* the weights, or 1 for those that are all 0 */
+    size_t n;
+} weighed_t;
+
+static inline weighed_t weighed_make(int which, const variant_list_t *variants, int k,
+                                     uint64_t *seed) {
+    const int dim = 2 + which % 2, kind = which / 2 % RIGID_MASSES;
+    weighed_t f;
+    f.y = elastic_make(dim, dim == 2 ? 7 : 3, which % 5 == 0 ? 3.0 : 0.0, 0.7, 1e-2, which % 3 == 0,
+                       seed);
+    f.opt = options_rigid(&f.y, variants, k);
+    f.n = (size_t)f.y.n;
+    f.m = rigid_masses(&f.y, kind, seed);
+    f.b = test_reals(f.n);
+    f.x = test_reals(f.n);
+    gen_reals(f.b, f.n, *seed);
+    f.opt.mass = f.m;
+    SL_CHECK(sl_symbolic_create(&f.S, &f.y.A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&f.F, f.S, &f.y.A, FOR_FACTOR(&f.opt), NULL));
+    for (size_t i = 0; i < f.n && kind == 4; i++) {
+        f.m[i] = 1.0;
+    }
+    f.C = rigid_basis(&f.y, f.y.Z, f.m);
+    return f;
+}
+
+static inline void weighed_free(weighed_t *f) {
+    sl_factor_free(f->F);
+    sl_symbolic_free(f->S);
+    elastic_free(&f->y);
+    free(f->m);
+    free(f->C);
+    free(f->b);
+    free(f->x);
+}
+
+static inline void assert_means(const weighed_t *f, const sl_factor *F) {
+    SL_CHECK(sl_factor_solve(F, f->x, f->n, f->b, f->n, 1, NULL));
+    assert_rigid_mean(&f->y, f->C, f->m, f->x, f->b, 1.0);
+}
+
 #endif

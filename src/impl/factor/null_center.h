@@ -7,11 +7,11 @@
 #include "null_basis.h"
 
 /* Let M be the diagonal of the weights, and let the columns of Z span the null space of a tree,
- * with Z' M Z = S, the diagonal of 1 or, for weights of both signs, -1. Wanted is the x with
- * Z' M x = 0 that solves A x = b - M Z S Z' b, whose right-hand side is consistent. The columns of
- * L at the anchors are 0. With
+ * with Z' M Z = s I, where s is 1 or, for negative weights, -1. Wanted is the x with Z' M x = 0
+ * that solves A x = b - s M Z Z' b, whose right-hand side is consistent. The columns of L at the
+ * anchors are 0. With
  *
- *    U = L' P Z,  W = L^-1 P M Z S,  Q = W' D^+ W,  y = L^-1 P b,
+ *    U = L' P Z,  W = s L^-1 P M Z,  Q = W' D^+ W,  y = L^-1 P b,
  *
  * Z' b is U' y. The solution that is 0 in the anchors is P x = L'^-1 D^+ (y - W U' y). The motion
  * that makes it orthogonal to M Z is Z t with t = Q U' y - W' D^+ y, and P Z t is L'^-1 U t. In
@@ -22,10 +22,13 @@
  * Stored are U and then V, in the columns of F->center. U has the rounding errors of L, so that
  * U' y is Z' b whatever they are. */
 
-/* U := Z, V := M Z S in one tree, by Gram-Schmidt. The columns of U are null vectors on entry. */
+/* U := Z, V := s M Z in one tree, by Gram-Schmidt. The columns of U are null vectors on entry. A
+ * z' M z of less than 1e-4 |z|' |M| |z| has too few digits: weights of both signs. */
 static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
     const size_t n = (size_t)F->S->n;
     sl_int m = sli_lower_bound(F->nulls, F->n_nulls, first), count = 0, k = root, i, j;
+    const double rounding = 16.0 * F->S->n * DBL_EPSILON; /* of u, which is 1 in an anchor */
+    double sign = 1.0;
     for (; m < F->n_nulls && F->nulls[m] <= root; m++) {
         k = F->nulls[m];
         if (sli_null_column(F, k) != -1) {
@@ -37,9 +40,9 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
     }
     for (j = 0, m = k; j < count; j++) {
         double *u = F->center + (size_t)j * n, *v = u + (size_t)F->null_vectors * n;
-        double size = 0.0, square = 0.0;
+        double size = 0.0, square = 0.0, left = 0.0;
         for (k = first; k <= root; k++) {
-            size += fabs(F->mass[k]) * u[k] * u[k];
+            size += fabs(F->mass[k]) * (u[k] * u[k] + rounding);
         }
         for (i = 0; i < 2 * j; i++) { /* twice */
             const double *q = F->center + (size_t)(i % j) * n, *p = q + (v - u);
@@ -53,13 +56,15 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
         }
         for (k = first; k <= root; k++) {
             square += F->mass[k] * u[k] * u[k];
+            left += fabs(F->mass[k]) * u[k] * u[k];
         }
-        if (!(fabs(square) > F->S->n * DBL_EPSILON * size + 1e-290)) { /* also if they overflow */
+        sign = j == 0 && square < 0.0 ? -1.0 : sign;
+        if (!(sign * square > fmax(rounding * size + 1e-290, 1e-4 * left))) {
             return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[m], m, -1, square);
         }
         for (k = first; k <= root; k++) {
-            u[k] /= sqrt(fabs(square));
-            v[k] = square < 0.0 ? -F->mass[k] * u[k] : F->mass[k] * u[k];
+            u[k] /= sqrt(sign * square);
+            v[k] = sign * F->mass[k] * u[k];
         }
     }
     return SL_OK;

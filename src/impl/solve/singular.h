@@ -264,11 +264,11 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
             }
             for (; at < to->count && to->steps[at].column <= tree.root; at++) {
                 const sli_step *step = &to->steps[at];
-                const double *D = F->divisors + step->column;
                 double *row = x + (ptrdiff_t)step->base * lanes;
                 const sl_int columns = sli_step_columns(step);
                 for (j = 0; j < count && step->column >= tree.first; j++) {
                     const double *v = F->center + (size_t)j * (size_t)F->S->n + step->column;
+                    const double *D = F->divisors + step->column;
 #define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
                     SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
