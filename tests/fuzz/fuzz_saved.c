@@ -175,12 +175,11 @@ static base_t base_make(int base, int flags) {
         signs[k] = k % 4 == 3 ? -1 : 1;
     }
     opt.null_pivots = way == SKIPPED || way == WEIGHTED ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
-    if (flags & HAS_SEVERAL && opt.null_pivots == SL_NULL_PIVOT_SKIP) { /* no weights then */
+    opt.mass = way == WEIGHTED ? mass : NULL;
+    if (flags & HAS_SEVERAL && opt.null_pivots == SL_NULL_PIVOT_SKIP) {
         fill_null_vectors(z, A.n, base >= WAYS);
         opt.null_vector = z;
         opt.null_vector_count = COLUMNS;
-    } else {
-        opt.mass = way == WEIGHTED ? mass : NULL;
     }
     opt.regularization = way >= REGULARIZED ? 1e-8 : 0.0;
     opt.signs = way == SIGNED ? signs : NULL;

@@ -73,7 +73,7 @@ static sl_options factor_options(input_t *in, factor_t *f, kind_t kind) {
     if (kind == LAPLACIAN) {
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
         f->has_columns = choices / 128 % 2;
-        f->has_mass = choices / 32 % 2 && !f->has_columns; /* weights need one null vector */
+        f->has_mass = choices / 32 % 2;
         opt.mass = f->has_mass ? f->mass : NULL;
         opt.null_vector = f->has_columns ? null_columns(s) : NULL;
         opt.null_vector_count = f->has_columns ? COLUMNS : 0;

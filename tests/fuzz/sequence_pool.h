@@ -71,7 +71,7 @@ typedef struct plan_t {
 typedef struct selected_t {
     sl_selected *Z;
     int analysis;
-    int is_float; /* its factor */
+    int is_float;      /* its factor */
     double a[ENTRIES]; /* the matrix that it is of; it may outlive its factor */
 } selected_t;
 
@@ -317,29 +317,43 @@ static sl_int nullity_of(const values_t *v, sl_int n) {
     return count;
 }
 
-/* Checks A x = b, or for a Laplacian with mass m: A x = b - c m with sum m x = 0 per component. */
+/* Checks A x = b, or for a Laplacian with mass m: A x = b - c m with sum m x = 0 per component. A
+ * component of a RIGID matrix has A x = b - (c + d i) m, and sum i m x = 0, too. */
 static void check_laplacian(const factor_t *f, const double *x, const double *b, double bound) {
     const sl_int n = order_of(f);
-    sl_int component[MOST];
-    double sum_b[MOST] = {0.0}, sum_m[MOST] = {0.0}, sum_mx[MOST] = {0.0}, size = largest(b, n);
+    const int is_rigid = f->v.kind == RIGID;
+    sl_int component[MOST], rows[MOST] = {0};
+    /* of each component: sums of b, i b, m, i m, i^2 m, m x, i m x */
+    double sum[MOST][7] = {{0.0}}, size = largest(b, n);
     find_components(f->v.a, n, component);
     for (sl_int i = 0; i < n; i++) {
-        const sl_int c = component[i];
-        sum_b[c] += b[i];
-        sum_m[c] += f->mass[i];
-        sum_mx[c] += f->mass[i] * x[i];
+        const double terms[7] = {b[i],
+                                 i * b[i],
+                                 f->mass[i],
+                                 i * f->mass[i],
+                                 i * i * f->mass[i],
+                                 f->mass[i] * x[i],
+                                 i * f->mass[i] * x[i]};
+        rows[component[i]]++;
+        for (int k = 0; k < 7; k++) {
+            sum[component[i]][k] += terms[k];
+        }
         for (sl_int j = 0; j < n; j++) {
             size = fmax(size, fabs(f->v.a[i + MOST * j] * x[j]));
         }
     }
     for (sl_int i = 0; i < n; i++) {
-        const sl_int c = component[i];
-        double residual = b[i] - (f->has_mass ? sum_b[c] / sum_m[c] * f->mass[i] : 0.0);
+        const double *s = sum[component[i]];
+        const int has_two = is_rigid && rows[component[i]] > 2;
+        const double d = has_two ? (s[1] * s[2] - s[0] * s[3]) / (s[4] * s[2] - s[3] * s[3]) : 0.0;
+        const double c = (s[0] - d * s[3]) / s[2];
+        double residual = b[i] - (f->has_mass ? (c + d * i) * f->mass[i] : 0.0);
         for (sl_int j = 0; j < n; j++) {
             residual -= f->v.a[i + MOST * j] * x[j];
         }
         PROMISE(fabs(residual) <= bound * size);
-        PROMISE(!f->has_mass || fabs(sum_mx[c]) <= bound * size * MOST);
+        PROMISE(!f->has_mass || fabs(s[5]) <= bound * size * MOST);
+        PROMISE(!f->has_mass || !has_two || fabs(s[6]) <= bound * size * MOST * MOST);
     }
 }
 
