@@ -469,6 +469,11 @@ def test_several_null_vectors():
     b[3] += 1
     with pytest.raises(sl.InconsistentError):
         F.solve(b)
+    m = 1.0 + np.arange(50) % 3
+    x = sl.Factor(A, null_pivots="skip", null_vector=Z, mass=m).solve(b)  # each has a mean of 0
+    assert np.allclose(Z.T @ (m * x), 0)
+    c = b[:25].sum() / m[:25].sum()
+    assert np.allclose(A @ x, np.where(np.arange(50) < 25, b - c * m, b))
     for wrong in (np.ones((50, 33)), np.ones((49, 2)), np.ones((50, 2, 2))):
         with pytest.raises(sl.ArgumentError):
             sl.Factor(A, null_pivots="skip", null_vector=wrong)
