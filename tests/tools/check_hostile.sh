@@ -92,6 +92,19 @@ asks 'a zero byte' '1;1;1\0002'
 [ $? -eq 1 ] && grep -q 'line 1: a zero byte' err
 record $? 'query refuses an endless line'
 
+# Meshes.
+
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nf 1 1 2\nf 2 2 2\n' >same.obj
+timeout 60 "$program" edit same.obj --edits 20 --kinds flip,split,collapse,remesh --patch 5 \
+    >out 2>err
+record $? 'edits of faces that name a vertex twice come to an end'
+printf 'v 0 0 0\nv 1e150 0 0\nv 0 1e150 0\nf 1 2 3\n' >far.obj
+for command in heat adf pairs geodesic vectors edit; do
+    refuses 1 'the time .* is not between 0 and 1e200' "$command" far.obj
+done
+refuses 1 'the time .* is not between 0 and 1e200' save far.obj --out o.slf --poisson p.slf
+refuses 2 '--count: expected at most' pairs sphere:1 --count 2147483647
+
 # Little memory: what is missing is said, and nothing else is blamed for it. A sanitized program
 # reserves terabytes.
 

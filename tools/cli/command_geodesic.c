@@ -6,6 +6,7 @@
 
 #include "app.h"
 #include "command.h"
+#include "heat_system.h"
 #include "heat_factors.h"
 #include "laplacian_choice.h"
 #include "path_check.h"
@@ -381,6 +382,7 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     if (!(t > 0)) {
         app_die("%s: all edges have no length", operand);
     }
+    heat_check_time(t);
     if (t < 0.1 * edge * edge) {
         app_warn("the time is too short for heat to cross an edge: the heat method will be wrong");
     }

@@ -202,6 +202,9 @@ int command_pairs(int argc, char **argv) {
         {OPTION_OUTPUT, "svg", &histogram, "FILE", "draw a histogram of the speedups"},
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
+    if (count > 100000000) {
+        app_die_usage("--count: expected at most 100000000");
+    }
     mesh m;
     heat_system h;
     sl_int *i = NULL, *j = NULL;

@@ -8,7 +8,7 @@
 #include "saved_file.h"
 #include "tools/geometry/laplacian.h"
 
-static void check_time(double t) {
+void heat_check_time(double t) {
     if (!(t > 0 && t <= 1e200)) {
         app_die("the time %g is not between 0 and 1e200", t);
     }
@@ -74,7 +74,7 @@ void heat_system_analyze(heat_system *h, const mesh *m, const char *name, const 
 
 void heat_system_create(heat_system *h, const mesh *m, double t, const char *laplacian,
                         const sl_options *opt) {
-    check_time(t);
+    heat_check_time(t);
     heat_system_analyze(h, m, laplacian, opt);
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
@@ -152,7 +152,7 @@ void heat_system_factors(heat_system *h, sl_factor **factors, const double *t, s
     memset(&opt, 0, sizeof opt);
     opt.threads = *threads;
     for (sl_int k = 0; k < count; k++) {
-        check_time(t[k]);
+        heat_check_time(t[k]);
         coefficients[2 * k] = 1;
         coefficients[2 * k + 1] = t[k];
     }
@@ -208,5 +208,6 @@ double heat_time_value(const heat_time *h, const mesh *m, double default_area) {
         app_die("no default time: the mean edge length is %g and the area %g; give --time", edge,
                 heat_area(m));
     }
+    heat_check_time(t);
     return t;
 }

@@ -65,6 +65,9 @@ void heat_system_create(heat_system *h, const mesh *m, double t, const char *lap
 void heat_system_open(heat_system *h, mesh *m, const char *operand, const heat_time *time,
                       double default_area, const app_output *output);
 
+/** Dies unless t is above 0 and at most 1e200. */
+void heat_check_time(double t);
+
 /** "t = 0.01", or that the time is the one that the file was saved with; valid until the next
  *  call. */
 const char *heat_system_time(const heat_system *h);

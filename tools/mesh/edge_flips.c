@@ -35,7 +35,7 @@ bool edge_flips_create(edge_flips *out, const mesh *m) {
     for (size_t k = 0, end; k < count; k = end) {
         end = end_of_edge(sides, k, count);
         const sl_int s = sides[k].side, t = end == k + 2 ? sides[k + 1].side : -1;
-        if (t >= 0 &&
+        if (t >= 0 && s / 3 != t / 3 && /* a face that names a vertex twice is its own neighbor */
             m->faces[side_after(s)] != m->faces[side_after(t)]) { /* opposite directions */
             out->twin[s] = t;
             out->twin[t] = s;
