@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4d88e994f0132976
+ * FNV-1a of the lines after this comment, without the license: 1ee308eab5b44b1e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20534 bilinear.h  20706 entries.h  20983 block.h  21218 reserve.h  21410 selected.h
  *  21620 selected_query.h  21722 region_choose.h  21949 region.h
  * (change: a factor that follows changes of its matrix)
- *  22197 update.h  22561 path.h  22662 rank.h  23038 edges.h  23192 choose.h  23403 pins_types.h
- *  23482 pins_nulls.h  23665 pins_capacitance.h  23917 pins_balance.h  24096 pins_held.h
- *  24312 pins_choose.h  24370 pins_rebuild.h  24588 pins_matrix.h  24739 pins.h  25008 pins_solve.h
- *  25279 subset.h  25407 restrict_kept.h  25604 restrict_analysis.h  25852 restrict_symbolic.h
- *  26047 restrict.h  26278 edit_match.h  26477 edit_place.h  26726 edit_separate.h
- *  27040 edit_order.h  27195 edit_graph.h  27277 edit_join.h  27553 edit.h  27716 edit_factor.h
+ *  22197 update.h  22561 path.h  22662 rank.h  23038 edges.h  23192 choose.h  23426 pins_types.h
+ *  23505 pins_nulls.h  23688 pins_capacitance.h  23940 pins_balance.h  24119 pins_held.h
+ *  24335 pins_choose.h  24393 pins_rebuild.h  24611 pins_matrix.h  24762 pins.h  25031 pins_solve.h
+ *  25302 subset.h  25430 restrict_kept.h  25627 restrict_analysis.h  25875 restrict_symbolic.h
+ *  26070 restrict.h  26301 edit_match.h  26500 edit_place.h  26749 edit_separate.h
+ *  27063 edit_order.h  27218 edit_graph.h  27300 edit_join.h  27576 edit.h  27739 edit_factor.h
  * (save: factors in files)
- *  28001 format.h  28298 decode.h  28446 check.h  28776 write.h  29081 load.h  29349 load_inverse.h
- *  29679 load_calls.h
+ *  28024 format.h  28321 decode.h  28469 check.h  28799 write.h  29104 load.h  29372 load_inverse.h
+ *  29702 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29878 batch_solve.h  30087 batch_factor.h  30288 batch_diagonal.h
+ *  29901 batch_solve.h  30110 batch_factor.h  30311 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30428 hermitian.h  30590 complex_rows.h
+ *  30451 hermitian.h  30613 complex_rows.h
  * (last: undefine every internal macro)
- *  30758 undef.h
+ *  30781 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31034 front.inl.h  31036 product.inl.h  31547 words_undef.inl.h  31624 copy_rows.inl.h
- *  31662 multi_rhs.inl.h  31681 complex_groups.inl.h  31820 multi_rhs_small.inl.h
- *  31992 multi_rhs_tiles.inl.h  32269 sweeps.inl.h  32271 unit_triangle.inl.h  32308 two_rhs.inl.h
- *  32477 small_supernode.inl.h  32658 single_rhs.inl.h  32902 kernel_set.inl.h
- *  32904 complex_small.inl.h  33074 complex_rows.inl.h  33289 inverse_front.inl.h  33574 row.inl.h
- *  33604 change.inl.h  33834 interleave.inl.h  33968 lanes_undef.inl.h
+ *  31057 front.inl.h  31059 product.inl.h  31570 words_undef.inl.h  31647 copy_rows.inl.h
+ *  31685 multi_rhs.inl.h  31704 complex_groups.inl.h  31843 multi_rhs_small.inl.h
+ *  32015 multi_rhs_tiles.inl.h  32292 sweeps.inl.h  32294 unit_triangle.inl.h  32331 two_rhs.inl.h
+ *  32500 small_supernode.inl.h  32681 single_rhs.inl.h  32925 kernel_set.inl.h
+ *  32927 complex_small.inl.h  33097 complex_rows.inl.h  33312 inverse_front.inl.h  33597 row.inl.h
+ *  33627 change.inl.h  33862 interleave.inl.h  33996 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -660,14 +660,14 @@ typedef struct sl_refine_info {
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
     sl_change_reason reason; /* why; of sl_factor_change */
-    sl_int ranks;            /* rank-one changes that the change consists of */
+    sl_int ranks;            /* rank-one changes that the change consists of; 0: not counted */
     sl_int padding;          /* not written */
     sl_off entries;          /* doubles of L that rank-one changes read and write */
     sl_off updates;          /* rank-one changes since the last complete factorization */
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
      * times the largest number a pivot was computed from, relative to the largest |a| */
     double drift;
-    double flops_update;   /* of the rank-one changes; 0 if F cannot be changed so */
+    double flops_update;   /* of the rank-one changes, at least; 0 if F cannot be changed so */
     double flops_changed;  /* of sl_factor_refactor_changed; of sl_factor_change, else 0 */
     double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
     double seconds;        /* processor seconds */
@@ -2635,7 +2635,7 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  inverses of the old numbers are refused.
  *
  *  Only the columns of L on the paths from the rows of V to the roots change. Vectors are taken in
- *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 4 of one vector.
+ *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 5 of one vector.
  *
  *  A vector must not create entries outside of L: all its rows have to be in the column of L that
  *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
@@ -23192,9 +23192,9 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
 #define SLI_CHANGE_ENTRY 0.3e-9
-#define SLI_CHANGE_PIVOT 5e-9
+#define SLI_CHANGE_PIVOT 4e-9
 #define SLI_CHANGE_FRONT 0.8e-6
-#define SLI_CHANGE_VISIT 0.45e-6
+#define SLI_CHANGE_VISIT 0.6e-6
 #define SLI_CHANGE_INPUT 4e-9
 #define SLI_CHANGE_DRIFT 1e-11
 
@@ -23204,6 +23204,7 @@ typedef struct sli_way {
   uint64_t *seeds, *scratch;
   uint64_t *keys;
   sl_int n_seeds;
+  int is_counted;
   double flops_update, flops_changed, flops_refactor;
   double update, changed, refactor;
   sl_change_reason reason;
@@ -23264,8 +23265,8 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
 
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
   const sl_symbolic *S = F->S;
-  const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL &&
-              F->storage == SL_STORAGE_DOUBLE;
+  const int can_reach =
+    F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE;
   c->flops_refactor = S->stats.symbolic.flops;
   c->refactor = sli_way_refactor(F);
   c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
@@ -23276,9 +23277,10 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }
-  if (can_reach) {
+  if (can_reach && !c->is_counted) {
     sli_way_measure(c, F, 0);
-    if (!can_update || c->update > c->changed) {
+    c->is_counted = !can_update || c->update > c->changed;
+    if (c->is_counted) {
       sli_way_measure(c, F, 1);
     }
   }
@@ -23290,14 +23292,17 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
 
 static void sli_way_columns(sli_way *c, const sli_rank *q) {
   const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
-  sl_int k;
+  sl_int k, total = 0;
   for (k = 0; k < q->n_entries; k++) {
     const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
-    c->keys[k] = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
+    const uint64_t key = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
+    if (total < 2 || (key != c->keys[total - 1] && key != c->keys[total - 2])) {
+      c->keys[total++] = key;
+    }
   }
-  sli_sort(c->keys, q->n_entries, c->keys + q->n_entries);
+  sli_sort(c->keys, total, c->keys + q->n_entries);
   c->n_columns = 0;
-  for (k = 0; k < q->n_entries; k++) {
+  for (k = 0; k < total; k++) {
     const sl_int column = sli_key(c->keys[k]);
     if (c->n_columns == 0 || c->columns[c->n_columns - 1] != column) {
       c->columns[c->n_columns++] = column;
@@ -23305,29 +23310,47 @@ static void sli_way_columns(sli_way *c, const sli_rank *q) {
   }
 }
 
+static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
+  return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT * pivots +
+      0.5 * sli_change_flop[q->u.F->kernels->isa] * flops) *
+       (q->has_trial || q->has_log ? 1.5 : 1.0);
+}
+
+static void sli_way_estimate(sli_way *c, const sli_rank *q) {
+  const double passes = c->n_columns / (2 * SLI_TILE);
+  sli_reach R;
+  sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, c->n_seeds > 0, &R);
+  c->flops_update = passes * 4.0 * SLI_TILE * (double)R.entries;
+  c->update = sli_way_update(q, passes * (double)R.entries, passes * SLI_TILE * R.columns,
+                 c->flops_update);
+}
+
 static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
-  sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
-  status = status == SL_OK ? q->status : status;
+  const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
   c->flops_update = q->flops;
-  c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_PIVOT * q->pivots +
-        0.5 * sli_change_flop[q->u.F->kernels->isa] * q->flops;
-  c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
-  return status;
+  c->update = sli_way_update(q, (double)q->entries, q->pivots, q->flops);
+  return status == SL_OK ? q->status : status;
 }
 
 static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
                sl_change_method *method) {
   sl_factor *F = q->u.F;
   const int can_update = sli_rank_is_suited(F) && F->is_valid;
-  sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
-  if (status != SL_OK) {
-    return status;
-  }
+  sl_status status = SL_OK;
   c->n_seeds = sli_changed_seeds(F->S, A, c->columns, c->n_columns, c->seeds, c->scratch);
+  if (can_update) {
+    sli_way_estimate(c, q);
+  }
   *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
   if (*method == SL_CHANGE_UPDATE) {
-    q->status = SL_OK;
-    status = sli_rank_apply(q, sli_edges_stages, 3, W);
+    status = sli_way_count(c, q, W);
+    if (status != SL_OK) {
+      return status;
+    }
+    *method = sli_way_make(c, F, 1);
+  }
+  if (*method == SL_CHANGE_UPDATE) {
+    status = sli_rank_run(q);
     if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
       c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
@@ -33646,8 +33669,10 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   SLV_DECLARE(s)
   SLV_DECLARE(t)
   SLV_DECLARE(p)
-  memset(f, 0, sizeof f);
-  memcpy(f, w, SLI_TILE * (size_t)ranks * sizeof *f);
+  if (lanes < SLI_TILE) {
+    memset(f, 0, sizeof f);
+  }
+  memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
   for (j = 0; j < columns && l != NULL; j++) {
     SLV_LOAD_PINNED(a, l + SLI_TILE * j)
     for (r = 0; r < ranks; r++) {
@@ -33672,7 +33697,7 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
     SLV_ZERO(s)
     SLV_ZERO(t)
-    for (r = 0; r < ranks && fabs(e) > 0.0; r++) {
+    for (r = 0; r < ranks; r++) {
       const double before = e, g = f[SLI_TILE * r + j];
       const double beta = -u->alpha[r] * g, q = g * inverse;
       if (g == 0.0) {
@@ -33680,7 +33705,10 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
       }
       e -= beta * g;
       magnitude += fabs(beta * g);
-      inverse = e == 0.0 ? 0.0 : 1.0 / e;
+      if (!(fabs(e) > 0.0)) {
+        break;
+      }
+      inverse = 1.0 / e;
       u->alpha[r] *= before * inverse;
       SLV_BROADCAST(p, &q)
       SLV_LOAD_PINNED(a, f + SLI_TILE * r)

@@ -9,7 +9,7 @@
  *  inverses of the old numbers are refused.
  *
  *  Only the columns of L on the paths from the rows of V to the roots change. Vectors are taken in
- *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 4 of one vector.
+ *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 5 of one vector.
  *
  *  A vector must not create entries outside of L: all its rows have to be in the column of L that
  *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.

@@ -111,14 +111,14 @@ typedef struct sl_refine_info {
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
     sl_change_reason reason; /* why; of sl_factor_change */
-    sl_int ranks;            /* rank-one changes that the change consists of */
+    sl_int ranks;            /* rank-one changes that the change consists of; 0: not counted */
     sl_int padding;          /* not written */
     sl_off entries;          /* doubles of L that rank-one changes read and write */
     sl_off updates;          /* rank-one changes since the last complete factorization */
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
      * times the largest number a pivot was computed from, relative to the largest |a| */
     double drift;
-    double flops_update;   /* of the rank-one changes; 0 if F cannot be changed so */
+    double flops_update;   /* of the rank-one changes, at least; 0 if F cannot be changed so */
     double flops_changed;  /* of sl_factor_refactor_changed; of sl_factor_change, else 0 */
     double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
     double seconds;        /* processor seconds */

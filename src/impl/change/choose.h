@@ -6,11 +6,11 @@
 #include "edges.h"
 
 /* Seconds of the parts of the three ways, measured on grids of 1e4 to 1e6 rows. */
-#define SLI_CHANGE_ENTRY 0.3e-9  /* an entry of L in a pass of rank-one changes */
-#define SLI_CHANGE_PIVOT 5e-9    /* a pivot that one vector changes */
-#define SLI_CHANGE_FRONT 0.8e-6  /* a front, beside its flops */
-#define SLI_CHANGE_VISIT 0.45e-6 /* a descendant that updates a front again */
-#define SLI_CHANGE_INPUT 4e-9    /* an entry of A */
+#define SLI_CHANGE_ENTRY 0.3e-9 /* an entry of L in a pass of rank-one changes */
+#define SLI_CHANGE_PIVOT 4e-9   /* a pivot that one vector changes */
+#define SLI_CHANGE_FRONT 0.8e-6 /* a front, beside its flops */
+#define SLI_CHANGE_VISIT 0.6e-6 /* a descendant that updates a front again */
+#define SLI_CHANGE_INPUT 4e-9   /* an entry of A */
 /* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
 #define SLI_CHANGE_DRIFT 1e-11
 
@@ -21,6 +21,7 @@ typedef struct sli_way {
     uint64_t *seeds, *scratch; /* for the entries of these columns */
     uint64_t *keys;            /* 2 count: for sorting them */
     sl_int n_seeds;
+    int is_counted; /* flops_changed has what the reach gathers from its descendants */
     double flops_update, flops_changed, flops_refactor;
     double update, changed, refactor; /* seconds */
     sl_change_reason reason;
@@ -88,8 +89,8 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
 /* Chooses. can_update: rank-one changes are possible. */
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
     const sl_symbolic *S = F->S;
-    const int can_reach = F->is_valid && F->method == SL_METHOD_SUPERNODAL &&
-                          F->storage == SL_STORAGE_DOUBLE;
+    const int can_reach =
+        F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE;
     c->flops_refactor = S->stats.symbolic.flops;
     c->refactor = sli_way_refactor(F);
     c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
@@ -100,9 +101,10 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
         c->reason = SL_CHANGE_DRIFT;
         return SL_CHANGE_REFACTOR;
     }
-    if (can_reach) {
+    if (can_reach && !c->is_counted) {
         sli_way_measure(c, F, 0); /* a lower bound: to count the descendants takes time */
-        if (!can_update || c->update > c->changed) {
+        c->is_counted = !can_update || c->update > c->changed;
+        if (c->is_counted) {
             sli_way_measure(c, F, 1);
         }
     }
@@ -115,14 +117,17 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
 /* The columns of A that store the changed entries, each once: many entries share a column. */
 static void sli_way_columns(sli_way *c, const sli_rank *q) {
     const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
-    sl_int k;
+    sl_int k, total = 0;
     for (k = 0; k < q->n_entries; k++) {
         const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
-        c->keys[k] = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
+        const uint64_t key = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
+        if (total < 2 || (key != c->keys[total - 1] && key != c->keys[total - 2])) {
+            c->keys[total++] = key;
+        }
     }
-    sli_sort(c->keys, q->n_entries, c->keys + q->n_entries);
+    sli_sort(c->keys, total, c->keys + q->n_entries);
     c->n_columns = 0;
-    for (k = 0; k < q->n_entries; k++) {
+    for (k = 0; k < total; k++) {
         const sl_int column = sli_key(c->keys[k]);
         if (c->n_columns == 0 || c->columns[c->n_columns - 1] != column) {
             c->columns[c->n_columns++] = column;
@@ -130,30 +135,51 @@ static void sli_way_columns(sli_way *c, const sli_rank *q) {
     }
 }
 
-/* Sorts the vectors of q, for their number and their cost. */
+/* Seconds of rank-one changes. */
+static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
+    return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT * pivots +
+            0.5 * sli_change_flop[q->u.F->kernels->isa] * flops) *
+           (q->has_trial || q->has_log ? 1.5 : 1.0);
+}
+
+/* Estimates the rank-one changes from below: half a vector for each column, all with the path of
+ * the column in the middle. Where even they take too long, the vectors need not be sorted. */
+static void sli_way_estimate(sli_way *c, const sli_rank *q) {
+    const double passes = c->n_columns / (2 * SLI_TILE);
+    sli_reach R;
+    sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, c->n_seeds > 0, &R);
+    c->flops_update = passes * 4.0 * SLI_TILE * (double)R.entries;
+    c->update = sli_way_update(q, passes * (double)R.entries, passes * SLI_TILE * R.columns,
+                               c->flops_update);
+}
+
+/* Sorts the vectors of q, for their number and their cost, and prepares their passes. */
 static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
-    sl_status status = sli_work_stages(W, sli_edges_stages, 2, q);
-    status = status == SL_OK ? q->status : status;
+    const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
     c->flops_update = q->flops;
-    c->update = SLI_CHANGE_ENTRY * (double)q->entries + SLI_CHANGE_PIVOT * q->pivots +
-                0.5 * sli_change_flop[q->u.F->kernels->isa] * q->flops;
-    c->update *= q->has_trial || q->has_log ? 1.5 : 1.0;
-    return status;
+    c->update = sli_way_update(q, (double)q->entries, q->pivots, q->flops);
+    return status == SL_OK ? q->status : status;
 }
 
 static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
                              sl_change_method *method) {
     sl_factor *F = q->u.F;
     const int can_update = sli_rank_is_suited(F) && F->is_valid;
-    sl_status status = can_update ? sli_way_count(c, q, W) : SL_OK;
-    if (status != SL_OK) {
-        return status;
-    }
+    sl_status status = SL_OK;
     c->n_seeds = sli_changed_seeds(F->S, A, c->columns, c->n_columns, c->seeds, c->scratch);
+    if (can_update) {
+        sli_way_estimate(c, q);
+    }
     *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
     if (*method == SL_CHANGE_UPDATE) {
-        q->status = SL_OK;
-        status = sli_rank_apply(q, sli_edges_stages, 3, W);
+        status = sli_way_count(c, q, W);
+        if (status != SL_OK) {
+            return status;
+        }
+        *method = sli_way_make(c, F, 1);
+    }
+    if (*method == SL_CHANGE_UPDATE) {
+        status = sli_rank_run(q);
         if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
             c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
             *method = SL_CHANGE_REFACTOR;

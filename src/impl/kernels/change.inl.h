@@ -47,8 +47,10 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     SLV_DECLARE(s)
     SLV_DECLARE(t)
     SLV_DECLARE(p)
-    memset(f, 0, sizeof f);
-    memcpy(f, w, SLI_TILE * (size_t)ranks * sizeof *f);
+    if (lanes < SLI_TILE) {
+        memset(f, 0, sizeof f);
+    }
+    memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
     for (j = 0; j < columns && l != NULL; j++) { /* Y' := what a forward sweep makes of W' */
         SLV_LOAD_PINNED(a, l + SLI_TILE * j)
         for (r = 0; r < ranks; r++) {
@@ -73,7 +75,7 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
         SLV_ZERO(s)
         SLV_ZERO(t)
-        for (r = 0; r < ranks && fabs(e) > 0.0; r++) { /* until it is 0 or NaN */
+        for (r = 0; r < ranks; r++) {
             const double before = e, g = f[SLI_TILE * r + j];
             const double beta = -u->alpha[r] * g, q = g * inverse;
             if (g == 0.0) { /* not on the path of this vector */
@@ -81,7 +83,10 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
             }
             e -= beta * g;
             magnitude += fabs(beta * g);
-            inverse = e == 0.0 ? 0.0 : 1.0 / e;
+            if (!(fabs(e) > 0.0)) { /* 0 or NaN */
+                break;
+            }
+            inverse = 1.0 / e;
             u->alpha[r] *= before * inverse;
             SLV_BROADCAST(p, &q)
             SLV_LOAD_PINNED(a, f + SLI_TILE * r)
