@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1ee308eab5b44b1e
+ * FNV-1a of the lines after this comment, without the license: 8ff990f7fb0ee0ce
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,48 +44,48 @@
  *   7279 graph.h   7397 contract.h   7651 coarsen.h   7814 labels.h   8035 subgraph.h   8229 heap.h
  *   8289 bisect.h   8516 separator.h   8778 mindeg.h   8961 dissect.h   9285 tree_cost.h
  *   9337 levelset.h   9443 geometric.h   9618 cells.h   9798 septree.h   9874 metis.h
- *  10023 metis_refined.h  10137 nd.h  10337 compress.h  10458 levels.h  10510 peel.h
- *  10716 quotient.h  11152 graph_kind.h  11223 order.h
+ *  10023 metis_refined.h  10137 nd.h  10337 compress.h  10458 levels.h  10511 border.h
+ *  10564 forest.h  10651 peel.h  10851 quotient.h  11268 graph_kind.h  11339 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11577 symbolic_types.h  11614 etree.h  11689 counts.h  11738 supernodes.h  11979 pattern.h
- *  12066 structure.h  12260 schedule.h  12540 symbolic.h  12988 reach.h
+ *  11664 symbolic_types.h  11701 etree.h  11761 counts.h  11810 supernodes.h  12049 pattern.h
+ *  12139 structure.h  12333 schedule.h  12613 symbolic.h  13084 reach.h
  * (factor: the numbers of L and D)
- *  13259 factor_types.h  13683 storage.h  13821 pivot_search.h  14167 pivoted.h  14236 scatter.h
- *  14394 uplooking.h  14466 null_product.h  14670 null_dense.h  14747 null_basis.h
- *  15067 null_vectors.h  15209 multifrontal.h  15403 gather.h  15451 kept.h  15621 front_tasks.h
- *  15964 null_center.h  16088 nullspace.h  16275 growth.h  16353 factor_setup.h  16678 factor.h
- *  16888 leftlooking.h  17035 factor_query.h  17170 combination.h
+ *  13355 factor_types.h  13779 storage.h  13917 pivot_search.h  14263 pivoted.h  14332 scatter.h
+ *  14490 uplooking.h  14562 null_product.h  14766 null_dense.h  14843 null_basis.h
+ *  15163 null_vectors.h  15305 multifrontal.h  15499 gather.h  15547 kept.h  15717 front_tasks.h
+ *  16060 null_center.h  16184 nullspace.h  16371 growth.h  16449 factor_setup.h  16774 factor.h
+ *  16984 leftlooking.h  17131 factor_query.h  17266 combination.h
  * (solve: full and local solves)
- *  17231 region_types.h  17335 work.h  17435 query.h  17651 singular.h  17908 backward.h
- *  17938 sweep_tasks.h  18269 sweep.h  18477 compile.h  18670 plan.h  18777 local.h  18929 parts.h
- *  19218 refine.h  19397 refine_local.h  19613 rcond.h  19772 defects.h
+ *  17327 region_types.h  17431 work.h  17531 query.h  17747 singular.h  18004 backward.h
+ *  18034 sweep_tasks.h  18365 sweep.h  18573 compile.h  18766 plan.h  18873 local.h  19025 parts.h
+ *  19314 refine.h  19493 refine_local.h  19709 rcond.h  19868 defects.h
  * (inverse: entries of the inverse, regions)
- *  19831 traversal.h  20080 traversal_run.h  20273 row_sets.h  20307 unit_vectors.h
- *  20534 bilinear.h  20706 entries.h  20983 block.h  21218 reserve.h  21410 selected.h
- *  21620 selected_query.h  21722 region_choose.h  21949 region.h
+ *  19927 traversal.h  20176 traversal_run.h  20369 row_sets.h  20403 unit_vectors.h
+ *  20630 bilinear.h  20802 entries.h  21079 block.h  21314 reserve.h  21506 selected.h
+ *  21716 selected_query.h  21818 region_choose.h  22045 region.h
  * (change: a factor that follows changes of its matrix)
- *  22197 update.h  22561 path.h  22662 rank.h  23038 edges.h  23192 choose.h  23426 pins_types.h
- *  23505 pins_nulls.h  23688 pins_capacitance.h  23940 pins_balance.h  24119 pins_held.h
- *  24335 pins_choose.h  24393 pins_rebuild.h  24611 pins_matrix.h  24762 pins.h  25031 pins_solve.h
- *  25302 subset.h  25430 restrict_kept.h  25627 restrict_analysis.h  25875 restrict_symbolic.h
- *  26070 restrict.h  26301 edit_match.h  26500 edit_place.h  26749 edit_separate.h
- *  27063 edit_order.h  27218 edit_graph.h  27300 edit_join.h  27576 edit.h  27739 edit_factor.h
+ *  22293 update.h  22657 path.h  22758 rank.h  23134 edges.h  23288 choose.h  23522 pins_types.h
+ *  23601 pins_nulls.h  23784 pins_capacitance.h  24036 pins_balance.h  24215 pins_held.h
+ *  24431 pins_choose.h  24489 pins_rebuild.h  24707 pins_matrix.h  24858 pins.h  25127 pins_solve.h
+ *  25398 subset.h  25526 restrict_kept.h  25723 restrict_analysis.h  25971 restrict_symbolic.h
+ *  26166 restrict.h  26397 edit_match.h  26596 edit_place.h  26845 edit_separate.h
+ *  27159 edit_order.h  27314 edit_graph.h  27396 edit_join.h  27672 edit.h  27835 edit_factor.h
  * (save: factors in files)
- *  28024 format.h  28321 decode.h  28469 check.h  28799 write.h  29104 load.h  29372 load_inverse.h
- *  29702 load_calls.h
+ *  28120 format.h  28417 decode.h  28565 check.h  28895 write.h  29200 load.h  29468 load_inverse.h
+ *  29798 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29901 batch_solve.h  30110 batch_factor.h  30311 batch_diagonal.h
+ *  29997 batch_solve.h  30206 batch_factor.h  30407 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30451 hermitian.h  30613 complex_rows.h
+ *  30547 hermitian.h  30709 complex_rows.h
  * (last: undefine every internal macro)
- *  30781 undef.h
+ *  30877 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31057 front.inl.h  31059 product.inl.h  31570 words_undef.inl.h  31647 copy_rows.inl.h
- *  31685 multi_rhs.inl.h  31704 complex_groups.inl.h  31843 multi_rhs_small.inl.h
- *  32015 multi_rhs_tiles.inl.h  32292 sweeps.inl.h  32294 unit_triangle.inl.h  32331 two_rhs.inl.h
- *  32500 small_supernode.inl.h  32681 single_rhs.inl.h  32925 kernel_set.inl.h
- *  32927 complex_small.inl.h  33097 complex_rows.inl.h  33312 inverse_front.inl.h  33597 row.inl.h
- *  33627 change.inl.h  33862 interleave.inl.h  33996 lanes_undef.inl.h
+ *  31155 front.inl.h  31157 product.inl.h  31668 words_undef.inl.h  31745 copy_rows.inl.h
+ *  31783 multi_rhs.inl.h  31802 complex_groups.inl.h  31941 multi_rhs_small.inl.h
+ *  32113 multi_rhs_tiles.inl.h  32390 sweeps.inl.h  32392 unit_triangle.inl.h  32429 two_rhs.inl.h
+ *  32598 small_supernode.inl.h  32779 single_rhs.inl.h  33023 kernel_set.inl.h
+ *  33025 complex_small.inl.h  33195 complex_rows.inl.h  33410 inverse_front.inl.h  33695 row.inl.h
+ *  33725 change.inl.h  33960 interleave.inl.h  34094 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10483,7 +10483,7 @@ static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, 
   return tail;
 }
 
-static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen) {
+static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen, sl_off *estimate) {
   const int64_t most = SLI_LEVELS_MOST * (int64_t)G->n;
   int64_t entries = 0, tried;
   sl_int v, end, start = 0;
@@ -10504,7 +10504,148 @@ static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen) {
     perm[v] = perm[G->n - 1 - v];
     perm[G->n - 1 - v] = other;
   }
+  *estimate = entries <= most ? entries : 0;
   return entries <= most;
+}
+
+/* src/impl/ordering/border.h: dense rows without a diagonal entry, and their place in an order */
+
+static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
+  sl_int p = A->p[j];
+  while (p < A->p[j + 1] && A->i[p] != j) {
+    p++;
+  }
+  return p < A->p[j + 1];
+}
+
+SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
+  return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
+}
+
+SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
+  return G->begin[v + 1] - G->begin[v];
+}
+
+static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
+               sli_septree *septree) {
+  sl_int k, v, last;
+  sl_off e;
+  for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
+  }
+  if (v == G->n) {
+    return;
+  }
+  for (k = 0; k < G->n; k++) {
+    position[perm[k]] = k;
+  }
+  for (k = 0; k < G->n; k++) {
+    const sl_int row = perm[k];
+    if (!sli_order_is_constraint(A, row, sli_graph_degree(G, row))) {
+      continue;
+    }
+    last = -1;
+    for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
+      last = sli_max(last, position[G->to[e]]);
+    }
+    if (last > k) {
+      continue;
+    }
+    v = perm[last];
+    for (; last < k; last++) {
+      perm[last] = perm[last + 1];
+      position[perm[last]] = last;
+    }
+    perm[k] = v;
+    position[v] = k;
+    septree->count = 0;
+  }
+}
+
+/* src/impl/ordering/forest.h: forests: postorder, elimination from the leaves, matrices whose graph is one */
+
+static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
+              sl_int *child, sl_int *sibling) {
+  sl_int k, j, at = 0, roots = -1;
+  for (k = 0; k < n; k++) {
+    child[sequence == NULL ? k : sequence[k]] = -1;
+  }
+  for (k = n - 1; k >= 0; k--) {
+    sl_int *list;
+    j = sequence == NULL ? k : sequence[k];
+    list = parent[j] == -1 ? &roots : &child[parent[j]];
+    sibling[j] = *list;
+    *list = j;
+  }
+  for (j = roots; j != -1;) {
+    while (child[j] != -1) {
+      const sl_int c = child[j];
+      child[j] = -1;
+      j = c;
+    }
+    post[at++] = j;
+    j = sibling[j] != -1 ? sibling[j] : parent[j];
+  }
+}
+
+static sl_int sli_forest_leaves(sl_int n, sl_int *degree, sl_int *only, sl_int *sequence) {
+  sl_int v, u, count = 0;
+  for (v = 0; v < n; v++) {
+    for (u = v; u != -1 && (degree[u] == 0 || degree[u] == 1); u = only[u]) {
+      sequence[count++] = u;
+      if (degree[u] == 1) {
+        degree[only[u]]--;
+        only[only[u]] ^= u;
+      } else {
+        only[u] = -1;
+      }
+      degree[u] = -1;
+    }
+  }
+  return count;
+}
+
+static int sli_order_forest(const sl_csc *A, const sl_int *column, sl_triangle triangle,
+              sl_int *perm, sl_int *parent, sl_int *scratch) {
+  const sl_int n = A->n_cols, nnz = sli_nnz(A);
+  sl_int *degree = scratch, *only = scratch + n, *more = scratch + 2 * (size_t)n;
+  sl_int k, p, edges = 0;
+  if (nnz >= (triangle == SL_TRIANGLE_BOTH ? 3 : 2) * (int64_t)n) {
+    return 0;
+  }
+  memset(degree, 0, 2 * (size_t)n * sizeof(sl_int));
+  for (p = 0; p < nnz; p++) {
+    const sl_int i = A->i[p], j = column[p];
+    const int is_edge = i != j && sli_is_read(triangle, i, j);
+    degree[i] += is_edge;
+    degree[j] += is_edge;
+    only[i] ^= is_edge ? j : 0;
+    only[j] ^= is_edge ? i : 0;
+    edges += is_edge;
+  }
+  for (k = 0; k < n && edges < n; k++) {
+    if (sli_order_is_constraint(A, k, degree[k])) {
+      return 0;
+    }
+  }
+  if (edges >= n || sli_forest_leaves(n, degree, only, more) < n) {
+    return 0;
+  }
+  for (k = 0; k < n && (only[more[k]] == -1 || only[more[k]] == more[k + 1]); k++) {
+    perm[k] = more[k];
+    parent[k] = only[more[k]] == -1 ? -1 : k + 1;
+  }
+  if (k == n) {
+    return 1;
+  }
+  sli_postorder(only, more, n, perm, degree, more + n);
+  for (k = 0; k < n; k++) {
+    degree[perm[k]] = k;
+  }
+  for (k = 0; k < n; k++) {
+    const sl_int up = only[perm[k]];
+    parent[k] = up == -1 ? -1 : degree[up];
+  }
+  return 1;
 }
 
 /* src/impl/ordering/peel.h: rows with at most two neighbors are eliminated before anything else is ordered */
@@ -10513,6 +10654,7 @@ static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen) {
 #define SLI_PEEL_SEARCH 32
 #define SLI_PEEL_LEAVES 8
 #define SLI_PEEL_ENDS 256
+#define SLI_PEEL_ENTRIES 3
 
 typedef struct sli_peel {
   sli_graph rest;
@@ -10631,7 +10773,7 @@ static void sli_peel_round(sli_peel *p) {
 }
 
 static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
-  sl_int *only = p->now, v, u;
+  sl_int *only = p->now, v;
   sl_off e;
   for (v = 0; v < G->n; v++) {
     only[v] = 0;
@@ -10639,17 +10781,10 @@ static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
       only[v] ^= G->to[e];
     }
   }
-  for (v = 0; v < G->n; v++) {
-    for (u = v; p->degree[u] == 0 || p->degree[u] == 1; u = only[u]) {
-      const sl_int is_joined = p->degree[u];
-      p->ends[2 * (size_t)u] = p->ends[2 * (size_t)u + 1] = -1;
-      p->sequence[p->count++] = u;
-      p->degree[u] = -1;
-      if (is_joined) {
-        p->degree[only[u]]--;
-        only[only[u]] ^= u;
-      }
-    }
+  p->count = sli_forest_leaves(G->n, p->degree, only, p->sequence);
+  for (v = 0; v < p->count; v++) {
+    sl_int *ends = p->ends + 2 * (size_t)p->sequence[v];
+    ends[0] = ends[1] = -1;
   }
 }
 
@@ -11047,37 +11182,18 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   q->flops += height * height * q->weight[pivot];
 }
 
-static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int *child,
-                   sl_int *sibling) {
-  sl_int k, v, at = 0, roots = -1;
-  for (k = 0; k < q->pivots; k++) {
-    child[q->sequence[k]] = -1;
-  }
-  for (k = q->pivots - 1; k >= 0; k--) {
-    sl_int *list;
-    v = q->sequence[k];
-    list = q->node[v].into == -1 ? &roots : &child[q->node[v].into];
-    sibling[v] = *list;
-    *list = v;
-  }
-  for (v = roots; v != -1;) {
-    while (child[v] != -1) {
-      const sl_int c = child[v];
-      child[v] = -1;
-      v = c;
-    }
-    start[v] = at;
-    at += q->weight[v];
-    v = sibling[v] != -1 ? sibling[v] : q->node[v].into;
-  }
-}
-
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
-  sl_int *start = q->head;
-  sl_int v, k;
-  sli_quotient_postorder(q, start, q->bucket, q->mark);
+  sl_int *start = q->head, *into = q->list;
+  sl_int v, k, at = 0;
+  for (v = 0; v < q->n; v++) {
+    into[v] = q->node[v].into;
+  }
+  sli_postorder(into, q->sequence, q->pivots, q->sequence, q->bucket, q->mark);
   for (k = 0; k < q->pivots; k++) {
-    perm[start[q->sequence[k]]++] = q->sequence[k];
+    v = q->sequence[k];
+    perm[at] = v;
+    start[v] = at + 1;
+    at += q->weight[v];
   }
   for (v = 0; v < q->n; v++) {
     sl_int root = v;
@@ -11324,9 +11440,18 @@ static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
       opt->purpose == SL_PURPOSE_ONE_FACTOR);
 }
 
+typedef struct sli_order_choice {
+  sl_int *other;
+  sl_off entries;
+  sl_int *parent;
+  int has_tree;
+  int is_wanted, is_there;
+} sli_order_choice;
+
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                 sli_team *team, const sl_allocator *a) {
+                 sli_order_choice *choice, sli_team *team,
+                 const sl_allocator *a) {
   const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
   const int is_hurried = sli_order_is_hurried(ordering, opt);
 #if defined(SLI_METIS)
@@ -11334,7 +11459,8 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
     return sli_order_metis(G, opt->metis_options, perm, scratch, a);
   }
 #endif
-  if (is_hurried && ordering == SL_ORDERING_ND && sli_order_levels(G, perm, scratch)) {
+  if (is_hurried && ordering == SL_ORDERING_ND &&
+    sli_order_levels(G, perm, scratch, &choice->entries)) {
     return SL_OK;
   }
   if (is_hurried) {
@@ -11350,57 +11476,6 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
              : sli_order_compressed(G, ordering == SL_ORDERING_METIS_REFINED, perm,
                         scratch, septree, team, a);
 }
-
-static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
-  sl_int p = A->p[j];
-  while (p < A->p[j + 1] && A->i[p] != j) {
-    p++;
-  }
-  return p < A->p[j + 1];
-}
-
-static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
-               sli_septree *septree) {
-  sl_int k, v, last;
-  sl_off e, largest = 0;
-  for (v = 0; v < G->n; v++) {
-    const sl_off degree = G->begin[v + 1] - G->begin[v];
-    largest = degree > largest ? degree : largest;
-  }
-  if (largest < 8 || largest * largest < G->n) {
-    return;
-  }
-  for (k = 0; k < G->n; k++) {
-    position[perm[k]] = k;
-  }
-  for (k = 0; k < G->n; k++) {
-    const sl_int row = perm[k];
-    const sl_off degree = G->begin[row + 1] - G->begin[row];
-    if (degree < 8 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
-      continue;
-    }
-    last = -1;
-    for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
-      last = sli_max(last, position[G->to[e]]);
-    }
-    if (last > k) {
-      continue;
-    }
-    v = perm[last];
-    for (; last < k; last++) {
-      perm[last] = perm[last + 1];
-      position[perm[last]] = last;
-    }
-    perm[k] = v;
-    position[v] = k;
-    septree->count = 0;
-  }
-}
-
-typedef struct sli_order_choice {
-  sl_int *other;
-  int is_wanted, is_there;
-} sli_order_choice;
 
 static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering ordering,
                 const sl_options *opt, sl_int *perm, sl_int *scratch,
@@ -11426,7 +11501,7 @@ static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering o
     }
     choice->is_there = is_irregular && share < SLI_ORDER_PATHS_LONG;
   }
-  return sli_order_graph(G, ordering, opt, perm, scratch, septree, team, a);
+  return sli_order_graph(G, ordering, opt, perm, scratch, septree, choice, team, a);
 }
 
 static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
@@ -11453,6 +11528,9 @@ static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, cons
   }
   if (status == SL_OK) {
     sli_peel_expand(&p, perm);
+    choice->entries = p.rest.n > 0 && choice->entries == 0
+                ? 0
+                : choice->entries + SLI_PEEL_ENTRIES * (sl_off)p.count;
     septree->count = 0;
     if (choice->is_there) {
       sli_peel_expand(&p, choice->other);
@@ -11473,6 +11551,12 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
+  if (block == 1 && sli_order_is_hurried(ordering, opt) &&
+    sli_order_forest(A, column, triangle, perm, choice->parent, scratch)) {
+    choice->has_tree = 1;
+    choice->entries = 2 * (sl_off)A->n_cols;
+    return SL_OK;
+  }
   memset(&G, 0, sizeof G);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     G.n = A->n_cols / block;
@@ -11493,6 +11577,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
                     a);
   }
   if (status == SL_OK && block > 1) {
+    choice->entries = 0;
     sli_order_expand(G.n, block, perm, septree);
   } else if (status == SL_OK) {
     sli_septree none;
@@ -11542,6 +11627,8 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
   sl_int bad;
   septree->count = 0;
   choice->is_there = 0;
+  choice->entries = 0;
+  choice->has_tree = 0;
   choice->is_wanted =
     ordering == SL_ORDERING_ND &&
     (opt == NULL || (opt->coordinates == NULL && opt->purpose == SL_PURPOSE_MANY_SOLVES));
@@ -11611,7 +11698,7 @@ struct sl_symbolic {
   sl_off ordered_l, ordered_a;
 };
 
-/* src/impl/analysis/etree.h: elimination tree, postorder, and renumbering of the columns */
+/* src/impl/analysis/etree.h: elimination tree, and renumbering of the columns */
 
 static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
   const sl_int *to = rows->to;
@@ -11634,34 +11721,19 @@ static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int 
   }
 }
 
-static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child,
-              sl_int *sibling) {
-  sl_int j, k = 0, root;
-  for (j = 0; j < n; j++) {
-    child[j] = -1;
-  }
-  for (j = n - 1; j >= 0; j--) {
-    if (parent[j] != -1) {
-      sibling[j] = child[parent[j]];
-      child[parent[j]] = j;
-    }
-  }
-  for (root = 0; root < n; root++) {
-    if (parent[root] != -1) {
-      continue;
-    }
-    j = root;
-    for (;;) {
-      while (child[j] != -1) {
-        const sl_int c = child[j];
-        child[j] = sibling[c];
-        j = c;
+static void sli_etree_and_counts(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *counts,
+                 sl_int *mark) {
+  sl_int k, i, p = 0;
+  for (k = 0; k < n; k++) {
+    parent[k] = -1;
+    counts[k] = 1;
+    mark[k] = k;
+    for (; p < rows->begin[k + 1]; p++) {
+      for (i = rows->to[p]; mark[i] != k; i = parent[i]) {
+        parent[i] = parent[i] == -1 ? k : parent[i];
+        mark[i] = k;
+        counts[i]++;
       }
-      post[k++] = j;
-      if (j == root) {
-        break;
-      }
-      j = parent[j];
     }
   }
 }
@@ -11744,6 +11816,7 @@ typedef struct sli_amalgamation {
   sl_int *width;
   sl_int *below;
   sl_off *zeros;
+  sl_off *cost;
   sl_int *merged_into;
   unsigned char *is_tied;
   int relaxes;
@@ -11785,7 +11858,8 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 #define SLI_COST_SUPER_ONE_FACTOR 140
 #define SLI_COST_WIDE_ONE_FACTOR 100
 
-static sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
+SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width,
+                      sl_int below) {
   return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
        (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
        (width <= SLI_TILE        ? 0
@@ -11797,51 +11871,47 @@ static sl_off sli_new_zeros(const sli_amalgamation *g, sl_int c, sl_int p) {
   return (sl_off)g->width[c] * (g->width[p] + g->below[p] - g->below[c]);
 }
 
-static int sli_may_merge(const sli_amalgamation *g, sl_int c, sl_int p, sl_int width,
-             sl_off zeros) {
-  const sl_int below = g->below[p];
-  const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
-  return 100 * zeros <= SLI_ZEROS_MOST * stored &&
-       sli_supernode_cost(g, width, below) <=
-         sli_supernode_cost(g, g->width[c], g->below[c]) +
-           sli_supernode_cost(g, g->width[p], below);
+SLI_INLINE int sli_overfills_tile(const sli_amalgamation *g, sl_int c, sl_int p) {
+  return g->is_for_one_factor && g->below[c] == 1 && g->below[p] == 1 &&
+       sli_max(g->width[c], g->width[p]) == SLI_TILE - 1;
 }
 
-static void sli_amalgamate_children(sli_amalgamation *g, sl_int p, uint64_t *list, sl_int count,
-                  uint64_t *scratch) {
-  sl_int k;
-  for (k = 0; k < count; k++) {
-    const sl_int c = sli_value(list[k]);
-    const sl_off cost = sli_new_zeros(g, c, p);
-    list[k] = sli_keyed(cost < INT32_MAX ? (sl_int)cost : INT32_MAX, c); /* untested: 2^31 */
-  }
-  sli_sort(list, count, scratch);
-  for (k = 0; k < count; k++) {
-    const sl_int c = sli_value(list[k]), width = g->width[c] + g->width[p];
-    const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
-    if ((g->is_tied != NULL && g->is_tied[c]) ||
-      (g->relaxes && sli_may_merge(g, c, p, width, zeros))) {
-      g->width[p] = width;
-      g->zeros[p] = zeros;
-      g->merged_into[c] = p;
-    }
+SLI_INLINE void sli_amalgamate_child(sli_amalgamation *g, sl_int p, sl_int c, sl_off *cost) {
+  const sl_int below = g->below[p], width = g->width[c] + g->width[p];
+  const sl_off zeros = g->zeros[c] + g->zeros[p] + sli_new_zeros(g, c, p);
+  const sl_off stored = (sl_off)width * (width + 1) / 2 + (sl_off)width * below;
+  const sl_off merged = sli_supernode_cost(g, width, below);
+  if ((g->is_tied != NULL && g->is_tied[c]) ||
+    (g->relaxes && 100 * zeros <= SLI_ZEROS_MOST * stored && merged <= g->cost[c] + *cost &&
+     !sli_overfills_tile(g, c, p))) {
+    g->width[p] = width;
+    g->zeros[p] = zeros;
+    g->merged_into[c] = p;
+    *cost = merged;
   }
 }
 
 static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, uint64_t *list,
                uint64_t *scratch) {
-  sl_int s, c, count;
+  sl_int s, c, k, count;
   for (s = 0; s < g->count; s++) {
     child[s] = -1;
   }
   for (s = 0; s < g->count; s++) {
+    sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
     count = 0;
     for (c = child[s]; c != -1; c = sibling[c]) {
-      list[count++] = sli_keyed(0, c);
+      const sl_off zeros = sli_new_zeros(g, c, s);
+      list[count++] =
+        sli_keyed(zeros < INT32_MAX ? (sl_int)zeros : INT32_MAX, c); /* untested: 2^31 */
     }
-    if (count > 0) {
-      sli_amalgamate_children(g, s, list, count, scratch);
+    if (count > 1) {
+      sli_sort(list, count, scratch);
     }
+    for (k = 0; k < count; k++) {
+      sli_amalgamate_child(g, s, sli_value(list[k]), &cost);
+    }
+    g->cost[s] = cost;
     if (g->parent[s] != -1) {
       sibling[s] = child[g->parent[s]];
       child[g->parent[s]] = s;
@@ -11879,7 +11949,7 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
        *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
   const sl_int count = sli_find_tops(g, n, sequence, super_of, top, tree, at);
   sl_int k, c, column = 0;
-  sli_postorder(tree, count, post, at, number);
+  sli_postorder(tree, NULL, count, post, at, number);
   for (k = 0; k < count; k++) {
     number[post[k]] = k;
     at[post[k]] = column;
@@ -11948,7 +12018,7 @@ static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
     const int continues = end < n && super_of[end] == super_of[end - 1];
     tree[s] = continues ? s + 1 : up == -1 ? -1 : order[up];
   }
-  sli_postorder(tree, count, post, number, below + n);
+  sli_postorder(tree, NULL, count, post, number, below + n);
   for (k = 0; k < count; k++) {
     number[post[k]] = k;
   }
@@ -11997,6 +12067,7 @@ typedef struct sli_analysis {
   const sl_csc *A;
   sli_hash pattern;
   sl_int *column;
+  int walks;
   sl_int side;
   sli_pattern rows, columns;
   sli_amalgamation amalgamation;
@@ -12038,7 +12109,9 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
       const sl_int i = a + b - k, at = row_at[k]++;
       w->rows.to[at] = i;
       w->rows.from[at] = p;
-      w->columns.to[column_at[i]++] = k;
+      if (!w->walks) {
+        w->columns.to[column_at[i]++] = k;
+      }
     }
   }
 }
@@ -12557,6 +12630,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->old_of = SLI_TAKE(b, sl_int, n);
   w->new_of = SLI_TAKE(b, sl_int, n);
   w->parent = SLI_TAKE(b, sl_int, n);
+  w->choice.parent = w->parent;
   w->counts = SLI_TAKE(b, sl_int, n);
   w->super_of = SLI_TAKE(b, sl_int, n);
   w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
@@ -12567,7 +12641,8 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   if (w->growing != NULL) {
     w->list = (uint64_t *)(void *)w->growing;
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
-    w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.zeros + n);
+    w->amalgamation.cost = w->amalgamation.zeros + n;
+    w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
   }
   if (w->pairs != NULL) {
     w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
@@ -12601,12 +12676,18 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
   S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
-static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
-  sl_int k;
-  for (k = 0; k < w->n; k++) {
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order, int has_counts) {
+  sl_int k = 0;
+  while (k < w->n && order[k] == k) {
+    k++;
+  }
+  if (k == w->n) {
+    return;
+  }
+  for (k = 0; k < w->n && has_counts; k++) {
     w->scratch[k] = w->counts[order[k]];
   }
-  if (w->n > 0) {
+  if (has_counts) {
     memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
   }
   sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
@@ -12630,7 +12711,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   }
   if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
             order, w->scratch)) {
-    sli_analysis_reorder(w, order);
+    sli_analysis_reorder(w, order, 1);
     for (k = 0; k < w->n; k++) {
       w->is_first[k] = w->pairs[w->old_of[k]];
     }
@@ -12641,12 +12722,25 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   const sl_int n = w->n;
   const int keeps_order =
     opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
-  sl_int *order = w->scratch, *more = w->scratch + n;
+  sl_int *order = (sl_int *)(void *)w->list;
+  sl_int *child = w->scratch, *more = w->scratch + n, k;
   sli_order_natural(n, w->old_of);
-  sli_etree(n, &w->rows, w->parent, order);
-  sli_postorder(w->parent, n, order, more, more + n);
-  sli_relabel(order, n, w->old_of, w->new_of, w->parent, more);
-  sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+  sli_order_natural(n, w->new_of);
+  for (k = 0; k < n && w->choice.has_tree; k++) {
+    w->counts[k] = 1 + (w->parent[k] != -1);
+  }
+  if (!w->choice.has_tree) {
+    if (w->walks) {
+      sli_etree_and_counts(n, &w->rows, w->parent, w->counts, more);
+    } else {
+      sli_etree(n, &w->rows, w->parent, more);
+    }
+    sli_postorder(w->parent, NULL, n, order, child, more);
+    sli_analysis_reorder(w, order, w->walks);
+  }
+  if (!w->walks) {
+    sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+  }
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
   w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
@@ -12655,12 +12749,11 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     sli_analysis_tie(w);
   }
   if (w->amalgamation.relaxes || w->pairs != NULL) {
-    sli_amalgamate(&w->amalgamation, order, more, w->list, w->list + n);
+    sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
   }
-  order = (sl_int *)(void *)w->list;
   sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
               w->scratch);
-  sli_analysis_reorder(w, order);
+  sli_analysis_reorder(w, order, 1);
   if (w->pairs != NULL) {
     sli_analysis_split(w, order);
   }
@@ -12672,6 +12765,8 @@ static double sli_analysis_lap(sli_analysis *w) {
   return w->clock - before;
 }
 
+#define SLI_WALKS_MOST 12
+
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                 sl_stats *stats) {
   double lap;
@@ -12679,6 +12774,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
   for (k = 0; k < w->n; k++) {
     w->scratch[w->perm[k]] = k;
   }
+  w->walks = w->choice.entries > 0 && w->choice.entries <= SLI_WALKS_MOST * (sl_off)w->n;
   sli_pattern_fill(w, stats->symbolic.triangle, team);
   stats->symbolic.seconds_analyze += sli_analysis_lap(w);
   sli_analyze_tree(w, opt, stats);
@@ -30961,6 +31057,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_COARSEN_STALL
 #undef SLI_LEVELS_MAX
 #undef SLI_LEVELS_MOST
+#undef SLI_WALKS_MOST
 #undef SLI_LEVELS_TRY
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE
@@ -30990,6 +31087,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PEEL_SEARCH
 #undef SLI_PEEL_LEAVES
 #undef SLI_PEEL_ENDS
+#undef SLI_PEEL_ENTRIES
 #undef SLI_COMPRESS_SHARE
 #undef SLI_LEVELSET_SHARE
 #undef SLI_VOLUME_BORDER

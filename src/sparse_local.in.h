@@ -96,6 +96,8 @@ extern "C" {
 #include "impl/ordering/nd.h"
 #include "impl/ordering/compress.h"
 #include "impl/ordering/levels.h"
+#include "impl/ordering/border.h"
+#include "impl/ordering/forest.h"
 #include "impl/ordering/peel.h"
 #include "impl/ordering/quotient.h"
 #include "impl/ordering/graph_kind.h"

@@ -171,12 +171,71 @@ static void memory_fails_at_every_point(void **state) {
     gen_list_free(&t);
 }
 
+/* Forests for one factor, or by minimum degree: a matrix without duplicates is ordered without a
+ * graph, one with duplicates by lists, and both alike. A hub without a diagonal entry, which
+ * would be a null pivot, is one of the cases. */
+static void forests_have_one_order(void **state) {
+    (void)state;
+    enum { PATH, BINARY, RANDOM, SEVERAL, HUB, CONSTRAINT, EMPTY, KINDS, N = 200 };
+    for (int kind = 0; kind < KINDS; kind++) {
+        gen_list_t t = gen_list(N);
+        uint64_t seed = 7;
+        for (sl_int k = 1; k < N && kind != EMPTY; k++) {
+            if (kind != SEVERAL || k % 23 > 0) {
+                gen_add(&t, k,
+                        kind == BINARY                      ? (k - 1) / 2
+                        : kind == RANDOM || kind == SEVERAL ? gen_below(&seed, k)
+                        : kind == HUB || kind == CONSTRAINT ? 0
+                                                            : k - 1,
+                        1.0);
+            }
+        }
+        rename_rows(&t);
+        for (sl_int k = 0; k < N; k++) {
+            int is_hub = 0; /* has the row more than 7 neighbors? */
+            for (size_t e = 0; e < t.count && kind == CONSTRAINT; e++) {
+                is_hub += (t.row[e] != t.col[e]) && (t.row[e] == k || t.col[e] == k);
+            }
+            if (is_hub < 8) {
+                gen_add(&t, k, k, 9.0);
+            }
+        }
+        for (int is_mindeg = 0; is_mindeg < 2; is_mindeg++) {
+            sl_int *perm = test_ints(N);
+            for (int style = 0; style < GEN_STYLES; style++) {
+                gen_matrix_t M = gen_store(&t, gen_style(style), 1);
+                sl_options opt = options_none();
+                sl_symbolic *S = NULL;
+                sl_stats stats;
+                memset(&stats, 0, sizeof stats);
+                opt.ordering = is_mindeg ? SL_ORDERING_MINDEG : SL_ORDERING_ND;
+                opt.purpose = SL_PURPOSE_ONE_FACTOR;
+                SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
+                const sl_symbolic_arrays v = sl_symbolic_view(S);
+                NOTHING_WRONG(check_permutation(v.n, v.perm, v.iperm));
+                NOTHING_WRONG(check_supernodes(&v));
+                NOTHING_WRONG(check_structure(&v, &M.view, 0));
+                assert_true(stats.symbolic.nnz_l == 2 * N - stats.symbolic.components);
+                if (style == 0) {
+                    memcpy(perm, v.perm, N * sizeof *perm);
+                }
+                assert_memory_equal(perm, v.perm, N * sizeof *perm);
+                sl_symbolic_free(S);
+                gen_matrix_free(&M);
+            }
+            free(perm);
+        }
+        gen_list_free(&t);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(trees_and_chains_are_halved),
         cmocka_unit_test(chains_of_a_grid_are_eliminated_first),
         cmocka_unit_test(hostile_graphs_are_ordered),
         cmocka_unit_test(an_edge_may_be_there_twice),
+        cmocka_unit_test(forests_have_one_order),
         cmocka_unit_test(memory_fails_at_every_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

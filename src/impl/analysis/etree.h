@@ -1,4 +1,4 @@
-/* etree.h: elimination tree, postorder, and renumbering of the columns */
+/* etree.h: elimination tree, and renumbering of the columns */
 #ifndef SLI_ANALYSIS_ETREE_H
 #define SLI_ANALYSIS_ETREE_H
 
@@ -27,37 +27,22 @@ static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int 
     }
 }
 
-/* post[k] := the k-th node of a forest in postorder, with children in ascending order. parent[j] >
- * j is not required. child, sibling: n of scratch each. */
-static void sli_postorder(const sl_int *parent, sl_int n, sl_int *post, sl_int *child,
-                          sl_int *sibling) {
-    sl_int j, k = 0, root;
-    for (j = 0; j < n; j++) {
-        child[j] = -1;
-    }
-    for (j = n - 1; j >= 0; j--) { /* backwards: the lists then ascend */
-        if (parent[j] != -1) {
-            sibling[j] = child[parent[j]];
-            child[parent[j]] = j;
-        }
-    }
-    for (root = 0; root < n; root++) {
-        if (parent[root] != -1) {
-            continue;
-        }
-        j = root;
-        for (;;) {
-            /* Descend to the first leaf. A visited child is removed from its list. */
-            while (child[j] != -1) {
-                const sl_int c = child[j];
-                child[j] = sibling[c];
-                j = c;
+/* The same tree, and counts[j] := entries of column j of L, diagonal included: the subtree of each
+ * row is walked as a whole. Where columns of L are short, this takes less time than what is nearly
+ * linear in the entries of A. mark: n of scratch. [LDL05] */
+static void sli_etree_and_counts(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *counts,
+                                 sl_int *mark) {
+    sl_int k, i, p = 0;
+    for (k = 0; k < n; k++) {
+        parent[k] = -1;
+        counts[k] = 1;
+        mark[k] = k;
+        for (; p < rows->begin[k + 1]; p++) {
+            for (i = rows->to[p]; mark[i] != k; i = parent[i]) {
+                parent[i] = parent[i] == -1 ? k : parent[i];
+                mark[i] = k;
+                counts[i]++;
             }
-            post[k++] = j;
-            if (j == root) {
-                break;
-            }
-            j = parent[j];
         }
     }
 }

@@ -27,6 +27,7 @@ typedef struct sli_analysis {
     const sl_csc *A;
     sli_hash pattern; /* of A */
     sl_int *column;   /* nnz: of each entry of A */
+    int walks;        /* tree and counts need rows only: columns.to is not filled */
     sl_int side;      /* an entry of A is read if side (row - column) >= 0 */
     sli_pattern rows, columns;
     sli_amalgamation amalgamation;
@@ -70,7 +71,9 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
             const sl_int i = a + b - k, at = row_at[k]++;
             w->rows.to[at] = i;
             w->rows.from[at] = p;
-            w->columns.to[column_at[i]++] = k;
+            if (!w->walks) {
+                w->columns.to[column_at[i]++] = k;
+            }
         }
     }
 }

@@ -26,6 +26,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n);
+    w->choice.parent = w->parent; /* the ordering of a forest needs none of this memory */
     w->counts = SLI_TAKE(b, sl_int, n);
     w->super_of = SLI_TAKE(b, sl_int, n);
     w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
@@ -34,10 +35,11 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
     /* before that, 2 n counters for each worker */
     w->growing = SLI_TAKE(b, sli_growing, n * (uint64_t)(w->workers / 5 + 1));
-    if (w->growing != NULL) { /* the next three are free when it is used, and 28 n bytes long */
+    if (w->growing != NULL) { /* the next four are free when it is used, and 36 n bytes long */
         w->list = (uint64_t *)(void *)w->growing;
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
-        w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.zeros + n);
+        w->amalgamation.cost = w->amalgamation.zeros + n;
+        w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
     }
     if (w->pairs != NULL) {
         w->amalgamation.is_tied = SLI_TAKE(b, unsigned char, n);
@@ -72,13 +74,19 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
-/* Renumbers tree and counts: order[k] = the old number of the new column k. */
-static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
-    sl_int k;
-    for (k = 0; k < w->n; k++) {
+/* Renumbers the tree, and counts if there are any: order[k] = the old number of column k. */
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order, int has_counts) {
+    sl_int k = 0;
+    while (k < w->n && order[k] == k) {
+        k++;
+    }
+    if (k == w->n) {
+        return;
+    }
+    for (k = 0; k < w->n && has_counts; k++) {
         w->scratch[k] = w->counts[order[k]];
     }
-    if (w->n > 0) {
+    if (has_counts) {
         memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
     }
     sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
@@ -104,7 +112,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
     }
     if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
                         order, w->scratch)) {
-        sli_analysis_reorder(w, order);
+        sli_analysis_reorder(w, order, 1);
         for (k = 0; k < w->n; k++) {
             w->is_first[k] = w->pairs[w->old_of[k]];
         }
@@ -116,12 +124,25 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     const sl_int n = w->n;
     const int keeps_order =
         opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
-    sl_int *order = w->scratch, *more = w->scratch + n;
+    sl_int *order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
+    sl_int *child = w->scratch, *more = w->scratch + n, k;
     sli_order_natural(n, w->old_of);
-    sli_etree(n, &w->rows, w->parent, order);
-    sli_postorder(w->parent, n, order, more, more + n);
-    sli_relabel(order, n, w->old_of, w->new_of, w->parent, more);
-    sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+    sli_order_natural(n, w->new_of);
+    for (k = 0; k < n && w->choice.has_tree; k++) {
+        w->counts[k] = 1 + (w->parent[k] != -1);
+    }
+    if (!w->choice.has_tree) {
+        if (w->walks) {
+            sli_etree_and_counts(n, &w->rows, w->parent, w->counts, more);
+        } else {
+            sli_etree(n, &w->rows, w->parent, more);
+        }
+        sli_postorder(w->parent, NULL, n, order, child, more);
+        sli_analysis_reorder(w, order, w->walks);
+    }
+    if (!w->walks) {
+        sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+    }
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
     w->amalgamation.relaxes = opt == NULL || opt->relaxation != SL_RELAXATION_NONE;
@@ -130,12 +151,11 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
         sli_analysis_tie(w);
     }
     if (w->amalgamation.relaxes || w->pairs != NULL) {
-        sli_amalgamate(&w->amalgamation, order, more, w->list, w->list + n);
+        sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
     }
-    order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
     sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
                           w->scratch);
-    sli_analysis_reorder(w, order);
+    sli_analysis_reorder(w, order, 1);
     if (w->pairs != NULL) {
         sli_analysis_split(w, order);
     }
@@ -148,6 +168,9 @@ static double sli_analysis_lap(sli_analysis *w) {
     return w->clock - before;
 }
 
+/* Up to this many entries of L a column, walks find tree and counts in less time. */
+#define SLI_WALKS_MOST 12
+
 /* Finds everything that depends on the order in w->perm. */
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                               sl_stats *stats) {
@@ -156,6 +179,7 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
     for (k = 0; k < w->n; k++) {
         w->scratch[w->perm[k]] = k;
     }
+    w->walks = w->choice.entries > 0 && w->choice.entries <= SLI_WALKS_MOST * (sl_off)w->n;
     sli_pattern_fill(w, stats->symbolic.triangle, team);
     stats->symbolic.seconds_analyze += sli_analysis_lap(w);
     sli_analyze_tree(w, opt, stats);

@@ -40,9 +40,9 @@ static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, 
 }
 
 /* Orders G if it is thin: each component from the level that is farthest from one of its ends. Fill
- * stays within the front that moves along each branch. Returns whether perm is an order. seen: n of
- * scratch. */
-static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen) {
+ * stays within the front that moves along each branch. Returns whether perm is an order, and sets
+ * *estimate to about the entries of L. seen: n of scratch. */
+static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen, sl_off *estimate) {
     const int64_t most = SLI_LEVELS_MOST * (int64_t)G->n;
     int64_t entries = 0, tried;
     sl_int v, end, start = 0;
@@ -63,6 +63,7 @@ static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen) {
         perm[v] = perm[G->n - 1 - v];
         perm[G->n - 1 - v] = other;
     }
+    *estimate = entries <= most ? entries : 0;
     return entries <= most;
 }
 

@@ -2,7 +2,9 @@
 #ifndef SLI_ORDERING_ORDER_H
 #define SLI_ORDERING_ORDER_H
 
+#include "border.h"
 #include "compress.h"
+#include "forest.h"
 #include "graph_kind.h"
 #include "peel.h"
 #include "../matrix/permute.h"
@@ -120,10 +122,21 @@ static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
             opt->purpose == SL_PURPOSE_ONE_FACTOR);
 }
 
+/* A second order, by minimum degree, of a graph on which it may be the better one. The analysis
+ * counts both. */
+typedef struct sli_order_choice {
+    sl_int *other; /* n rows */
+    sl_off entries; /* about those of L; 0: not known */
+    sl_int *parent; /* n rows: the elimination tree of an order in postorder, if has_tree */
+    int has_tree;   /* A is a forest, and L has no fill */
+    int is_wanted, is_there;
+} sli_order_choice;
+
 /* Orders a graph of rows or of blocks of rows. perm and septree hold its vertices. */
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                                 sli_team *team, const sl_allocator *a) {
+                                 sli_order_choice *choice, sli_team *team,
+                                 const sl_allocator *a) {
     const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
     const int is_hurried = sli_order_is_hurried(ordering, opt);
 #if defined(SLI_METIS)
@@ -131,7 +144,8 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
         return sli_order_metis(G, opt->metis_options, perm, scratch, a);
     }
 #endif
-    if (is_hurried && ordering == SL_ORDERING_ND && sli_order_levels(G, perm, scratch)) {
+    if (is_hurried && ordering == SL_ORDERING_ND &&
+        sli_order_levels(G, perm, scratch, &choice->entries)) {
         return SL_OK;
     }
     if (is_hurried) {
@@ -147,64 +161,6 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
                        : sli_order_compressed(G, ordering == SL_ORDERING_METIS_REFINED, perm,
                                               scratch, septree, team, a);
 }
-
-/* Does A store a diagonal entry in column j? */
-static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
-    sl_int p = A->p[j];
-    while (p < A->p[j + 1] && A->i[p] != j) {
-        p++;
-    }
-    return p < A->p[j + 1];
-}
-
-/* A row with many neighbors and without a diagonal entry is a constraint, as in [L m; m' 0] with a
- * Laplacian L and weights m. After all of its neighbors, it would follow a null pivot of L. So the
- * last one of them moves behind it: L without that row is definite. Both are in the last dense
- * block, and the exchange costs nothing. position: n of scratch. */
-static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
-                             sli_septree *septree) {
-    sl_int k, v, last;
-    sl_off e, largest = 0;
-    for (v = 0; v < G->n; v++) {
-        const sl_off degree = G->begin[v + 1] - G->begin[v];
-        largest = degree > largest ? degree : largest;
-    }
-    if (largest < 8 || largest * largest < G->n) {
-        return; /* no row is a constraint: usual */
-    }
-    for (k = 0; k < G->n; k++) {
-        position[perm[k]] = k;
-    }
-    for (k = 0; k < G->n; k++) {
-        const sl_int row = perm[k];
-        const sl_off degree = G->begin[row + 1] - G->begin[row];
-        if (degree < 8 || degree * degree < G->n || sli_order_has_diagonal(A, row)) {
-            continue;
-        }
-        last = -1;
-        for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
-            last = sli_max(last, position[G->to[e]]);
-        }
-        if (last > k) {
-            continue;
-        }
-        v = perm[last];
-        for (; last < k; last++) {
-            perm[last] = perm[last + 1];
-            position[perm[last]] = last;
-        }
-        perm[k] = v;
-        position[v] = k;
-        septree->count = 0; /* its nodes would no longer be contiguous */
-    }
-}
-
-/* A second order, by minimum degree, of a graph on which it may be the better one. The analysis
- * counts both. */
-typedef struct sli_order_choice {
-    sl_int *other; /* n rows */
-    int is_wanted, is_there;
-} sli_order_choice;
 
 /* Orders a graph as sli_order_graph does, and *other by minimum degree if that is wanted and the
  * graph irregular. Minimum degree comes first, as it takes a fraction of the time, and its tree may
@@ -234,7 +190,7 @@ static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering o
         }
         choice->is_there = is_irregular && share < SLI_ORDER_PATHS_LONG;
     }
-    return sli_order_graph(G, ordering, opt, perm, scratch, septree, team, a);
+    return sli_order_graph(G, ordering, opt, perm, scratch, septree, choice, team, a);
 }
 
 /* The same, after rows with at most two neighbors have been eliminated. */
@@ -262,6 +218,9 @@ static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, cons
     }
     if (status == SL_OK) {
         sli_peel_expand(&p, perm);
+        choice->entries = p.rest.n > 0 && choice->entries == 0
+                              ? 0
+                              : choice->entries + SLI_PEEL_ENTRIES * (sl_off)p.count;
         septree->count = 0; /* of the rows that were left only */
         if (choice->is_there) {
             sli_peel_expand(&p, choice->other);
@@ -283,6 +242,12 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
+    if (block == 1 && sli_order_is_hurried(ordering, opt) &&
+        sli_order_forest(A, column, triangle, perm, choice->parent, scratch)) {
+        choice->has_tree = 1;
+        choice->entries = 2 * (sl_off)A->n_cols;
+        return SL_OK;
+    }
     memset(&G, 0, sizeof G);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         G.n = A->n_cols / block;
@@ -303,6 +268,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
                                       a);
     }
     if (status == SL_OK && block > 1) {
+        choice->entries = 0; /* those counted are blocks */
         sli_order_expand(G.n, block, perm, septree);
     } else if (status == SL_OK) {
         sli_septree none;
@@ -349,7 +315,7 @@ static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
 
 /* Finds the elimination order of a checked symmetric pattern. perm := n rows; septree := the
  * separator tree if the ordering has one (n entries of each array); choice: another order where
- * dissection, for many solves, may not be the best; column: of each entry; scratch: n. */
+ * dissection, for many solves, may not be the best; column: of each entry; scratch: 4n. */
 static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle triangle,
                            const sl_options *opt, sl_int *perm, sl_int *scratch,
                            sli_septree *septree, sli_order_choice *choice, sli_team *team,
@@ -358,6 +324,8 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
     sl_int bad;
     septree->count = 0;
     choice->is_there = 0;
+    choice->entries = 0;
+    choice->has_tree = 0;
     choice->is_wanted =
         ordering == SL_ORDERING_ND &&
         (opt == NULL || (opt->coordinates == NULL && opt->purpose == SL_PURPOSE_MANY_SOLVES));

@@ -2,6 +2,7 @@
 #ifndef SLI_ORDERING_PEEL_H
 #define SLI_ORDERING_PEEL_H
 
+#include "forest.h"
 #include "graph.h"
 #include "../base/alloc.h"
 
@@ -14,6 +15,8 @@
  * than one row in SLI_PEEL_ENDS is left to them. For little fill there is no limit. */
 #define SLI_PEEL_LEAVES 8
 #define SLI_PEEL_ENDS 256
+/* Most entries of a column of L that belongs to an eliminated row. */
+#define SLI_PEEL_ENTRIES 3
 
 /* Eliminates rows in rounds. In a round no two neighbors are eliminated, so that a chain is halved
  * and a tree of n rows disappears in O(log n) rounds: that is the length of all paths in the
@@ -142,10 +145,9 @@ static void sli_peel_round(sli_peel *p) {
     }
 }
 
-/* Eliminates rows with at most one neighbor until there are none, each followed by that neighbor if
- * it can be next. The XOR of the neighbors that are left is the only one. */
+/* Eliminates rows with at most one neighbor until there are none. */
 static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
-    sl_int *only = p->now, v, u;
+    sl_int *only = p->now, v;
     sl_off e;
     for (v = 0; v < G->n; v++) {
         only[v] = 0;
@@ -153,17 +155,10 @@ static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
             only[v] ^= G->to[e];
         }
     }
-    for (v = 0; v < G->n; v++) {
-        for (u = v; p->degree[u] == 0 || p->degree[u] == 1; u = only[u]) {
-            const sl_int is_joined = p->degree[u];
-            p->ends[2 * (size_t)u] = p->ends[2 * (size_t)u + 1] = -1;
-            p->sequence[p->count++] = u;
-            p->degree[u] = -1;
-            if (is_joined) {
-                p->degree[only[u]]--;
-                only[only[u]] ^= u;
-            }
-        }
+    p->count = sli_forest_leaves(G->n, p->degree, only, p->sequence);
+    for (v = 0; v < p->count; v++) {
+        sl_int *ends = p->ends + 2 * (size_t)p->sequence[v];
+        ends[0] = ends[1] = -1;
     }
 }
 

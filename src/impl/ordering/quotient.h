@@ -2,6 +2,7 @@
 #ifndef SLI_ORDERING_QUOTIENT_H
 #define SLI_ORDERING_QUOTIENT_H
 
+#include "forest.h"
 #include "graph.h"
 #include "../base/alloc.h"
 
@@ -361,41 +362,21 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
     q->flops += height * height * q->weight[pivot];
 }
 
-/* start[v] := where the rows of pivot v go in a postorder of the tree of absorbed elements. Fronts
- * that update each other are then close together, which the analysis reads a third faster. */
-static void sli_quotient_postorder(const sli_quotient *q, sl_int *start, sl_int *child,
-                                   sl_int *sibling) {
-    sl_int k, v, at = 0, roots = -1;
-    for (k = 0; k < q->pivots; k++) {
-        child[q->sequence[k]] = -1;
-    }
-    for (k = q->pivots - 1; k >= 0; k--) { /* backwards: the lists then ascend */
-        sl_int *list;
-        v = q->sequence[k];
-        list = q->node[v].into == -1 ? &roots : &child[q->node[v].into];
-        sibling[v] = *list;
-        *list = v;
-    }
-    for (v = roots; v != -1;) {
-        while (child[v] != -1) {
-            const sl_int c = child[v];
-            child[v] = -1; /* the others follow by their list of siblings */
-            v = c;
-        }
-        start[v] = at;
-        at += q->weight[v];
-        v = sibling[v] != -1 ? sibling[v] : q->node[v].into;
-    }
-}
-
-/* Writes the rows in a postorder of their pivots. A merged row follows the pivot at the end of its
- * chain. Dense rows are there already. */
+/* Writes the rows in a postorder of the tree of absorbed elements: fronts that update each other
+ * are then close together, which the analysis reads a third faster. A merged row follows the pivot
+ * at the end of its chain. Dense rows are there already. */
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
-    sl_int *start = q->head;
-    sl_int v, k;
-    sli_quotient_postorder(q, start, q->bucket, q->mark);
+    sl_int *start = q->head, *into = q->list; /* the lists are done with */
+    sl_int v, k, at = 0;
+    for (v = 0; v < q->n; v++) {
+        into[v] = q->node[v].into;
+    }
+    sli_postorder(into, q->sequence, q->pivots, q->sequence, q->bucket, q->mark);
     for (k = 0; k < q->pivots; k++) {
-        perm[start[q->sequence[k]]++] = q->sequence[k];
+        v = q->sequence[k];
+        perm[at] = v;
+        start[v] = at + 1;
+        at += q->weight[v];
     }
     for (v = 0; v < q->n; v++) {
         sl_int root = v;
