@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8ff990f7fb0ee0ce
+ * FNV-1a of the lines after this comment, without the license: 9b41de326797e4d7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,44 +48,44 @@
  *  10564 forest.h  10651 peel.h  10851 quotient.h  11268 graph_kind.h  11339 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11664 symbolic_types.h  11701 etree.h  11761 counts.h  11810 supernodes.h  12049 pattern.h
- *  12139 structure.h  12333 schedule.h  12613 symbolic.h  13084 reach.h
+ *  12139 structure.h  12342 schedule.h  12622 symbolic.h  13093 reach.h
  * (factor: the numbers of L and D)
- *  13355 factor_types.h  13779 storage.h  13917 pivot_search.h  14263 pivoted.h  14332 scatter.h
- *  14490 uplooking.h  14562 null_product.h  14766 null_dense.h  14843 null_basis.h
- *  15163 null_vectors.h  15305 multifrontal.h  15499 gather.h  15547 kept.h  15717 front_tasks.h
- *  16060 null_center.h  16184 nullspace.h  16371 growth.h  16449 factor_setup.h  16774 factor.h
- *  16984 leftlooking.h  17131 factor_query.h  17266 combination.h
+ *  13364 factor_types.h  13788 storage.h  13926 pivot_search.h  14272 pivoted.h  14341 scatter.h
+ *  14499 uplooking.h  14571 null_product.h  14775 null_dense.h  14852 null_basis.h
+ *  15172 null_vectors.h  15314 multifrontal.h  15508 gather.h  15556 kept.h  15726 front_tasks.h
+ *  16069 null_center.h  16193 nullspace.h  16380 growth.h  16458 factor_setup.h  16783 factor.h
+ *  16993 leftlooking.h  17140 factor_query.h  17275 combination.h
  * (solve: full and local solves)
- *  17327 region_types.h  17431 work.h  17531 query.h  17747 singular.h  18004 backward.h
- *  18034 sweep_tasks.h  18365 sweep.h  18573 compile.h  18766 plan.h  18873 local.h  19025 parts.h
- *  19314 refine.h  19493 refine_local.h  19709 rcond.h  19868 defects.h
+ *  17336 region_types.h  17440 work.h  17540 query.h  17756 singular.h  18013 backward.h
+ *  18043 sweep_tasks.h  18374 sweep.h  18582 compile.h  18775 plan.h  18882 local.h  19034 parts.h
+ *  19323 refine.h  19502 refine_local.h  19718 rcond.h  19877 defects.h
  * (inverse: entries of the inverse, regions)
- *  19927 traversal.h  20176 traversal_run.h  20369 row_sets.h  20403 unit_vectors.h
- *  20630 bilinear.h  20802 entries.h  21079 block.h  21314 reserve.h  21506 selected.h
- *  21716 selected_query.h  21818 region_choose.h  22045 region.h
+ *  19936 traversal.h  20185 traversal_run.h  20378 row_sets.h  20412 unit_vectors.h
+ *  20639 bilinear.h  20811 entries.h  21088 block.h  21323 reserve.h  21515 selected.h
+ *  21725 selected_query.h  21827 region_choose.h  22054 region.h
  * (change: a factor that follows changes of its matrix)
- *  22293 update.h  22657 path.h  22758 rank.h  23134 edges.h  23288 choose.h  23522 pins_types.h
- *  23601 pins_nulls.h  23784 pins_capacitance.h  24036 pins_balance.h  24215 pins_held.h
- *  24431 pins_choose.h  24489 pins_rebuild.h  24707 pins_matrix.h  24858 pins.h  25127 pins_solve.h
- *  25398 subset.h  25526 restrict_kept.h  25723 restrict_analysis.h  25971 restrict_symbolic.h
- *  26166 restrict.h  26397 edit_match.h  26596 edit_place.h  26845 edit_separate.h
- *  27159 edit_order.h  27314 edit_graph.h  27396 edit_join.h  27672 edit.h  27835 edit_factor.h
+ *  22302 update.h  22666 path.h  22767 rank.h  23143 edges.h  23297 choose.h  23531 pins_types.h
+ *  23610 pins_nulls.h  23793 pins_capacitance.h  24045 pins_balance.h  24224 pins_held.h
+ *  24440 pins_choose.h  24498 pins_rebuild.h  24716 pins_matrix.h  24867 pins.h  25136 pins_solve.h
+ *  25407 subset.h  25535 restrict_kept.h  25732 restrict_analysis.h  25980 restrict_symbolic.h
+ *  26175 restrict.h  26406 edit_match.h  26605 edit_place.h  26854 edit_separate.h
+ *  27168 edit_order.h  27323 edit_graph.h  27405 edit_join.h  27681 edit.h  27844 edit_factor.h
  * (save: factors in files)
- *  28120 format.h  28417 decode.h  28565 check.h  28895 write.h  29200 load.h  29468 load_inverse.h
- *  29798 load_calls.h
+ *  28129 format.h  28426 decode.h  28574 check.h  28904 write.h  29209 load.h  29477 load_inverse.h
+ *  29807 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29997 batch_solve.h  30206 batch_factor.h  30407 batch_diagonal.h
+ *  30006 batch_solve.h  30215 batch_factor.h  30416 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30547 hermitian.h  30709 complex_rows.h
+ *  30556 hermitian.h  30718 complex_rows.h
  * (last: undefine every internal macro)
- *  30877 undef.h
+ *  30886 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31155 front.inl.h  31157 product.inl.h  31668 words_undef.inl.h  31745 copy_rows.inl.h
- *  31783 multi_rhs.inl.h  31802 complex_groups.inl.h  31941 multi_rhs_small.inl.h
- *  32113 multi_rhs_tiles.inl.h  32390 sweeps.inl.h  32392 unit_triangle.inl.h  32429 two_rhs.inl.h
- *  32598 small_supernode.inl.h  32779 single_rhs.inl.h  33023 kernel_set.inl.h
- *  33025 complex_small.inl.h  33195 complex_rows.inl.h  33410 inverse_front.inl.h  33695 row.inl.h
- *  33725 change.inl.h  33960 interleave.inl.h  34094 lanes_undef.inl.h
+ *  31164 front.inl.h  31166 product.inl.h  31677 words_undef.inl.h  31754 copy_rows.inl.h
+ *  31792 multi_rhs.inl.h  31811 complex_groups.inl.h  31950 multi_rhs_small.inl.h
+ *  32122 multi_rhs_tiles.inl.h  32399 sweeps.inl.h  32401 unit_triangle.inl.h  32438 two_rhs.inl.h
+ *  32607 small_supernode.inl.h  32788 single_rhs.inl.h  33032 kernel_set.inl.h
+ *  33034 complex_small.inl.h  33204 complex_rows.inl.h  33419 inverse_front.inl.h  33704 row.inl.h
+ *  33734 change.inl.h  33969 interleave.inl.h  34103 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12165,34 +12165,42 @@ static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last,
   const sl_int *super_of = S->super_of, *super_first = S->super_first, *earlier = w->earlier;
   const sl_int *begin = w->rows.begin, *to = w->rows.to, *new_of = w->new_of;
   sli_growing *g = w->growing;
-  sl_int k, p;
-  for (k = super_first[first]; k < super_first[last + 1]; k++) {
-    const sl_int own = super_of[k], old = w->old_of[k];
-    const sl_off at = S->panel_begin[own] + sli_panel_at(g[own].width, g[own].local, 0);
-    sl_int length = sli_grow(g, own, k, queue, 0), c;
-    for (p = begin[old]; p < begin[old + 1]; p++) {
-      const sl_int i = new_of[to[p]];
-      sli_growing *home = &g[super_of[i]];
-      sl_off row;
-      length = sli_grow(g, super_of[i], k, queue, length);
-      row = home->local - 1;
-      row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
-      S->scatter_from[home->to] = w->rows.from[p];
-      S->scatter_to[home->to++] =
-        (super_of[i] == own ? at : row) + SLI_TILE * (i - super_first[super_of[i]]);
-    }
-    if (earlier != NULL && earlier[own] != -1) {
-      length = sli_grow(g, earlier[own], k, queue, length);
-    }
-    for (c = 1; c < length; c++) {
-      const sl_int up = g[queue[c]].parent;
-      const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
-      if (earlier != NULL && earlier[queue[c]] != -1) {
-        length = sli_grow(g, earlier[queue[c]], k, queue, length);
+  sl_int own, k, p;
+  for (own = first; own <= last; own++) {
+    const sl_int width = g[own].width;
+    sl_off at = 0;
+    for (k = super_first[own]; k < super_first[own + 1]; k++) {
+      const sl_int old = w->old_of[k], r = k - super_first[own];
+      sl_int length = 1, c;
+      at = r % SLI_TILE > 0 ? at + 1
+                  : S->panel_begin[own] + sli_panel_at(width, r, 0) -
+                    SLI_TILE * (sl_off)super_first[own];
+      queue[0] = own;
+      g[own].mark = k;
+      g[own].local = r + 1;
+      for (p = begin[old]; p < begin[old + 1]; p++) {
+        const sl_int i = new_of[to[p]], s = super_of[i];
+        sli_growing *home = &g[s];
+        sl_off row;
+        length = sli_grow(g, s, k, queue, length);
+        row = home->local - 1;
+        row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
+        S->scatter_from[home->to] = w->rows.from[p];
+        S->scatter_to[home->to++] = (s == own ? at : row) + SLI_TILE * (sl_off)i;
       }
-      length = sli_grow(g, up, k, queue, length);
-      S->rows[row] = k;
-      S->relative[row] = g[up].local - 1;
+      if (earlier != NULL && earlier[own] != -1) {
+        length = sli_grow(g, earlier[own], k, queue, length);
+      }
+      for (c = 1; c < length; c++) {
+        const sl_int up = g[queue[c]].parent;
+        const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
+        if (earlier != NULL && earlier[queue[c]] != -1) {
+          length = sli_grow(g, earlier[queue[c]], k, queue, length);
+        }
+        length = sli_grow(g, up, k, queue, length);
+        S->rows[row] = k;
+        S->relative[row] = g[up].local - 1;
+      }
     }
   }
 }
@@ -12240,7 +12248,8 @@ static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) 
     sli_growing *g = &w->growing[s];
     g->base = S->rows_begin[s] - width;
     g->panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
-           (sl_off)width / SLI_TILE * SLI_TILE * width;
+           (sl_off)width / SLI_TILE * SLI_TILE * width -
+           SLI_TILE * (sl_off)S->super_first[s];
     g->to = S->scatter_begin[s];
     g->width = width;
     g->local = 0;

@@ -8,7 +8,8 @@
 /* A supernode while rows of L are added to it. */
 typedef struct sli_growing {
     sl_off base;  /* rows and relative have local row r at base + r */
-    sl_off panel; /* where tile 0 would be in L if all tiles had all columns */
+    /* where tile 0 and column 0 of A would be in L if all tiles had all columns */
+    sl_off panel;
     sl_off to;    /* the next position in the scatter map */
     sl_int width;
     sl_int local;  /* local rows so far: the columns, then the rows below */

@@ -40,34 +40,42 @@ static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last,
     const sl_int *super_of = S->super_of, *super_first = S->super_first, *earlier = w->earlier;
     const sl_int *begin = w->rows.begin, *to = w->rows.to, *new_of = w->new_of;
     sli_growing *g = w->growing;
-    sl_int k, p;
-    for (k = super_first[first]; k < super_first[last + 1]; k++) {
-        const sl_int own = super_of[k], old = w->old_of[k];
-        const sl_off at = S->panel_begin[own] + sli_panel_at(g[own].width, g[own].local, 0);
-        sl_int length = sli_grow(g, own, k, queue, 0), c;
-        for (p = begin[old]; p < begin[old + 1]; p++) {
-            const sl_int i = new_of[to[p]];
-            sli_growing *home = &g[super_of[i]];
-            sl_off row;
-            length = sli_grow(g, super_of[i], k, queue, length);
-            row = home->local - 1;
-            row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
-            S->scatter_from[home->to] = w->rows.from[p];
-            S->scatter_to[home->to++] =
-                (super_of[i] == own ? at : row) + SLI_TILE * (i - super_first[super_of[i]]);
-        }
-        if (earlier != NULL && earlier[own] != -1) {
-            length = sli_grow(g, earlier[own], k, queue, length);
-        }
-        for (c = 1; c < length; c++) {
-            const sl_int up = g[queue[c]].parent;
-            const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
-            if (earlier != NULL && earlier[queue[c]] != -1) {
-                length = sli_grow(g, earlier[queue[c]], k, queue, length);
+    sl_int own, k, p;
+    for (own = first; own <= last; own++) {
+        const sl_int width = g[own].width;
+        sl_off at = 0; /* where row k and column 0 would be in L */
+        for (k = super_first[own]; k < super_first[own + 1]; k++) {
+            const sl_int old = w->old_of[k], r = k - super_first[own];
+            sl_int length = 1, c;
+            at = r % SLI_TILE > 0 ? at + 1
+                                  : S->panel_begin[own] + sli_panel_at(width, r, 0) -
+                                        SLI_TILE * (sl_off)super_first[own];
+            queue[0] = own;
+            g[own].mark = k;
+            g[own].local = r + 1;
+            for (p = begin[old]; p < begin[old + 1]; p++) {
+                const sl_int i = new_of[to[p]], s = super_of[i];
+                sli_growing *home = &g[s];
+                sl_off row;
+                length = sli_grow(g, s, k, queue, length);
+                row = home->local - 1;
+                row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
+                S->scatter_from[home->to] = w->rows.from[p];
+                S->scatter_to[home->to++] = (s == own ? at : row) + SLI_TILE * (sl_off)i;
             }
-            length = sli_grow(g, up, k, queue, length);
-            S->rows[row] = k;
-            S->relative[row] = g[up].local - 1;
+            if (earlier != NULL && earlier[own] != -1) {
+                length = sli_grow(g, earlier[own], k, queue, length);
+            }
+            for (c = 1; c < length; c++) {
+                const sl_int up = g[queue[c]].parent;
+                const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
+                if (earlier != NULL && earlier[queue[c]] != -1) {
+                    length = sli_grow(g, earlier[queue[c]], k, queue, length);
+                }
+                length = sli_grow(g, up, k, queue, length);
+                S->rows[row] = k;
+                S->relative[row] = g[up].local - 1;
+            }
         }
     }
 }
@@ -120,7 +128,8 @@ static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) 
         sli_growing *g = &w->growing[s];
         g->base = S->rows_begin[s] - width;
         g->panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
-                   (sl_off)width / SLI_TILE * SLI_TILE * width;
+                   (sl_off)width / SLI_TILE * SLI_TILE * width -
+                   SLI_TILE * (sl_off)S->super_first[s];
         g->to = S->scatter_begin[s];
         g->width = width;
         g->local = 0;
