@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9b41de326797e4d7
+ * FNV-1a of the lines after this comment, without the license: 921c1add418df9dd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,44 +48,44 @@
  *  10564 forest.h  10651 peel.h  10851 quotient.h  11268 graph_kind.h  11339 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11664 symbolic_types.h  11701 etree.h  11761 counts.h  11810 supernodes.h  12049 pattern.h
- *  12139 structure.h  12342 schedule.h  12622 symbolic.h  13093 reach.h
+ *  12139 structure.h  12342 schedule.h  12622 symbolic.h  13092 reach.h
  * (factor: the numbers of L and D)
- *  13364 factor_types.h  13788 storage.h  13926 pivot_search.h  14272 pivoted.h  14341 scatter.h
- *  14499 uplooking.h  14571 null_product.h  14775 null_dense.h  14852 null_basis.h
- *  15172 null_vectors.h  15314 multifrontal.h  15508 gather.h  15556 kept.h  15726 front_tasks.h
- *  16069 null_center.h  16193 nullspace.h  16380 growth.h  16458 factor_setup.h  16783 factor.h
- *  16993 leftlooking.h  17140 factor_query.h  17275 combination.h
+ *  13363 factor_types.h  13791 storage.h  13929 pivot_search.h  14275 pivoted.h  14344 scatter.h
+ *  14502 uplooking.h  14574 null_product.h  14778 null_dense.h  14855 null_basis.h
+ *  15175 null_vectors.h  15317 multifrontal.h  15511 gather.h  15559 kept.h  15729 front_tasks.h
+ *  16072 null_center.h  16196 nullspace.h  16383 growth.h  16461 factor_setup.h  16787 factor.h
+ *  16997 leftlooking.h  17144 factor_query.h  17279 combination.h
  * (solve: full and local solves)
- *  17336 region_types.h  17440 work.h  17540 query.h  17756 singular.h  18013 backward.h
- *  18043 sweep_tasks.h  18374 sweep.h  18582 compile.h  18775 plan.h  18882 local.h  19034 parts.h
- *  19323 refine.h  19502 refine_local.h  19718 rcond.h  19877 defects.h
+ *  17340 region_types.h  17444 work.h  17544 query.h  17760 singular.h  18017 backward.h
+ *  18047 sweep_tasks.h  18378 sweep.h  18586 compile.h  18779 plan.h  18886 local.h  19038 parts.h
+ *  19327 refine.h  19506 refine_local.h  19722 rcond.h  19881 defects.h
  * (inverse: entries of the inverse, regions)
- *  19936 traversal.h  20185 traversal_run.h  20378 row_sets.h  20412 unit_vectors.h
- *  20639 bilinear.h  20811 entries.h  21088 block.h  21323 reserve.h  21515 selected.h
- *  21725 selected_query.h  21827 region_choose.h  22054 region.h
+ *  19940 traversal.h  20189 traversal_run.h  20382 row_sets.h  20416 unit_vectors.h
+ *  20643 bilinear.h  20815 entries.h  21092 block.h  21327 reserve.h  21519 selected.h
+ *  21729 selected_query.h  21831 region_choose.h  22058 region.h
  * (change: a factor that follows changes of its matrix)
- *  22302 update.h  22666 path.h  22767 rank.h  23143 edges.h  23297 choose.h  23531 pins_types.h
- *  23610 pins_nulls.h  23793 pins_capacitance.h  24045 pins_balance.h  24224 pins_held.h
- *  24440 pins_choose.h  24498 pins_rebuild.h  24716 pins_matrix.h  24867 pins.h  25136 pins_solve.h
- *  25407 subset.h  25535 restrict_kept.h  25732 restrict_analysis.h  25980 restrict_symbolic.h
- *  26175 restrict.h  26406 edit_match.h  26605 edit_place.h  26854 edit_separate.h
- *  27168 edit_order.h  27323 edit_graph.h  27405 edit_join.h  27681 edit.h  27844 edit_factor.h
+ *  22306 update.h  22670 path.h  22771 rank.h  23147 edges.h  23301 choose.h  23535 pins_types.h
+ *  23614 pins_nulls.h  23797 pins_capacitance.h  24049 pins_balance.h  24228 pins_held.h
+ *  24444 pins_choose.h  24502 pins_rebuild.h  24720 pins_matrix.h  24871 pins.h  25140 pins_solve.h
+ *  25411 subset.h  25539 restrict_kept.h  25736 restrict_analysis.h  25984 restrict_symbolic.h
+ *  26179 restrict.h  26410 edit_match.h  26609 edit_place.h  26858 edit_separate.h
+ *  27172 edit_order.h  27327 edit_graph.h  27409 edit_join.h  27685 edit.h  27848 edit_factor.h
  * (save: factors in files)
- *  28129 format.h  28426 decode.h  28574 check.h  28904 write.h  29209 load.h  29477 load_inverse.h
- *  29807 load_calls.h
+ *  28133 format.h  28430 decode.h  28578 check.h  28908 write.h  29213 load.h  29481 load_inverse.h
+ *  29811 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30006 batch_solve.h  30215 batch_factor.h  30416 batch_diagonal.h
+ *  30010 batch_solve.h  30219 batch_factor.h  30420 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30556 hermitian.h  30718 complex_rows.h
+ *  30560 hermitian.h  30722 complex_rows.h
  * (last: undefine every internal macro)
- *  30886 undef.h
+ *  30890 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31164 front.inl.h  31166 product.inl.h  31677 words_undef.inl.h  31754 copy_rows.inl.h
- *  31792 multi_rhs.inl.h  31811 complex_groups.inl.h  31950 multi_rhs_small.inl.h
- *  32122 multi_rhs_tiles.inl.h  32399 sweeps.inl.h  32401 unit_triangle.inl.h  32438 two_rhs.inl.h
- *  32607 small_supernode.inl.h  32788 single_rhs.inl.h  33032 kernel_set.inl.h
- *  33034 complex_small.inl.h  33204 complex_rows.inl.h  33419 inverse_front.inl.h  33704 row.inl.h
- *  33734 change.inl.h  33969 interleave.inl.h  34103 lanes_undef.inl.h
+ *  31168 front.inl.h  31170 product.inl.h  31681 words_undef.inl.h  31758 copy_rows.inl.h
+ *  31796 multi_rhs.inl.h  31815 complex_groups.inl.h  31954 multi_rhs_small.inl.h
+ *  32126 multi_rhs_tiles.inl.h  32403 sweeps.inl.h  32405 unit_triangle.inl.h  32442 two_rhs.inl.h
+ *  32611 small_supernode.inl.h  32792 single_rhs.inl.h  33036 kernel_set.inl.h
+ *  33038 complex_small.inl.h  33208 complex_rows.inl.h  33423 inverse_front.inl.h  33708 row.inl.h
+ *  33738 change.inl.h  33973 interleave.inl.h  34107 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -577,7 +577,7 @@ typedef struct sl_symbolic_info {
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
     double seconds_order;          /* processor seconds of the ordering, of all threads */
     double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
-    double seconds_tree;           /* elimination tree, column counts and supernodes */
+    double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
     double seconds_structure;      /* rows of L and the map of A into L */
     size_t bytes;
 } sl_symbolic_info;
@@ -12785,7 +12785,6 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
   }
   w->walks = w->choice.entries > 0 && w->choice.entries <= SLI_WALKS_MOST * (sl_off)w->n;
   sli_pattern_fill(w, stats->symbolic.triangle, team);
-  stats->symbolic.seconds_analyze += sli_analysis_lap(w);
   sli_analyze_tree(w, opt, stats);
   lap = sli_analysis_lap(w);
   stats->symbolic.seconds_tree += lap;
@@ -13409,6 +13408,7 @@ struct sl_factor {
   sl_status status;
   sli_hash identity;
   uint64_t generation;
+  double clock;
   sl_off updates;
   double drift;
   double scale;
@@ -13760,29 +13760,32 @@ SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
 }
 
 static void sli_count_pivots(sl_factor *F, sl_int count) {
-  sl_stats *stats = &F->stats;
+  sl_factor_info info = F->stats.factor;
   sl_int k;
-  stats->factor.positive = stats->factor.negative = stats->factor.null =
-    stats->factor.regularized = stats->factor.weak = 0;
-  stats->factor.pivot_min = stats->factor.pivot_max = 0.0;
+  info.positive = info.negative = info.null = info.regularized = info.weak = 0;
+  info.pivot_min = info.pivot_max = 0.0;
   for (k = 0; k < count; k++) {
+    double values[2] = {F->D[k], 0.0};
+    int v, n_values = 1;
     if (sli_is_skipped(F, k)) {
-      stats->factor.null++;
+      info.null++;
       continue;
     }
-    stats->factor.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
+    info.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
     if (sli_is_regularized(F, k)) {
-      F->regularized[stats->factor.regularized++] = k;
+      F->regularized[info.regularized++] = k;
     }
-    if (F->E == NULL || F->S->pairs[k] == SLI_PAIR_NONE) {
-      sli_count_pivot(&stats->factor, F->D[k]);
-    } else if (F->S->pairs[k] == SLI_PAIR_FIRST) {
-      double values[2];
-      sli_pair_eigenvalues(F, k, values);
-      sli_count_pivot(&stats->factor, values[0]);
-      sli_count_pivot(&stats->factor, values[1]);
+    if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
+      n_values = F->S->pairs[k] == SLI_PAIR_FIRST ? 2 : 0;
+      if (n_values > 0) {
+        sli_pair_eigenvalues(F, k, values);
+      }
+    }
+    for (v = 0; v < n_values; v++) {
+      sli_count_pivot(&info, values[v]);
     }
   }
+  F->stats.factor = info;
 }
 
 /* src/impl/factor/storage.h: L in double, in float or as complex: sweeps over it, its entries, panels to store */
@@ -16765,7 +16768,8 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     }
     status = sli_factor_prepare(F);
     status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
-    F->stats.factor.seconds_setup = sli_seconds() - started;
+    F->clock = sli_seconds();
+    F->stats.factor.seconds_setup = F->clock - started;
     if (status == SL_OK) {
       *out = F;
     } else {
@@ -16964,7 +16968,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
   sl_status status = sli_factor_new(&F, S, opt, stats);
   if (status == SL_OK) {
     sli_factor_begin(F);
-    status = sli_factor_numbers(F, from, sli_seconds(), stats);
+    status = sli_factor_numbers(F, from, F->clock, stats);
   }
   if (status == SL_OK) {
     *out = F;

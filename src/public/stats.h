@@ -28,7 +28,7 @@ typedef struct sl_symbolic_info {
     sl_int delayed;                /* times it moved a column to the parent's front; else 0 */
     double seconds_order;          /* processor seconds of the ordering, of all threads */
     double seconds_analyze;        /* processor seconds of the rest of the analysis, of which: */
-    double seconds_tree;           /* elimination tree, column counts and supernodes */
+    double seconds_tree;           /* P A P', elimination tree, column counts and supernodes */
     double seconds_structure;      /* rows of L and the map of A into L */
     size_t bytes;
 } sl_symbolic_info;

@@ -181,7 +181,6 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
     }
     w->walks = w->choice.entries > 0 && w->choice.entries <= SLI_WALKS_MOST * (sl_off)w->n;
     sli_pattern_fill(w, stats->symbolic.triangle, team);
-    stats->symbolic.seconds_analyze += sli_analysis_lap(w);
     sli_analyze_tree(w, opt, stats);
     lap = sli_analysis_lap(w);
     stats->symbolic.seconds_tree += lap;

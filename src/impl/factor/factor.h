@@ -204,7 +204,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
     sl_status status = sli_factor_new(&F, S, opt, stats);
     if (status == SL_OK) {
         sli_factor_begin(F);
-        status = sli_factor_numbers(F, from, sli_seconds(), stats);
+        status = sli_factor_numbers(F, from, F->clock, stats);
     }
     if (status == SL_OK) {
         *out = F;

@@ -344,7 +344,8 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         }
         status = sli_factor_prepare(F);
         status = status == SL_OK ? sli_factor_rules_fill(F, opt, stats) : status;
-        F->stats.factor.seconds_setup = sli_seconds() - started;
+        F->clock = sli_seconds();
+        F->stats.factor.seconds_setup = F->clock - started;
         if (status == SL_OK) {
             *out = F;
         } else {
