@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 921c1add418df9dd
+ * FNV-1a of the lines after this comment, without the license: ae0bdb93a1019db7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,21 +33,21 @@
  *   3148 base.h   3442 status.h   3503 options.h   3561 alloc.h   3717 hash.h   3847 file_map.h
  *   3944 sort.h   4008 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4204 panel.h   4230 step.h   4308 pivot_rule.h   4382 front.h   4443 pairs.h
- *   4650 inverse_front.h   4722 table.h   4771 simd.h   4866 simd_scalar_single.h
- *   4912 simd_scalar.h   5050 simd_avx2_single.h   5104 simd_avx2.h   5345 simd_avx512_single.h
- *   5400 simd_avx512.h   5576 simd_neon_single.h   5618 simd_neon.h   5853 dispatch.h
+ *   4204 panel.h   4229 step.h   4307 pivot_rule.h   4381 front.h   4442 pairs.h
+ *   4649 inverse_front.h   4721 table.h   4770 simd.h   4865 simd_scalar_single.h
+ *   4911 simd_scalar.h   5049 simd_avx2_single.h   5103 simd_avx2.h   5344 simd_avx512_single.h
+ *   5399 simd_avx512.h   5575 simd_neon_single.h   5617 simd_neon.h   5852 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5946 csc.h   6089 csc_build.h   6223 csc64.h   6294 csc_triangle.h   6359 csc_products.h
- *   6476 permute.h   6542 sum.h   6624 output_file.h   6833 matrix_market.h
+ *   5945 csc.h   6088 csc_build.h   6222 csc64.h   6293 csc_triangle.h   6358 csc_products.h
+ *   6475 permute.h   6541 sum.h   6623 output_file.h   6832 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7279 graph.h   7397 contract.h   7651 coarsen.h   7814 labels.h   8035 subgraph.h   8229 heap.h
- *   8289 bisect.h   8516 separator.h   8778 mindeg.h   8961 dissect.h   9285 tree_cost.h
- *   9337 levelset.h   9443 geometric.h   9618 cells.h   9798 septree.h   9874 metis.h
- *  10023 metis_refined.h  10137 nd.h  10337 compress.h  10458 levels.h  10511 border.h
- *  10564 forest.h  10651 peel.h  10851 quotient.h  11268 graph_kind.h  11339 order.h
+ *   7278 graph.h   7396 contract.h   7650 coarsen.h   7813 labels.h   8034 subgraph.h   8228 heap.h
+ *   8288 bisect.h   8515 separator.h   8777 mindeg.h   8960 dissect.h   9284 tree_cost.h
+ *   9336 levelset.h   9442 geometric.h   9617 cells.h   9797 septree.h   9873 metis.h
+ *  10022 metis_refined.h  10136 nd.h  10336 compress.h  10457 levels.h  10510 border.h
+ *  10563 forest.h  10650 peel.h  10850 quotient.h  11267 graph_kind.h  11338 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11664 symbolic_types.h  11701 etree.h  11761 counts.h  11810 supernodes.h  12049 pattern.h
+ *  11663 symbolic_types.h  11700 etree.h  11760 counts.h  11809 supernodes.h  12049 pattern.h
  *  12139 structure.h  12342 schedule.h  12622 symbolic.h  13092 reach.h
  * (factor: the numbers of L and D)
  *  13363 factor_types.h  13791 storage.h  13929 pivot_search.h  14275 pivoted.h  14344 scatter.h
@@ -4206,13 +4206,12 @@ static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int w
 #define SLI_TILE 8
 
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
-  sl_off whole = w / SLI_TILE, tile = t;
-  return tile <= whole ? 32 * tile * (tile + 1)
-             : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
+  const sl_off whole = (sl_off)((uint32_t)w / SLI_TILE), growing = t < whole ? t : whole;
+  return 32 * growing * (growing + 1) + (t - growing) * SLI_TILE * w;
 }
 
 SLI_INLINE sl_int sli_tiles(sl_int rows) {
-  return rows / SLI_TILE + (rows % SLI_TILE != 0);
+  return (sl_int)(((uint32_t)rows + SLI_TILE - 1) / SLI_TILE);
 }
 
 SLI_INLINE sl_off sli_panel_size(sl_int w, sl_int u) {
@@ -11898,6 +11897,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
     child[s] = -1;
   }
   for (s = 0; s < g->count; s++) {
+    const sl_int up = g->parent[s];
     sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
     count = 0;
     for (c = child[s]; c != -1; c = sibling[c]) {
@@ -11912,9 +11912,9 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
       sli_amalgamate_child(g, s, sli_value(list[k]), &cost);
     }
     g->cost[s] = cost;
-    if (g->parent[s] != -1) {
-      sibling[s] = child[g->parent[s]];
-      child[g->parent[s]] = s;
+    if (up != -1) {
+      sibling[s] = child[up];
+      child[up] = s;
     }
   }
 }

@@ -118,6 +118,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
         child[s] = -1;
     }
     for (s = 0; s < g->count; s++) {
+        const sl_int up = g->parent[s];
         sl_off cost = sli_supernode_cost(g, g->width[s], g->below[s]);
         count = 0;
         for (c = child[s]; c != -1; c = sibling[c]) {
@@ -132,9 +133,9 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
             sli_amalgamate_child(g, s, sli_value(list[k]), &cost);
         }
         g->cost[s] = cost;
-        if (g->parent[s] != -1) {
-            sibling[s] = child[g->parent[s]];
-            child[g->parent[s]] = s;
+        if (up != -1) {
+            sibling[s] = child[up];
+            child[up] = s;
         }
     }
 }

@@ -14,14 +14,13 @@
 /* Position of tile t in a panel of w columns, in doubles. The first w / 8 tiles grow by 8 columns
  * each, the others have w columns. */
 SLI_INLINE sl_off sli_tile_offset(sl_int w, sl_int t) {
-    sl_off whole = w / SLI_TILE, tile = t;
-    return tile <= whole ? 32 * tile * (tile + 1)
-                         : 32 * whole * (whole + 1) + (tile - whole) * SLI_TILE * w;
+    const sl_off whole = (sl_off)((uint32_t)w / SLI_TILE), growing = t < whole ? t : whole;
+    return 32 * growing * (growing + 1) + (t - growing) * SLI_TILE * w;
 }
 
 /* Number of tiles that hold some rows. */
 SLI_INLINE sl_int sli_tiles(sl_int rows) {
-    return rows / SLI_TILE + (rows % SLI_TILE != 0);
+    return (sl_int)(((uint32_t)rows + SLI_TILE - 1) / SLI_TILE); /* without a branch */
 }
 
 /* Size of a panel of w columns and u rows below the diagonal block, in doubles. */
