@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ae0bdb93a1019db7
+ * FNV-1a of the lines after this comment, without the license: f2b8281db8bf5743
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,64 +9,64 @@
  *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    412 options.h    options of all calls, threads, and the allocator
  *    554 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    749 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    921 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1065 factor.h     the numerical factorization P A P' = L D L'
- *   1354 solve.h      full solves, and the workspace of all solves
- *   1467 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1561 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1674 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1787 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1923 batch.h      many independent solves by one call, distributed over threads
- *   1973 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2151 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2271 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2375 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2514 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2632 change.h     a factor that follows small changes of its matrix
- *   2720 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2871 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3002 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3056 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *    751 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    923 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1067 factor.h     the numerical factorization P A P' = L D L'
+ *   1356 solve.h      full solves, and the workspace of all solves
+ *   1469 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1563 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1676 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1789 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1925 batch.h      many independent solves by one call, distributed over threads
+ *   1975 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2153 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2273 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2634 change.h     a factor that follows small changes of its matrix
+ *   2722 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2873 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3004 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3058 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3148 base.h   3442 status.h   3503 options.h   3561 alloc.h   3717 hash.h   3847 file_map.h
- *   3944 sort.h   4008 parallel.h
+ *   3150 base.h   3444 status.h   3505 options.h   3563 alloc.h   3719 hash.h   3849 file_map.h
+ *   3946 sort.h   4010 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4204 panel.h   4229 step.h   4307 pivot_rule.h   4381 front.h   4442 pairs.h
- *   4649 inverse_front.h   4721 table.h   4770 simd.h   4865 simd_scalar_single.h
- *   4911 simd_scalar.h   5049 simd_avx2_single.h   5103 simd_avx2.h   5344 simd_avx512_single.h
- *   5399 simd_avx512.h   5575 simd_neon_single.h   5617 simd_neon.h   5852 dispatch.h
+ *   4206 panel.h   4231 step.h   4309 pivot_rule.h   4383 front.h   4444 pairs.h
+ *   4651 inverse_front.h   4723 table.h   4772 simd.h   4867 simd_scalar_single.h
+ *   4913 simd_scalar.h   5051 simd_avx2_single.h   5105 simd_avx2.h   5346 simd_avx512_single.h
+ *   5401 simd_avx512.h   5577 simd_neon_single.h   5619 simd_neon.h   5854 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5945 csc.h   6088 csc_build.h   6222 csc64.h   6293 csc_triangle.h   6358 csc_products.h
- *   6475 permute.h   6541 sum.h   6623 output_file.h   6832 matrix_market.h
+ *   5947 csc.h   6090 csc_build.h   6224 csc64.h   6295 csc_triangle.h   6360 csc_products.h
+ *   6477 permute.h   6543 sum.h   6625 output_file.h   6834 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7278 graph.h   7396 contract.h   7650 coarsen.h   7813 labels.h   8034 subgraph.h   8228 heap.h
- *   8288 bisect.h   8515 separator.h   8777 mindeg.h   8960 dissect.h   9284 tree_cost.h
- *   9336 levelset.h   9442 geometric.h   9617 cells.h   9797 septree.h   9873 metis.h
- *  10022 metis_refined.h  10136 nd.h  10336 compress.h  10457 levels.h  10510 border.h
- *  10563 forest.h  10650 peel.h  10850 quotient.h  11267 graph_kind.h  11338 order.h
+ *   7280 graph.h   7398 contract.h   7652 coarsen.h   7815 labels.h   8036 subgraph.h   8230 heap.h
+ *   8290 bisect.h   8517 separator.h   8779 mindeg.h   8962 dissect.h   9286 tree_cost.h
+ *   9338 levelset.h   9444 geometric.h   9619 cells.h   9799 septree.h   9875 metis.h
+ *  10024 metis_refined.h  10138 nd.h  10338 compress.h  10459 levels.h  10512 border.h
+ *  10565 forest.h  10652 peel.h  10852 quotient.h  11269 graph_kind.h  11340 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11663 symbolic_types.h  11700 etree.h  11760 counts.h  11809 supernodes.h  12049 pattern.h
- *  12139 structure.h  12342 schedule.h  12622 symbolic.h  13092 reach.h
+ *  11665 symbolic_types.h  11702 etree.h  11762 counts.h  11811 supernodes.h  12051 pattern.h
+ *  12141 structure.h  12344 schedule.h  12624 symbolic.h  13094 reach.h
  * (factor: the numbers of L and D)
- *  13363 factor_types.h  13791 storage.h  13929 pivot_search.h  14275 pivoted.h  14344 scatter.h
- *  14502 uplooking.h  14574 null_product.h  14778 null_dense.h  14855 null_basis.h
- *  15175 null_vectors.h  15317 multifrontal.h  15511 gather.h  15559 kept.h  15729 front_tasks.h
- *  16072 null_center.h  16196 nullspace.h  16383 growth.h  16461 factor_setup.h  16787 factor.h
- *  16997 leftlooking.h  17144 factor_query.h  17279 combination.h
+ *  13365 factor_types.h  13793 storage.h  13931 pivot_search.h  14277 pivoted.h  14346 scatter.h
+ *  14504 uplooking.h  14576 null_product.h  14780 null_dense.h  14857 null_basis.h
+ *  15177 null_vectors.h  15319 multifrontal.h  15513 gather.h  15561 kept.h  15731 front_tasks.h
+ *  16074 null_center.h  16198 nullspace.h  16385 growth.h  16463 factor_setup.h  16789 factor.h
+ *  16999 leftlooking.h  17146 factor_query.h  17281 combination.h
  * (solve: full and local solves)
- *  17340 region_types.h  17444 work.h  17544 query.h  17760 singular.h  18017 backward.h
- *  18047 sweep_tasks.h  18378 sweep.h  18586 compile.h  18779 plan.h  18886 local.h  19038 parts.h
- *  19327 refine.h  19506 refine_local.h  19722 rcond.h  19881 defects.h
+ *  17342 region_types.h  17446 work.h  17546 query.h  17762 singular.h  18019 backward.h
+ *  18049 sweep_tasks.h  18380 sweep.h  18588 compile.h  18781 plan.h  18888 local.h  19040 parts.h
+ *  19329 refine.h  19508 refine_local.h  19724 rcond.h  19883 defects.h
  * (inverse: entries of the inverse, regions)
- *  19940 traversal.h  20189 traversal_run.h  20382 row_sets.h  20416 unit_vectors.h
- *  20643 bilinear.h  20815 entries.h  21092 block.h  21327 reserve.h  21519 selected.h
- *  21729 selected_query.h  21831 region_choose.h  22058 region.h
+ *  19942 traversal.h  20191 traversal_run.h  20384 row_sets.h  20418 unit_vectors.h
+ *  20645 bilinear.h  20817 entries.h  21094 block.h  21329 reserve.h  21521 selected.h
+ *  21731 selected_query.h  21833 region_choose.h  22060 region.h
  * (change: a factor that follows changes of its matrix)
- *  22306 update.h  22670 path.h  22771 rank.h  23147 edges.h  23301 choose.h  23535 pins_types.h
- *  23614 pins_nulls.h  23797 pins_capacitance.h  24049 pins_balance.h  24228 pins_held.h
- *  24444 pins_choose.h  24502 pins_rebuild.h  24720 pins_matrix.h  24871 pins.h  25140 pins_solve.h
+ *  22308 update.h  22672 path.h  22773 rank.h  23149 edges.h  23303 choose.h  23536 pins_types.h
+ *  23615 pins_nulls.h  23798 pins_capacitance.h  24050 pins_balance.h  24229 pins_held.h
+ *  24445 pins_choose.h  24502 pins_rebuild.h  24720 pins_matrix.h  24871 pins.h  25140 pins_solve.h
  *  25411 subset.h  25539 restrict_kept.h  25736 restrict_analysis.h  25984 restrict_symbolic.h
  *  26179 restrict.h  26410 edit_match.h  26609 edit_place.h  26858 edit_separate.h
  *  27172 edit_order.h  27327 edit_graph.h  27409 edit_join.h  27685 edit.h  27848 edit_factor.h
@@ -668,7 +668,9 @@ typedef struct sl_change_info {
      * times the largest number a pivot was computed from, relative to the largest |a| */
     double drift;
     double flops_update;   /* of the rank-one changes, at least; 0 if F cannot be changed so */
-    double flops_changed;  /* of sl_factor_refactor_changed; of sl_factor_change, else 0 */
+    /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
+     * sl_factor_change, else 0 */
+    double flops_changed;
     double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
     double seconds;        /* processor seconds */
 } sl_change_info;
@@ -23313,7 +23315,6 @@ typedef struct sli_way {
   uint64_t *seeds, *scratch;
   uint64_t *keys;
   sl_int n_seeds;
-  int is_counted;
   double flops_update, flops_changed, flops_refactor;
   double update, changed, refactor;
   sl_change_reason reason;
@@ -23352,24 +23353,24 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
   return flops;
 }
 
-static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
+static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
   const sl_symbolic *S = F->S;
+  const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
   sl_int k = 0, s, next, visits = 0;
-  double flops = 0.0;
-  while (k < c->n_seeds) {
+  c->flops_changed = 0.0;
+  c->changed = input;
+  while (k < c->n_seeds && c->changed <= limit) {
     s = S->super_of[sli_key(c->seeds[k])];
     next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
-    for (; s != -1 && s < next; s = S->super_parent[s]) {
+    for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
       visits++;
-      flops += sli_way_front(S, s);
-      if (gathers) {
-        flops += sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
-      }
+      c->flops_changed +=
+        sli_way_front(S, s) +
+        sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
+      c->changed = input + SLI_CHANGE_VISIT * visits +
+             sli_change_flop[F->kernels->isa] * c->flops_changed;
     }
   }
-  c->flops_changed = flops;
-  c->changed = sli_change_flop[F->kernels->isa] * flops + SLI_CHANGE_VISIT * visits +
-         SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
@@ -23386,12 +23387,8 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }
-  if (can_reach && !c->is_counted) {
-    sli_way_measure(c, F, 0);
-    c->is_counted = !can_update || c->update > c->changed;
-    if (c->is_counted) {
-      sli_way_measure(c, F, 1);
-    }
+  if (can_reach) {
+    sli_way_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
   }
   if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
     return SL_CHANGE_UPDATE;
@@ -23426,11 +23423,15 @@ static double sli_way_update(const sli_rank *q, double entries, double pivots, d
 }
 
 static void sli_way_estimate(sli_way *c, const sli_rank *q) {
-  const double passes = c->n_columns / (2 * SLI_TILE);
+  sl_int k, edges = 0, passes;
   sli_reach R;
+  for (k = 0; k < q->n_entries; k++) {
+    edges += q->entry_rows[k] != q->entry_columns[k];
+  }
+  passes = sli_max(c->n_columns, edges) / (2 * SLI_TILE);
   sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, c->n_seeds > 0, &R);
-  c->flops_update = passes * 4.0 * SLI_TILE * (double)R.entries;
-  c->update = sli_way_update(q, passes * (double)R.entries, passes * SLI_TILE * R.columns,
+  c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
+  c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
                  c->flops_update);
 }
 
@@ -24492,9 +24493,8 @@ static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
   double part;
   h->way.seeds = h->seeds;
   h->way.n_seeds = h->n_seeds;
-  sli_way_measure(&h->way, P->F, 1);
-  part = h->way.changed +
-       (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
+  sli_way_measure(&h->way, P->F, whole);
+  part = h->way.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
   h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
   return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }

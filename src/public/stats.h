@@ -119,7 +119,9 @@ typedef struct sl_change_info {
      * times the largest number a pivot was computed from, relative to the largest |a| */
     double drift;
     double flops_update;   /* of the rank-one changes, at least; 0 if F cannot be changed so */
-    double flops_changed;  /* of sl_factor_refactor_changed; of sl_factor_change, else 0 */
+    /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
+     * sl_factor_change, else 0 */
+    double flops_changed;
     double flops_refactor; /* of sl_factor_refactor; of sl_factor_change, else 0 */
     double seconds;        /* processor seconds */
 } sl_change_info;

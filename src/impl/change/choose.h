@@ -21,7 +21,6 @@ typedef struct sli_way {
     uint64_t *seeds, *scratch; /* for the entries of these columns */
     uint64_t *keys;            /* 2 count: for sorting them */
     sl_int n_seeds;
-    int is_counted; /* flops_changed has what the reach gathers from its descendants */
     double flops_update, flops_changed, flops_refactor;
     double update, changed, refactor; /* seconds */
     sl_change_reason reason;
@@ -65,25 +64,25 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
     return flops;
 }
 
-/* Counts the reach of the change: of the fronts alone, or with what they gather. */
-static void sli_way_measure(sli_way *c, const sl_factor *F, int gathers) {
+/* Counts the reach of the change, up to a cost of `limit`: to count the descendants takes time. */
+static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
     const sl_symbolic *S = F->S;
+    const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
     sl_int k = 0, s, next, visits = 0;
-    double flops = 0.0;
-    while (k < c->n_seeds) {
+    c->flops_changed = 0.0;
+    c->changed = input;
+    while (k < c->n_seeds && c->changed <= limit) {
         s = S->super_of[sli_key(c->seeds[k])];
         next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
-        for (; s != -1 && s < next; s = S->super_parent[s]) {
+        for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
             visits++;
-            flops += sli_way_front(S, s);
-            if (gathers) {
-                flops += sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
-            }
+            c->flops_changed +=
+                sli_way_front(S, s) +
+                sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
+            c->changed = input + SLI_CHANGE_VISIT * visits +
+                         sli_change_flop[F->kernels->isa] * c->flops_changed;
         }
     }
-    c->flops_changed = flops;
-    c->changed = sli_change_flop[F->kernels->isa] * flops + SLI_CHANGE_VISIT * visits +
-                 SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
 /* Chooses. can_update: rank-one changes are possible. */
@@ -101,12 +100,8 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
         c->reason = SL_CHANGE_DRIFT;
         return SL_CHANGE_REFACTOR;
     }
-    if (can_reach && !c->is_counted) {
-        sli_way_measure(c, F, 0); /* a lower bound: to count the descendants takes time */
-        c->is_counted = !can_update || c->update > c->changed;
-        if (c->is_counted) {
-            sli_way_measure(c, F, 1);
-        }
+    if (can_reach) {
+        sli_way_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
     }
     if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
         return SL_CHANGE_UPDATE;
@@ -142,14 +137,19 @@ static double sli_way_update(const sli_rank *q, double entries, double pivots, d
            (q->has_trial || q->has_log ? 1.5 : 1.0);
 }
 
-/* Estimates the rank-one changes from below: half a vector for each column, all with the path of
- * the column in the middle. Where even they take too long, the vectors need not be sorted. */
+/* Estimates the rank-one changes from below, with the path of the column in the middle: half a
+ * vector for each column or edge, as an edge may be named twice. Where even they take too long, the
+ * vectors need not be sorted. */
 static void sli_way_estimate(sli_way *c, const sli_rank *q) {
-    const double passes = c->n_columns / (2 * SLI_TILE);
+    sl_int k, edges = 0, passes;
     sli_reach R;
+    for (k = 0; k < q->n_entries; k++) {
+        edges += q->entry_rows[k] != q->entry_columns[k];
+    }
+    passes = sli_max(c->n_columns, edges) / (2 * SLI_TILE);
     sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, c->n_seeds > 0, &R);
-    c->flops_update = passes * 4.0 * SLI_TILE * (double)R.entries;
-    c->update = sli_way_update(q, passes * (double)R.entries, passes * SLI_TILE * R.columns,
+    c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
+    c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
                                c->flops_update);
 }
 

@@ -59,9 +59,8 @@ static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
     double part;
     h->way.seeds = h->seeds;
     h->way.n_seeds = h->n_seeds;
-    sli_way_measure(&h->way, P->F, 1);
-    part = h->way.changed +
-           (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
+    sli_way_measure(&h->way, P->F, whole);
+    part = h->way.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
     h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
     return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }
