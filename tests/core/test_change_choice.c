@@ -130,14 +130,14 @@ static void patches_of_all_sizes_give_the_factor(void **state) {
  * complete factorization would forget the rank-one change before. */
 static void repeated_entries_have_the_reach_of_one(void **state) {
     (void)state;
-    grid_t g = grid_make(60, 0, NULL);
+    grid_t g = grid_make(120, 0, NULL);
     list_t *l = (list_t *)test_array(1, sizeof *l);
     sl_stats stats;
-    list_add(l, &g, 1830, 1830, 0.5);
+    list_add(l, &g, 7320, 7320, 0.5);
     assert_int_equal(change(&g, l, &stats), SL_CHANGE_UPDATE);
     l->count = 0;
     for (sl_int k = 0; k < 10 * 400; k++) {
-        const sl_int v = 60 * (k % 20) + k / 20 % 20;
+        const sl_int v = 120 * (k % 20) + k / 20 % 20;
         list_add(l, &g, v, v, 0.01);
     }
     assert_int_equal(change(&g, l, &stats), SL_CHANGE_REACH);
