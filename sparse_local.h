@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f2b8281db8bf5743
+ * FNV-1a of the lines after this comment, without the license: 1007420d87487f01
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,65 +27,65 @@
  *   2722 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2873 complex.h    complex Hermitian systems, solved as real ones of twice the size
  *   3004 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3058 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   3059 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3150 base.h   3444 status.h   3505 options.h   3563 alloc.h   3719 hash.h   3849 file_map.h
- *   3946 sort.h   4010 parallel.h
+ *   3151 base.h   3445 status.h   3506 options.h   3564 alloc.h   3720 hash.h   3850 file_map.h
+ *   3947 sort.h   4011 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4206 panel.h   4231 step.h   4309 pivot_rule.h   4383 front.h   4444 pairs.h
- *   4651 inverse_front.h   4723 table.h   4772 simd.h   4867 simd_scalar_single.h
- *   4913 simd_scalar.h   5051 simd_avx2_single.h   5105 simd_avx2.h   5346 simd_avx512_single.h
- *   5401 simd_avx512.h   5577 simd_neon_single.h   5619 simd_neon.h   5854 dispatch.h
+ *   4207 panel.h   4232 step.h   4310 pivot_rule.h   4384 front.h   4445 pairs.h
+ *   4652 inverse_front.h   4724 table.h   4773 simd.h   4868 simd_scalar_single.h
+ *   4914 simd_scalar.h   5052 simd_avx2_single.h   5106 simd_avx2.h   5347 simd_avx512_single.h
+ *   5402 simd_avx512.h   5578 simd_neon_single.h   5620 simd_neon.h   5855 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5947 csc.h   6090 csc_build.h   6224 csc64.h   6295 csc_triangle.h   6360 csc_products.h
- *   6477 permute.h   6543 sum.h   6625 output_file.h   6834 matrix_market.h
+ *   5948 csc.h   6091 csc_build.h   6225 csc64.h   6296 csc_triangle.h   6361 csc_products.h
+ *   6478 permute.h   6544 sum.h   6626 output_file.h   6835 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7280 graph.h   7398 contract.h   7652 coarsen.h   7815 labels.h   8036 subgraph.h   8230 heap.h
- *   8290 bisect.h   8517 separator.h   8779 mindeg.h   8962 dissect.h   9286 tree_cost.h
- *   9338 levelset.h   9444 geometric.h   9619 cells.h   9799 septree.h   9875 metis.h
- *  10024 metis_refined.h  10138 nd.h  10338 compress.h  10459 levels.h  10512 border.h
- *  10565 forest.h  10652 peel.h  10852 quotient.h  11269 graph_kind.h  11340 order.h
+ *   7281 graph.h   7399 contract.h   7653 coarsen.h   7816 labels.h   8037 subgraph.h   8231 heap.h
+ *   8291 bisect.h   8518 separator.h   8780 mindeg.h   8963 dissect.h   9287 tree_cost.h
+ *   9339 levelset.h   9445 geometric.h   9620 cells.h   9800 septree.h   9876 metis.h
+ *  10025 metis_refined.h  10139 nd.h  10339 compress.h  10460 levels.h  10513 border.h
+ *  10566 forest.h  10653 peel.h  10853 quotient.h  11270 graph_kind.h  11341 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11665 symbolic_types.h  11702 etree.h  11762 counts.h  11811 supernodes.h  12051 pattern.h
- *  12141 structure.h  12344 schedule.h  12624 symbolic.h  13094 reach.h
+ *  11666 symbolic_types.h  11703 etree.h  11763 counts.h  11812 supernodes.h  12052 pattern.h
+ *  12142 structure.h  12345 schedule.h  12625 symbolic.h  13095 reach.h
  * (factor: the numbers of L and D)
- *  13365 factor_types.h  13793 storage.h  13931 pivot_search.h  14277 pivoted.h  14346 scatter.h
- *  14504 uplooking.h  14576 null_product.h  14780 null_dense.h  14857 null_basis.h
- *  15177 null_vectors.h  15319 multifrontal.h  15513 gather.h  15561 kept.h  15731 front_tasks.h
- *  16074 null_center.h  16198 nullspace.h  16385 growth.h  16463 factor_setup.h  16789 factor.h
- *  16999 leftlooking.h  17146 factor_query.h  17281 combination.h
+ *  13366 factor_types.h  13794 storage.h  13932 pivot_search.h  14278 pivoted.h  14347 scatter.h
+ *  14505 uplooking.h  14577 null_product.h  14781 null_dense.h  14858 null_basis.h
+ *  15178 null_vectors.h  15320 multifrontal.h  15514 gather.h  15562 kept.h  15732 front_tasks.h
+ *  16075 null_center.h  16199 nullspace.h  16386 growth.h  16464 factor_setup.h  16790 factor.h
+ *  17000 leftlooking.h  17147 factor_query.h  17282 combination.h
  * (solve: full and local solves)
- *  17342 region_types.h  17446 work.h  17546 query.h  17762 singular.h  18019 backward.h
- *  18049 sweep_tasks.h  18380 sweep.h  18588 compile.h  18781 plan.h  18888 local.h  19040 parts.h
- *  19329 refine.h  19508 refine_local.h  19724 rcond.h  19883 defects.h
+ *  17343 region_types.h  17447 work.h  17547 query.h  17763 singular.h  18020 backward.h
+ *  18050 sweep_tasks.h  18381 sweep.h  18589 compile.h  18782 plan.h  18889 local.h  19041 parts.h
+ *  19330 refine.h  19509 refine_local.h  19725 rcond.h  19884 defects.h
  * (inverse: entries of the inverse, regions)
- *  19942 traversal.h  20191 traversal_run.h  20384 row_sets.h  20418 unit_vectors.h
- *  20645 bilinear.h  20817 entries.h  21094 block.h  21329 reserve.h  21521 selected.h
- *  21731 selected_query.h  21833 region_choose.h  22060 region.h
+ *  19943 traversal.h  20192 traversal_run.h  20385 row_sets.h  20419 unit_vectors.h
+ *  20646 bilinear.h  20818 entries.h  21095 block.h  21330 reserve.h  21522 selected.h
+ *  21732 selected_query.h  21834 region_choose.h  22061 region.h
  * (change: a factor that follows changes of its matrix)
- *  22308 update.h  22672 path.h  22773 rank.h  23149 edges.h  23303 choose.h  23536 pins_types.h
- *  23615 pins_nulls.h  23798 pins_capacitance.h  24050 pins_balance.h  24229 pins_held.h
- *  24445 pins_choose.h  24502 pins_rebuild.h  24720 pins_matrix.h  24871 pins.h  25140 pins_solve.h
- *  25411 subset.h  25539 restrict_kept.h  25736 restrict_analysis.h  25984 restrict_symbolic.h
- *  26179 restrict.h  26410 edit_match.h  26609 edit_place.h  26858 edit_separate.h
- *  27172 edit_order.h  27327 edit_graph.h  27409 edit_join.h  27685 edit.h  27848 edit_factor.h
+ *  22309 update.h  22673 path.h  22774 rank.h  23150 edges.h  23304 choose.h  23537 pins_types.h
+ *  23616 pins_nulls.h  23799 pins_capacitance.h  24051 pins_balance.h  24230 pins_held.h
+ *  24446 pins_choose.h  24503 pins_rebuild.h  24721 pins_matrix.h  24872 pins.h  25141 pins_solve.h
+ *  25412 subset.h  25540 restrict_kept.h  25738 restrict_analysis.h  25990 restrict_symbolic.h
+ *  26185 restrict.h  26416 edit_match.h  26615 edit_place.h  26864 edit_separate.h
+ *  27178 edit_order.h  27333 edit_graph.h  27415 edit_join.h  27691 edit.h  27854 edit_factor.h
  * (save: factors in files)
- *  28133 format.h  28430 decode.h  28578 check.h  28908 write.h  29213 load.h  29481 load_inverse.h
- *  29811 load_calls.h
+ *  28139 format.h  28436 decode.h  28584 check.h  28914 write.h  29219 load.h  29487 load_inverse.h
+ *  29817 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30010 batch_solve.h  30219 batch_factor.h  30420 batch_diagonal.h
+ *  30016 batch_solve.h  30225 batch_factor.h  30426 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30560 hermitian.h  30722 complex_rows.h
+ *  30566 hermitian.h  30728 complex_rows.h
  * (last: undefine every internal macro)
- *  30890 undef.h
+ *  30896 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31168 front.inl.h  31170 product.inl.h  31681 words_undef.inl.h  31758 copy_rows.inl.h
- *  31796 multi_rhs.inl.h  31815 complex_groups.inl.h  31954 multi_rhs_small.inl.h
- *  32126 multi_rhs_tiles.inl.h  32403 sweeps.inl.h  32405 unit_triangle.inl.h  32442 two_rhs.inl.h
- *  32611 small_supernode.inl.h  32792 single_rhs.inl.h  33036 kernel_set.inl.h
- *  33038 complex_small.inl.h  33208 complex_rows.inl.h  33423 inverse_front.inl.h  33708 row.inl.h
- *  33738 change.inl.h  33973 interleave.inl.h  34107 lanes_undef.inl.h
+ *  31174 front.inl.h  31176 product.inl.h  31687 words_undef.inl.h  31764 copy_rows.inl.h
+ *  31802 multi_rhs.inl.h  31821 complex_groups.inl.h  31960 multi_rhs_small.inl.h
+ *  32132 multi_rhs_tiles.inl.h  32409 sweeps.inl.h  32411 unit_triangle.inl.h  32448 two_rhs.inl.h
+ *  32617 small_supernode.inl.h  32798 single_rhs.inl.h  33042 kernel_set.inl.h
+ *  33044 complex_small.inl.h  33214 complex_rows.inl.h  33429 inverse_front.inl.h  33714 row.inl.h
+ *  33744 change.inl.h  33979 interleave.inl.h  34113 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3043,9 +3043,10 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
  *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
  *           factoring A[R, R] in a given order; 0.43 for half of the grid. Sets of which nothing is
- *           kept take 0.95 to 1.15 times as long as extracting, analyzing and factoring A[R, R] in
- *           that order, be they bands, lines or rows at random, 1.0 to 1.6 times if A[R, R] is at
- *           hand. 90 % of 1e6 rows at random take 1.5 times as long, most of it new memory.
+ *           kept take 0.85 to 1.0 times as long as extracting, analyzing and factoring A[R, R] in
+ *           that order, be they bands, lines, spirals or rows at random; if A[R, R] is at hand,
+ *           0.95 to 1.1 times, where R has most rows of A or half, and up to 1.3 times where it has
+ *           a tenth: reading A is the difference. 1 % of 1e6 rows at random: 0.6 and 1.5.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c
@@ -25621,9 +25622,10 @@ static int sli_restriction_has_runs(const sli_restriction *r) {
 static void sli_restriction_split(sli_restriction *r) {
   const sl_symbolic *S = r->S;
   const sl_int *columns = r->R.columns;
+  const sl_int most = (sl_int)((1.0 - SLI_RESTRICT_KEPT) * r->R.count);
   sl_int k = 0, q;
   r->n_fresh = 0;
-  while (k < r->R.count) {
+  while (k < r->R.count && r->n_fresh <= most) {
     const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
     const sl_int low = S->super_first[S->first_descendant[s]];
     const sl_int last = sli_min(k + (end - S->super_first[s]), r->R.count) - 1;
@@ -25642,7 +25644,7 @@ static void sli_restriction_split(sli_restriction *r) {
       }
     }
   }
-  if (r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
+  if (r->n_fresh > most) {
     r->n_kept = 0;
     r->n_fresh = r->R.count;
   }
@@ -25813,18 +25815,18 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
         other = number_at[i];
       } else if (i != j) {
         other = sli_restriction_number(r, i);
-        if (other == -1) {
-          continue;
-        }
       }
       is_there = (other >= 0) & sli_is_read(triangle, i, j);
-      row[e] = other;
-      column[e] = own;
-      from[e] = copies ? e : p;
       if (copies) {
+        if (!is_there) {
+          continue;
+        }
         r->B_rows[e] = i;
         r->B_values[e] = A->x[p];
       }
+      row[e] = other;
+      column[e] = own;
+      from[e] = copies ? e : p;
       e += is_there;
     }
   }
@@ -25895,27 +25897,31 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
 
 static void sli_restriction_sort(sli_restriction *r) {
   sli_pattern *rows = &r->w.rows, *columns = &r->w.columns;
-  const size_t bytes = (size_t)r->n_fresh * sizeof(sl_int);
-  sl_int e;
-  memset(rows->begin, 0, bytes);
-  memset(columns->begin, 0, bytes);
+  sl_int *at = r->w.scratch, e, k, row_at = 0, column_at = 0;
+  memset(at, 0, 2 * (size_t)r->n_fresh * sizeof(sl_int));
   for (e = 0; e < r->n_entries; e++) {
     const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-    rows->begin[row]++;
-    columns->begin[a + b - row]++;
+    at[2 * (size_t)row]++;
+    at[2 * (size_t)(a + b - row) + 1]++;
   }
-  sli_pattern_starts(rows, r->n_fresh, rows->begin, 1, 0);
-  sli_pattern_starts(columns, r->n_fresh, columns->begin, 1, 0);
+  for (k = 0; k < r->n_fresh; k++) {
+    sl_int *here = at + 2 * (size_t)k;
+    rows->begin[k] = row_at;
+    columns->begin[k] = column_at;
+    row_at += here[0];
+    column_at += here[1];
+    here[0] = rows->begin[k];
+    here[1] = columns->begin[k];
+  }
+  rows->begin[k] = row_at;
+  columns->begin[k] = column_at;
   for (e = 0; e < r->n_entries; e++) {
     const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-    const sl_int column = a + b - row, at = rows->begin[row]++;
-    rows->to[at] = column;
-    rows->from[at] = r->entry_from[e];
-    columns->to[columns->begin[column]++] = row;
+    const sl_int column = a + b - row, to = at[2 * (size_t)row]++;
+    rows->to[to] = column;
+    rows->from[to] = r->entry_from[e];
+    columns->to[at[2 * (size_t)column + 1]++] = row;
   }
-  memmove(rows->begin + 1, rows->begin, bytes);
-  memmove(columns->begin + 1, columns->begin, bytes);
-  rows->begin[0] = columns->begin[0] = 0;
 }
 
 static void sli_restriction_tree(sli_restriction *r, const sl_allocator *a, sl_stats *stats) {

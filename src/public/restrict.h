@@ -45,9 +45,10 @@
  *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
  *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
  *           factoring A[R, R] in a given order; 0.43 for half of the grid. Sets of which nothing is
- *           kept take 0.95 to 1.15 times as long as extracting, analyzing and factoring A[R, R] in
- *           that order, be they bands, lines or rows at random, 1.0 to 1.6 times if A[R, R] is at
- *           hand. 90 % of 1e6 rows at random take 1.5 times as long, most of it new memory.
+ *           kept take 0.85 to 1.0 times as long as extracting, analyzing and factoring A[R, R] in
+ *           that order, be they bands, lines, spirals or rows at random; if A[R, R] is at hand,
+ *           0.95 to 1.1 times, where R has most rows of A or half, and up to 1.3 times where it has
+ *           a tenth: reading A is the difference. 1 % of 1e6 rows at random: 0.6 and 1.5.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c

@@ -61,7 +61,7 @@ static void sli_restriction_cliques(sli_restriction *r) {
 }
 
 /* Lists the entries of A in new columns. Its pattern has not been compared with the analyzed one.
- * With an array by rows, no branch asks whether an entry is in R: nothing would predict it. */
+ * Where it is read in place, no branch asks whether an entry is in R: nothing would predict it. */
 static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     const sl_csc *A = r->A;
     const sl_triangle triangle = r->S->stats.symbolic.triangle;
@@ -90,18 +90,18 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
                 other = number_at[i];
             } else if (i != j) {
                 other = sli_restriction_number(r, i);
-                if (other == -1) {
-                    continue;
-                }
             }
             is_there = (other >= 0) & sli_is_read(triangle, i, j);
-            row[e] = other;
-            column[e] = own;
-            from[e] = copies ? e : p;
             if (copies) {
+                if (!is_there) {
+                    continue;
+                }
                 r->B_rows[e] = i;
                 r->B_values[e] = A->x[p];
             }
+            row[e] = other;
+            column[e] = own;
+            from[e] = copies ? e : p;
             e += is_there;
         }
     }
@@ -172,30 +172,35 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     return sli_restriction_copy(r, entries, a);
 }
 
-/* Sorts the entries of the graph by rows and by columns. */
+/* Sorts the entries of the graph by rows and by columns. The two counters of a column are neighbors
+ * in memory. */
 static void sli_restriction_sort(sli_restriction *r) {
     sli_pattern *rows = &r->w.rows, *columns = &r->w.columns;
-    const size_t bytes = (size_t)r->n_fresh * sizeof(sl_int);
-    sl_int e;
-    memset(rows->begin, 0, bytes);
-    memset(columns->begin, 0, bytes);
+    sl_int *at = r->w.scratch, e, k, row_at = 0, column_at = 0;
+    memset(at, 0, 2 * (size_t)r->n_fresh * sizeof(sl_int));
     for (e = 0; e < r->n_entries; e++) {
         const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-        rows->begin[row]++;
-        columns->begin[a + b - row]++;
+        at[2 * (size_t)row]++;
+        at[2 * (size_t)(a + b - row) + 1]++;
     }
-    sli_pattern_starts(rows, r->n_fresh, rows->begin, 1, 0);
-    sli_pattern_starts(columns, r->n_fresh, columns->begin, 1, 0);
-    for (e = 0; e < r->n_entries; e++) { /* each begin advances to its end; shifted back below */
+    for (k = 0; k < r->n_fresh; k++) {
+        sl_int *here = at + 2 * (size_t)k;
+        rows->begin[k] = row_at;
+        columns->begin[k] = column_at;
+        row_at += here[0];
+        column_at += here[1];
+        here[0] = rows->begin[k];
+        here[1] = columns->begin[k];
+    }
+    rows->begin[k] = row_at;
+    columns->begin[k] = column_at;
+    for (e = 0; e < r->n_entries; e++) {
         const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-        const sl_int column = a + b - row, at = rows->begin[row]++;
-        rows->to[at] = column;
-        rows->from[at] = r->entry_from[e];
-        columns->to[columns->begin[column]++] = row;
+        const sl_int column = a + b - row, to = at[2 * (size_t)row]++;
+        rows->to[to] = column;
+        rows->from[to] = r->entry_from[e];
+        columns->to[at[2 * (size_t)column + 1]++] = row;
     }
-    memmove(rows->begin + 1, rows->begin, bytes);
-    memmove(columns->begin + 1, columns->begin, bytes);
-    rows->begin[0] = columns->begin[0] = 0;
 }
 
 /* Finds the supernodes of the new columns. */

@@ -111,9 +111,10 @@ static int sli_restriction_has_runs(const sli_restriction *r) {
 static void sli_restriction_split(sli_restriction *r) {
     const sl_symbolic *S = r->S;
     const sl_int *columns = r->R.columns;
+    const sl_int most = (sl_int)((1.0 - SLI_RESTRICT_KEPT) * r->R.count);
     sl_int k = 0, q;
     r->n_fresh = 0;
-    while (k < r->R.count) {
+    while (k < r->R.count && r->n_fresh <= most) {
         const sl_int s = S->super_of[columns[k]], end = S->super_first[s + 1];
         const sl_int low = S->super_first[S->first_descendant[s]];
         const sl_int last = sli_min(k + (end - S->super_first[s]), r->R.count) - 1;
@@ -132,7 +133,7 @@ static void sli_restriction_split(sli_restriction *r) {
             }
         }
     }
-    if (r->R.count - r->n_fresh < SLI_RESTRICT_KEPT * r->R.count) {
+    if (r->n_fresh > most) {
         r->n_kept = 0;
         r->n_fresh = r->R.count;
     }
