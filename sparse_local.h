@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1007420d87487f01
+ * FNV-1a of the lines after this comment, without the license: 87a870b537d3064d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,45 +47,45 @@
  *  10025 metis_refined.h  10139 nd.h  10339 compress.h  10460 levels.h  10513 border.h
  *  10566 forest.h  10653 peel.h  10853 quotient.h  11270 graph_kind.h  11341 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11666 symbolic_types.h  11703 etree.h  11763 counts.h  11812 supernodes.h  12052 pattern.h
- *  12142 structure.h  12345 schedule.h  12625 symbolic.h  13095 reach.h
+ *  11666 symbolic_types.h  11703 etree.h  11759 counts.h  11808 supernodes.h  12048 pattern.h
+ *  12138 structure.h  12341 schedule.h  12621 symbolic.h  13091 reach.h
  * (factor: the numbers of L and D)
- *  13366 factor_types.h  13794 storage.h  13932 pivot_search.h  14278 pivoted.h  14347 scatter.h
- *  14505 uplooking.h  14577 null_product.h  14781 null_dense.h  14858 null_basis.h
- *  15178 null_vectors.h  15320 multifrontal.h  15514 gather.h  15562 kept.h  15732 front_tasks.h
- *  16075 null_center.h  16199 nullspace.h  16386 growth.h  16464 factor_setup.h  16790 factor.h
- *  17000 leftlooking.h  17147 factor_query.h  17282 combination.h
+ *  13362 factor_types.h  13790 storage.h  13928 pivot_search.h  14274 pivoted.h  14343 scatter.h
+ *  14501 uplooking.h  14573 null_product.h  14777 null_dense.h  14854 null_basis.h
+ *  15174 null_vectors.h  15316 multifrontal.h  15510 gather.h  15558 kept.h  15728 front_tasks.h
+ *  16071 null_center.h  16195 nullspace.h  16382 growth.h  16460 factor_setup.h  16786 factor.h
+ *  16996 leftlooking.h  17143 factor_query.h  17278 combination.h
  * (solve: full and local solves)
- *  17343 region_types.h  17447 work.h  17547 query.h  17763 singular.h  18020 backward.h
- *  18050 sweep_tasks.h  18381 sweep.h  18589 compile.h  18782 plan.h  18889 local.h  19041 parts.h
- *  19330 refine.h  19509 refine_local.h  19725 rcond.h  19884 defects.h
+ *  17339 region_types.h  17443 work.h  17543 query.h  17759 singular.h  18016 backward.h
+ *  18046 sweep_tasks.h  18377 sweep.h  18585 compile.h  18778 plan.h  18885 local.h  19037 parts.h
+ *  19326 refine.h  19505 refine_local.h  19721 rcond.h  19880 defects.h
  * (inverse: entries of the inverse, regions)
- *  19943 traversal.h  20192 traversal_run.h  20385 row_sets.h  20419 unit_vectors.h
- *  20646 bilinear.h  20818 entries.h  21095 block.h  21330 reserve.h  21522 selected.h
- *  21732 selected_query.h  21834 region_choose.h  22061 region.h
+ *  19939 traversal.h  20188 traversal_run.h  20381 row_sets.h  20415 unit_vectors.h
+ *  20642 bilinear.h  20814 entries.h  21091 block.h  21326 reserve.h  21518 selected.h
+ *  21728 selected_query.h  21830 region_choose.h  22057 region.h
  * (change: a factor that follows changes of its matrix)
- *  22309 update.h  22673 path.h  22774 rank.h  23150 edges.h  23304 choose.h  23537 pins_types.h
- *  23616 pins_nulls.h  23799 pins_capacitance.h  24051 pins_balance.h  24230 pins_held.h
- *  24446 pins_choose.h  24503 pins_rebuild.h  24721 pins_matrix.h  24872 pins.h  25141 pins_solve.h
- *  25412 subset.h  25540 restrict_kept.h  25738 restrict_analysis.h  25990 restrict_symbolic.h
- *  26185 restrict.h  26416 edit_match.h  26615 edit_place.h  26864 edit_separate.h
- *  27178 edit_order.h  27333 edit_graph.h  27415 edit_join.h  27691 edit.h  27854 edit_factor.h
+ *  22305 update.h  22669 path.h  22770 rank.h  23146 edges.h  23300 choose.h  23533 pins_types.h
+ *  23612 pins_nulls.h  23795 pins_capacitance.h  24047 pins_balance.h  24226 pins_held.h
+ *  24442 pins_choose.h  24499 pins_rebuild.h  24717 pins_matrix.h  24868 pins.h  25137 pins_solve.h
+ *  25408 subset.h  25536 restrict_kept.h  25734 restrict_analysis.h  25986 restrict_symbolic.h
+ *  26181 restrict.h  26412 edit_match.h  26611 edit_place.h  26860 edit_separate.h
+ *  27174 edit_order.h  27329 edit_graph.h  27411 edit_join.h  27687 edit.h  27850 edit_factor.h
  * (save: factors in files)
- *  28139 format.h  28436 decode.h  28584 check.h  28914 write.h  29219 load.h  29487 load_inverse.h
- *  29817 load_calls.h
+ *  28135 format.h  28432 decode.h  28580 check.h  28910 write.h  29215 load.h  29483 load_inverse.h
+ *  29813 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30016 batch_solve.h  30225 batch_factor.h  30426 batch_diagonal.h
+ *  30012 batch_solve.h  30221 batch_factor.h  30422 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30566 hermitian.h  30728 complex_rows.h
+ *  30562 hermitian.h  30724 complex_rows.h
  * (last: undefine every internal macro)
- *  30896 undef.h
+ *  30892 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31174 front.inl.h  31176 product.inl.h  31687 words_undef.inl.h  31764 copy_rows.inl.h
- *  31802 multi_rhs.inl.h  31821 complex_groups.inl.h  31960 multi_rhs_small.inl.h
- *  32132 multi_rhs_tiles.inl.h  32409 sweeps.inl.h  32411 unit_triangle.inl.h  32448 two_rhs.inl.h
- *  32617 small_supernode.inl.h  32798 single_rhs.inl.h  33042 kernel_set.inl.h
- *  33044 complex_small.inl.h  33214 complex_rows.inl.h  33429 inverse_front.inl.h  33714 row.inl.h
- *  33744 change.inl.h  33979 interleave.inl.h  34113 lanes_undef.inl.h
+ *  31172 front.inl.h  31174 product.inl.h  31685 words_undef.inl.h  31762 copy_rows.inl.h
+ *  31800 multi_rhs.inl.h  31819 complex_groups.inl.h  31958 multi_rhs_small.inl.h
+ *  32130 multi_rhs_tiles.inl.h  32407 sweeps.inl.h  32409 unit_triangle.inl.h  32446 two_rhs.inl.h
+ *  32615 small_supernode.inl.h  32796 single_rhs.inl.h  33040 kernel_set.inl.h
+ *  33042 complex_small.inl.h  33212 complex_rows.inl.h  33427 inverse_front.inl.h  33712 row.inl.h
+ *  33742 change.inl.h  33977 interleave.inl.h  34111 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11747,17 +11747,13 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
     fresh[k] = old_of[order[k]];
     number[order[k]] = k;
   }
-  if (n > 0) {
-    memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
-  }
+  memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
   for (k = 0; k < n; k++) {
     const sl_int old = parent[order[k]];
     new_of[old_of[k]] = k;
     fresh[k] = old == -1 ? -1 : number[old];
   }
-  if (n > 0) {
-    memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
-  }
+  memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
 }
 
 /* src/impl/analysis/counts.h: column counts of L in nearly O(nnz(A)), from the leaves of the row subtrees */
@@ -31155,7 +31151,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_POINTS_FEW
 #undef SLI_READ_VERSION_DOUBLE
 #undef SLI_RESTRICT_AHEAD
+#undef SLI_RESTRICT_IN_PLACE
 #undef SLI_RESTRICT_KEPT
+#undef SLI_RESTRICT_MANY
 #undef SLI_SUBSET_BITS
 #undef SLI_SUBSET_WORDS
 #undef SLI_SUBSET_AHEAD

@@ -56,17 +56,13 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
         fresh[k] = old_of[order[k]];
         number[order[k]] = k;
     }
-    if (n > 0) {
-        memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
-    }
+    memcpy(old_of, fresh, (size_t)n * sizeof(sl_int));
     for (k = 0; k < n; k++) {
         const sl_int old = parent[order[k]];
         new_of[old_of[k]] = k;
         fresh[k] = old == -1 ? -1 : number[old];
     }
-    if (n > 0) {
-        memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
-    }
+    memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
 }
 
 #endif
