@@ -429,8 +429,8 @@ test-wasm: deps-wasm deps-clang sparse_local.h ## the portable tests for WebAsse
 
 # Counters are atomic because threads run too. The tests run without DATA, so that the figures are those
 # of any checkout. The limits are what the tests reach; they only rise. Both are meant to be 100.
-COV_LINES = 99.9
-COV_BRANCHES = 99.7
+COV_LINES = 100
+COV_BRANCHES = 99.9
 GCOVR = gcovr --root . --exclude-throw-branches --exclude-unreachable-branches --exclude-branches-by-pattern '.*SLI_ASSERT\(.*' \
 	--exclude-lines-by-pattern '.*(untested: |SLI_ASSERT\().*' --print-summary
 

@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 87a870b537d3064d
+ * FNV-1a of the lines after this comment, without the license: 8ad1e13a0c1d1cd3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -22411,7 +22411,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_ERR_NOT_FINITE;
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-    (fabs(e) < fabs(d) && !u->is_tried && sli_update_is_null(F, k, e, magnitude))) {
+    (fabs(e) < fabs(d) && sli_update_is_null(F, k, e, magnitude))) {
     return SL_ERR_PIVOT;
   }
   if (!u->is_trial) {
