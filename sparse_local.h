@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8ad1e13a0c1d1cd3
+ * FNV-1a of the lines after this comment, without the license: a69a4e3fc3c9db02
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -23384,7 +23384,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }
-  if (can_reach) {
+  if (can_reach && (!can_update || c->changed < c->update)) {
     sli_way_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
   }
   if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {

@@ -100,7 +100,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
         c->reason = SL_CHANGE_DRIFT;
         return SL_CHANGE_REFACTOR;
     }
-    if (can_reach) {
+    if (can_reach && (!can_update || c->changed < c->update)) { /* else counted before */
         sli_way_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
     }
     if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
