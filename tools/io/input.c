@@ -1,5 +1,6 @@
 /* input.c: reads a whole file, plain or gzipped, and scans it for lines, words and numbers */
 #include "input.h"
+#include "path_message.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,17 +16,16 @@ bool input_error(input *in, const char *format, ...) {
     if (in->message == NULL || in->message_size == 0) {
         return false;
     }
-    /* Of a path that leaves no room for the reason the end is shown. */
-    const size_t length = strlen(in->path), room = in->message_size / 2;
-    const char *shown = length > room ? in->path + length - room : in->path;
-    const char *before = shown == in->path ? "" : "...";
-    int used = in->line > 0 ? snprintf(in->message, in->message_size, "%s%s:%lld: ", before, shown,
-                                       (long long)in->line)
-                            : snprintf(in->message, in->message_size, "%s%s: ", before, shown);
-    if (used >= 0 && (size_t)used < in->message_size) {
+    char *message = in->message;
+    const size_t size = in->message_size;
+    size_t used = path_message_begin(message, size, in->path, size / 2);
+    int added = in->line > 0 ? snprintf(message + used, size - used, ":%lld: ", (long long)in->line)
+                             : snprintf(message + used, size - used, ": ");
+    used += added > 0 ? (size_t)added : 0;
+    if (used < size) {
         va_list list;
         va_start(list, format);
-        (void)vsnprintf(in->message + used, in->message_size - (size_t)used, format, list);
+        (void)vsnprintf(message + used, size - used, format, list);
         va_end(list);
     }
     return false;

@@ -1,6 +1,7 @@
 /* output_file.c: writes files that are replaced as a whole or not at all; checks standard output */
 #define _XOPEN_SOURCE 700
 #include "output_file.h"
+#include "path_message.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -39,14 +40,13 @@ static char *copy_of(const char *text, size_t room) {
     return copy != NULL ? strcpy(copy, text) : NULL;
 }
 
-/* error: an errno; 0: unknown. Of a path that does not fit the end is shown. */
+/* error: an errno; 0: unknown. */
 static void explain(char *message, size_t size, const char *path, const char *what, int error) {
     const char *reason = error != 0 ? strerror(error) : "";
-    const size_t length = strlen(path), rest = strlen(what) + strlen(reason) + 8;
-    const size_t room = size > rest ? size - rest : 0;
     if (message != NULL && size > 0) {
-        (void)snprintf(message, size, "%s%s: %s%s%s", length > room ? "..." : "",
-                       length > room ? path + length - room : path, what, error != 0 ? ": " : "",
+        const size_t rest = strlen(what) + strlen(reason) + sizeof ": : ";
+        const size_t used = path_message_begin(message, size, path, rest);
+        (void)snprintf(message + used, size - used, ": %s%s%s", what, error != 0 ? ": " : "",
                        reason);
     }
 }
