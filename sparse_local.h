@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a69a4e3fc3c9db02
+ * FNV-1a of the lines after this comment, without the license: e1d62a754f453e14
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,68 +24,68 @@
  *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2634 change.h     a factor that follows small changes of its matrix
- *   2722 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2873 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3004 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3059 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2723 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2874 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3005 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3151 base.h   3445 status.h   3506 options.h   3564 alloc.h   3720 hash.h   3850 file_map.h
- *   3947 sort.h   4011 parallel.h
+ *   3154 base.h   3448 status.h   3509 options.h   3567 alloc.h   3723 hash.h   3853 file_map.h
+ *   3950 sort.h   4014 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4207 panel.h   4232 step.h   4310 pivot_rule.h   4384 front.h   4445 pairs.h
- *   4652 inverse_front.h   4724 table.h   4773 simd.h   4868 simd_scalar_single.h
- *   4914 simd_scalar.h   5052 simd_avx2_single.h   5106 simd_avx2.h   5347 simd_avx512_single.h
- *   5402 simd_avx512.h   5578 simd_neon_single.h   5620 simd_neon.h   5855 dispatch.h
+ *   4210 panel.h   4235 step.h   4313 pivot_rule.h   4387 front.h   4448 pairs.h
+ *   4655 inverse_front.h   4727 table.h   4776 simd.h   4871 simd_scalar_single.h
+ *   4917 simd_scalar.h   5055 simd_avx2_single.h   5109 simd_avx2.h   5350 simd_avx512_single.h
+ *   5405 simd_avx512.h   5581 simd_neon_single.h   5623 simd_neon.h   5858 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5948 csc.h   6091 csc_build.h   6225 csc64.h   6296 csc_triangle.h   6361 csc_products.h
- *   6478 permute.h   6544 sum.h   6626 output_file.h   6835 matrix_market.h
+ *   5951 csc.h   6094 csc_build.h   6228 csc64.h   6299 csc_triangle.h   6364 csc_products.h
+ *   6481 permute.h   6547 sum.h   6629 output_file.h   6838 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7281 graph.h   7399 contract.h   7653 coarsen.h   7816 labels.h   8037 subgraph.h   8231 heap.h
- *   8291 bisect.h   8518 separator.h   8780 mindeg.h   8963 dissect.h   9287 tree_cost.h
- *   9339 levelset.h   9445 geometric.h   9620 cells.h   9800 septree.h   9876 metis.h
- *  10025 metis_refined.h  10139 nd.h  10339 compress.h  10460 levels.h  10513 border.h
- *  10566 forest.h  10653 peel.h  10853 quotient.h  11270 graph_kind.h  11341 order.h
+ *   7284 graph.h   7402 contract.h   7656 coarsen.h   7819 labels.h   8040 subgraph.h   8234 heap.h
+ *   8294 bisect.h   8521 separator.h   8783 mindeg.h   8966 dissect.h   9290 tree_cost.h
+ *   9342 levelset.h   9448 geometric.h   9623 cells.h   9803 septree.h   9879 metis.h
+ *  10028 metis_refined.h  10142 nd.h  10342 compress.h  10463 levels.h  10516 border.h
+ *  10569 forest.h  10656 peel.h  10856 quotient.h  11273 graph_kind.h  11344 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11666 symbolic_types.h  11703 etree.h  11759 counts.h  11808 supernodes.h  12048 pattern.h
- *  12138 structure.h  12341 schedule.h  12621 symbolic.h  13091 reach.h
+ *  11669 symbolic_types.h  11706 etree.h  11762 counts.h  11811 supernodes.h  12051 pattern.h
+ *  12141 structure.h  12344 schedule.h  12624 symbolic.h  13094 reach.h
  * (factor: the numbers of L and D)
- *  13362 factor_types.h  13790 storage.h  13928 pivot_search.h  14274 pivoted.h  14343 scatter.h
- *  14501 uplooking.h  14573 null_product.h  14777 null_dense.h  14854 null_basis.h
- *  15174 null_vectors.h  15316 multifrontal.h  15510 gather.h  15558 kept.h  15728 front_tasks.h
- *  16071 null_center.h  16195 nullspace.h  16382 growth.h  16460 factor_setup.h  16786 factor.h
- *  16996 leftlooking.h  17143 factor_query.h  17278 combination.h
+ *  13365 factor_types.h  13793 storage.h  13931 pivot_search.h  14277 pivoted.h  14346 scatter.h
+ *  14504 uplooking.h  14576 null_product.h  14780 null_dense.h  14857 null_basis.h
+ *  15177 null_vectors.h  15319 multifrontal.h  15513 gather.h  15561 kept.h  15731 front_tasks.h
+ *  16074 null_center.h  16198 nullspace.h  16385 growth.h  16463 factor_setup.h  16789 factor.h
+ *  16999 leftlooking.h  17146 factor_query.h  17281 combination.h
  * (solve: full and local solves)
- *  17339 region_types.h  17443 work.h  17543 query.h  17759 singular.h  18016 backward.h
- *  18046 sweep_tasks.h  18377 sweep.h  18585 compile.h  18778 plan.h  18885 local.h  19037 parts.h
- *  19326 refine.h  19505 refine_local.h  19721 rcond.h  19880 defects.h
+ *  17342 region_types.h  17446 work.h  17546 query.h  17762 singular.h  18019 backward.h
+ *  18049 sweep_tasks.h  18380 sweep.h  18588 compile.h  18781 plan.h  18888 local.h  19040 parts.h
+ *  19329 refine.h  19508 refine_local.h  19724 rcond.h  19883 defects.h
  * (inverse: entries of the inverse, regions)
- *  19939 traversal.h  20188 traversal_run.h  20381 row_sets.h  20415 unit_vectors.h
- *  20642 bilinear.h  20814 entries.h  21091 block.h  21326 reserve.h  21518 selected.h
- *  21728 selected_query.h  21830 region_choose.h  22057 region.h
+ *  19942 traversal.h  20191 traversal_run.h  20384 row_sets.h  20418 unit_vectors.h
+ *  20645 bilinear.h  20817 entries.h  21094 block.h  21329 reserve.h  21521 selected.h
+ *  21731 selected_query.h  21833 region_choose.h  22060 region.h
  * (change: a factor that follows changes of its matrix)
- *  22305 update.h  22669 path.h  22770 rank.h  23146 edges.h  23300 choose.h  23533 pins_types.h
- *  23612 pins_nulls.h  23795 pins_capacitance.h  24047 pins_balance.h  24226 pins_held.h
- *  24442 pins_choose.h  24499 pins_rebuild.h  24717 pins_matrix.h  24868 pins.h  25137 pins_solve.h
- *  25408 subset.h  25536 restrict_kept.h  25734 restrict_analysis.h  25986 restrict_symbolic.h
- *  26181 restrict.h  26412 edit_match.h  26611 edit_place.h  26860 edit_separate.h
- *  27174 edit_order.h  27329 edit_graph.h  27411 edit_join.h  27687 edit.h  27850 edit_factor.h
+ *  22308 update.h  22672 path.h  22773 rank.h  23149 edges.h  23303 choose.h  23536 pins_types.h
+ *  23615 pins_nulls.h  23798 pins_capacitance.h  24050 pins_balance.h  24229 pins_held.h
+ *  24445 pins_choose.h  24502 pins_rebuild.h  24720 pins_matrix.h  24871 pins.h  25140 pins_solve.h
+ *  25411 subset.h  25539 restrict_kept.h  25737 restrict_analysis.h  25989 restrict_symbolic.h
+ *  26184 restrict.h  26415 edit_match.h  26614 edit_place.h  26863 edit_separate.h
+ *  27177 edit_order.h  27332 edit_graph.h  27414 edit_join.h  27690 edit.h  27853 edit_factor.h
  * (save: factors in files)
- *  28135 format.h  28432 decode.h  28580 check.h  28910 write.h  29215 load.h  29483 load_inverse.h
- *  29813 load_calls.h
+ *  28138 format.h  28435 decode.h  28583 check.h  28913 write.h  29218 load.h  29486 load_inverse.h
+ *  29816 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30012 batch_solve.h  30221 batch_factor.h  30422 batch_diagonal.h
+ *  30015 batch_solve.h  30224 batch_factor.h  30425 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30562 hermitian.h  30724 complex_rows.h
+ *  30565 hermitian.h  30727 complex_rows.h
  * (last: undefine every internal macro)
- *  30892 undef.h
+ *  30895 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31172 front.inl.h  31174 product.inl.h  31685 words_undef.inl.h  31762 copy_rows.inl.h
- *  31800 multi_rhs.inl.h  31819 complex_groups.inl.h  31958 multi_rhs_small.inl.h
- *  32130 multi_rhs_tiles.inl.h  32407 sweeps.inl.h  32409 unit_triangle.inl.h  32446 two_rhs.inl.h
- *  32615 small_supernode.inl.h  32796 single_rhs.inl.h  33040 kernel_set.inl.h
- *  33042 complex_small.inl.h  33212 complex_rows.inl.h  33427 inverse_front.inl.h  33712 row.inl.h
- *  33742 change.inl.h  33977 interleave.inl.h  34111 lanes_undef.inl.h
+ *  31175 front.inl.h  31177 product.inl.h  31688 words_undef.inl.h  31765 copy_rows.inl.h
+ *  31803 multi_rhs.inl.h  31822 complex_groups.inl.h  31961 multi_rhs_small.inl.h
+ *  32133 multi_rhs_tiles.inl.h  32410 sweeps.inl.h  32412 unit_triangle.inl.h  32449 two_rhs.inl.h
+ *  32618 small_supernode.inl.h  32799 single_rhs.inl.h  33043 kernel_set.inl.h
+ *  33045 complex_small.inl.h  33215 complex_rows.inl.h  33430 inverse_front.inl.h  33715 row.inl.h
+ *  33745 change.inl.h  33980 interleave.inl.h  34114 lanes_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -316,7 +316,7 @@ typedef enum sl_ordering {
     SL_ORDERING_METIS_REFINED, /* METIS's separators, improved: the best order, in twice its time */
     SL_ORDERING_GIVEN,         /* options.perm, or equivalent: see sl_symbolic_create */
     SL_ORDERING_NATURAL,       /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
-    SL_ORDERING_MINDEG         /* approximate minimum degree, soonest done [ADD96] */
+    SL_ORDERING_MINDEG         /* approximate minimum degree, the quickest [ADD96] */
 } sl_ordering;
 
 /** What the analysis is for. */
@@ -412,8 +412,8 @@ typedef struct sl_region sl_region;     /* a part of the matrix where local solv
 /* src/public/options.h: options of all calls, threads, and the allocator */
 
 /** Runs body(data, k) once for each k = 0 .. count-1, in any order and concurrently if it can, and
- *  returns when all are done. A body may wait for others that have begun, never for one that has
- *  not: fewer threads, or one, only take longer. tools/examples/threads.c is a pool of pthreads. */
+ *  returns when all are done. A body waits only for bodies that have begun. So any number of
+ *  threads suffices; fewer take longer. tools/examples/threads.c is a pool of pthreads. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
 
@@ -689,9 +689,9 @@ typedef struct sl_restrict_info {
 typedef struct sl_edit_info {
     sl_int changed;   /* rows of B that are new or have other neighbors than before */
     sl_int moved;     /* rows that moved to another separator */
-    sl_int reordered; /* rows of subtrees that were ordered anew; n if is_anew */
-    sl_int computed;  /* columns of L whose structure was computed anew */
-    int is_anew;      /* 1: the edit is not local: all rows were ordered anew */
+    sl_int reordered; /* rows of subtrees that were ordered again; n if is_anew */
+    sl_int computed;  /* columns of L whose structure was computed again */
+    int is_anew;      /* 1: the edit is not local: all rows were ordered again */
     int is_due;       /* 1: a new order is due, as growth exceeds 1.1 */
     /* nnz_l relative to that of a new order, which is estimated: the entries of the last one, times
      * the growth of the entries of A since then. A loaded analysis counts as a new one */
@@ -922,25 +922,25 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
 
 /* src/public/analyze.h: the analysis of a pattern: ordering, elimination tree, supernodes, storage of L */
 
-/** Analyses the pattern of a symmetric matrix, for any number of factorizations with that pattern.
+/** Analyzes the pattern of a symmetric matrix, for any number of factorizations with that pattern.
  *
  *  Orders the rows; computes the elimination tree, its postorder, column counts, supernodes and
  *  their row structure; and maps each entry of A to its position in L.
  *
  *  SL_ORDERING_GIVEN and SL_ORDERING_NATURAL keep the caller's order if it is a postorder of the
  *  supernodes: the columns of each supernode are consecutive, and so are those of each subtree of
- *  supernodes. L is stored in this form, so that any other order is replaced by an equivalent one,
- *  with the same fill and the same elimination tree up to numbering: the columns of a supernode
- *  keep the caller's order, and sibling subtrees follow each other by their last columns. With
+ *  supernodes. L is stored in this form. Any other order is replaced by an equivalent one, with the
+ *  same fill and the same elimination tree up to numbering: the columns of a supernode keep the
+ *  caller's order, and sibling subtrees follow each other by their last columns. With
  *  SL_RELAXATION_NONE every postorder of the elimination tree is kept; the default relaxation may
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
- *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, as those of networks and KKT
- *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
- *  the roots have fewer of them. Dissection is not tried where it cannot win: if nearly all
- *  operations of minimum degree are in one dense block, and on KKT systems with a diagonal Hessian
- *  and paths as short as those of plane meshes.
+ *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, such as networks and KKT
+ *  systems, it also tries minimum degree, and takes that if both L and the paths to the roots have
+ *  fewer entries. Dissection is not tried where it cannot win: if nearly all operations of minimum
+ *  degree are in one dense block, and on KKT systems with a diagonal Hessian and paths as short as
+ *  those of plane meshes.
  *
  *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
  *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
@@ -987,13 +987,13 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Analyses a symmetric indefinite matrix, with pivots that are chosen by its values.
+/** Analyzes a symmetric indefinite matrix, with pivots that are chosen by its values.
  *
- *  For matrices that have no stable factorization with a diagonal D in the order of the pattern, as
- *  KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1 and 2x2
- *  pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A column
- *  without an acceptable pivot in its front is delayed: it moves up to the parent's front. The
- *  result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
+ *  For matrices that have no stable factorization with a diagonal D in the order of the pattern,
+ *  such as KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1
+ *  and 2x2 pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A
+ *  column without an acceptable pivot in its front is delayed: it moves up to the parent's front.
+ *  The result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
  *
  *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
  *  accurate than in any fixed order: check stats.factor.growth, as with any indefinite matrix
@@ -1151,17 +1151,17 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  those of the graph of nonzero entries; duplicates that cancel are zeros.
  *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
  *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
- *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
- *    stats.factor.weak. If such a component has a second null vector that is not given, its
+ *    within rounding of 0, for example where a weak spring joins two grids, is kept and counted
+ *    in stats.factor.weak. If such a component has a second null vector that is not given, its
  *    solutions are arbitrary in that direction; set z = 0 there.
- *  - Components with several null vectors, as elastic bodies without supports, need all of them:
- *    options.null_vector is then a matrix of options.null_vector_count columns, such as the 3 rigid
- *    motions in 2D or the 6 in 3D. Each component keeps those combinations of the columns that
- *    A Z = 0 holds for, by the bound above: a body that hangs on one hinge keeps the rotation about
- *    it. As many of its pivots are skipped, in rows that are far from each other, and no other one
- *    is null. The directions of translations and the center of rotations may be any; a center far
- *    from a body costs digits. In each tree of the elimination forest, the null vectors of all
- *    components with more than one row must not be more than the columns.
+ *  - Components with several null vectors, such as elastic bodies without supports, need all of
+ *    them: options.null_vector is then a matrix of options.null_vector_count columns, such as the 3
+ *    rigid motions in 2D or the 6 in 3D. Each component keeps the combinations Z of the columns
+ *    with A Z = 0, by the bound above: a body that hangs on one hinge keeps the rotation
+ *    about it. As many of its pivots are skipped, in rows that are far from each other, and no
+ *    other one is null. The directions of translations and the center of rotations may be any; a
+ *    center far from a body costs digits. In each tree of the elimination forest, the null vectors
+ *    of all components with more than one row must not outnumber the columns.
  *  - In other components, and where z is 0, null_tolerance decides. It misses null pivots whose
  *    rounding errors come from rows much heavier than their own, and takes regular pivots for null
  *    that are smaller than it.
@@ -1180,8 +1180,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
  *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
  *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is not
- *    definite beyond rounding, as where the only weights are those of one vertex, the factorization
- *    is refused; so are null pivots by the tolerance in components of more than one row.
+ *    definite beyond rounding, for example if only one vertex has weights, the factorization is
+ *    refused; so are null pivots by the tolerance in components of more than one row.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -1263,8 +1263,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *
  *  Meant for many changes in one place. Each recomputed supernode gathers from all its descendants,
  *  and the reach of a single vertex ends in the large top separators: on a 2D mesh that already
- *  costs about 30 % of a factorization. Results agree with sl_factor_refactor to rounding; the
- *  other columns of L keep their bits. An up-looking factor is recomputed completely.
+ *  costs about 30 % of a factorization. Results agree with sl_factor_refactor up to rounding;
+ *  the other columns of L keep their bits. An up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
  *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
@@ -1448,8 +1448,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
 
 /** Solves A X = B with interleaved right-hand sides: the numbers of one row are contiguous.
  *
- *  The same bits as sl_factor_solve, and the fastest layout for several right-hand sides: to gather
- *  and scatter 8 separate columns takes about a fifth of a solve.
+ *  The same bits as sl_factor_solve, and the fastest layout for several right-hand sides:
+ *  gathering and scattering 8 separate columns takes about a fifth of a solve.
  *
  *  F      [in]   factor of A, n x n.
  *  X      [out]  n x nrhs, row-major, ldx >= nrhs elements from row to row. May be B itself (then
@@ -1506,7 +1506,7 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 /** Solves A x = b on the sets of a plan: exactly what the full solve gives there.
  *
  *  For the same instruction set and nrhs the result equals that of sl_factor_solve bit for bit,
- *  except for the sign of zeros. In a region it agrees to rounding.
+ *  except for the sign of zeros. In a region it agrees up to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
  *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of
@@ -1718,8 +1718,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  Up to rounding, the residual of the solution x of (A + E) x = b is E x, and E is nonzero in the
  *  regularized rows only. The iteration x <- (A + E)^-1 (b + E x) therefore needs x in these rows
  *  and in the wanted ones only, and each step costs one local solve. It removes the error of
- *  regularization. Rounding errors remain as in sl_plan_solve; to reduce them takes all of x and
- *  sl_factor_refine. If nothing was regularized, this is sl_plan_solve.
+ *  regularization. Rounding errors remain as in sl_plan_solve; reducing them takes all of x
+ *  and sl_factor_refine. If nothing was regularized, this is sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
@@ -1794,8 +1794,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *
  * where only the common ancestors of b and c in the elimination tree contribute: one forward sweep
  * for each and no backward sweep. Requests are sorted internally, and nearby ones share one sweep
- * of up to 8 SIMD lanes. Results are in the caller's order and equal those of full solves to
- * rounding. The last bits depend on the other requests of the same call, since these determine
+ * of up to 8 SIMD lanes. Results are in the caller's order and equal those of full solves up
+ * to rounding. The last bits depend on the other requests of the same call, since these determine
  * which sweeps are shared.
  *
  * All calls below
@@ -1846,8 +1846,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *
  *
  *  out    [out]  count values.
  *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repetitions allowed. Selected
- *                 inversion is possible only if all entries are in the pattern of L, as those of A
- *                 are.
+ *                 inversion is possible only if all entries are in the pattern of L, which contains
+ *                 that of A.
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out,
                                                  const sl_int *rows, const sl_int *columns,
@@ -2049,7 +2049,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  S             [in]   the analysis; borrowed, must outlive the factor.
  *  coefficients  [in]   terms finite numbers.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
- *  terms         [in]   0 or more; the sum of none is the zero matrix.
+ *  terms         [in]   0 or more; the sum of no terms is the zero matrix.
  *  opt, stats           as in sl_factor_create.
  *  Returns  as sl_factor_create, but never SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient
  *           (error.value, no row) or a sum, at error.row >= error.column.
@@ -2279,9 +2279,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_se
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
  * and the backward sweep continues in T. The region keeps (A^-1)_SS, so that a solve reads L in T
- * only and gives the answer of the full solve to rounding. If null pivots were skipped, A^-1 is the
- * generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency of b
- * is then checked only for null rows inside the region, and where components have several null
+ * only and gives the answer of the full solve up to rounding. If null pivots were skipped, A^-1 is
+ * the generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency
+ * of b is then checked only for null rows inside the region, and where components have several null
  * vectors (options.null_vector_count), only if the region has no boundary.
  */
 
@@ -2300,9 +2300,9 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_se
  *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
  *                it is not dereferenced.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
- *                all entries needed, as for a single row or the subtree of one supernode; such a
- *                region is then preferred if it costs a solve at most twice as much. Otherwise
- *                forward sweeps compute the entries, as in sl_inverse_block.
+ *                all entries needed, for example those of a single row or of the subtree of one
+ *                supernode; such a region is then preferred if it costs a solve at most twice as
+ *                much. Otherwise forward sweeps compute the entries, as in sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
  *                stats.region.bytes is at most region_bytes. If only a region without boundary
  *                fits, solves go to the roots of the tree.
@@ -2518,8 +2518,8 @@ SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, cons
 /* Regions and selected inverses take longer to make than to read. The calls below save them
  * together with their factor. Without them, the file is the same as that of sl_save_file. */
 
-/** What one file holds. The caller fills one in to save his objects; a load fills in new ones,
- *  which sl_saved_set_free releases. */
+/** What one file holds. The caller fills one in to save objects; a load fills in new ones, which
+ *  sl_saved_set_free releases. */
 typedef struct sl_saved_set {
     sl_symbolic *symbolic;
     sl_factor *factor;     /* over symbolic; NULL: none */
@@ -2627,8 +2627,8 @@ SL_API SL_WARN_UNUSED sl_status sl_map_set_memory(sl_saved_set *set, const void 
 SL_API SL_WARN_UNUSED sl_status sl_map_set_file(sl_saved_set *set, const char *path,
                                                 sl_load_checks checks, const sl_options *opt);
 
-/** Releases the objects of a set that a load filled in, then sets it to all zero. Objects that the
- *  caller keeps he takes out before, by setting their pointers to NULL. NULL is allowed. */
+/** Releases the objects of a set that a load filled in, then sets it to all zero. To keep an
+ *  object, set its pointer to NULL before. NULL is allowed. */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
 /* src/public/change.h: a factor that follows small changes of its matrix */
@@ -2643,28 +2643,29 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
  *
  *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
- *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
- *  of both signs a change may also fail because it meets a null pivot on its way.
+ *  first, and the others fail only if the changed matrix is not definite, up to rounding. With
+ *  pivots of both signs a change may also fail because it meets a null pivot on its way.
  *
  *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
  *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
- *  growth or drift are too large, refactor.
+ *  growth or drift is too large, refactor.
  *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
  *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
  *
  *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
- *                   SL_ERR_NOT_FINITE for an overflow, or where a pivot fails although a trial
- *                   found none that does, by rounding: then it has no numbers.
+ *                   SL_ERR_NOT_FINITE for an overflow, or where rounding makes a pivot fail that a
+ *                   trial had accepted: then it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     change, factor; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V has not n rows; SL_ERR_PATTERN: V is malformed, or
- *           its row error.row is not in the column of L of error.column; SL_ERR_PIVOT: a pivot
- *           would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE: an entry of V at
- *           error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE: growth beyond its
- *           limit; SL_ERR_STATE: F has no numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots
- *           were skipped, there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is
+ *           malformed, or its row error.row is not in the column of L of error.column;
+ *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
+ *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
+ *           growth beyond its limit; SL_ERR_STATE: F has no numbers or is mapped;
+ *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
  *           writes these columns once. A pass that may fail takes another forward sweep; several
  *           such passes, and pivots of both signs, a copy of the columns.
@@ -2759,7 +2760,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  row    [in]   in 0..n-1.
  *  stats  [out]  error.row; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
- *           combination of the others, to rounding; SL_ERR_STATE: F has changed;
+ *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
@@ -2815,7 +2816,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release_rows(sl_pins *P, const sl_int *i
 
 /** Gives P the matrix of F, so that pins may be eliminated. After F has changed this also takes
  *  its present numbers, as sl_pins_refactor does, by the cheaper way. Both ways give the same
- *  solutions, to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX pins
+ *  solutions, up to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX, pins
  *  stay with the capacitance matrix (stats.pins.reason).
  *
  *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
@@ -3007,13 +3008,13 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
- *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
- *  If less than 40 % of the columns could be kept, none is, and all are analyzed and computed
- *  (stats.restriction.is_anew). So they are if F has several null vectors or L in another storage
- *  than SL_STORAGE_DOUBLE. G has that storage, too; but with SL_STORAGE_COMPLEX, L of G is in
- *  double if rows 2j and 2j+1 of A do not follow each other in rows.
+ *  not in R. The others are analyzed and computed again, in the order of A; nothing is ordered. If
+ *  fewer than 40 % of the columns could be kept, all are analyzed and computed
+ *  (stats.restriction.is_anew). The same happens if F has several null vectors or stores L in
+ *  another way than SL_STORAGE_DOUBLE. G has the storage of F; but with SL_STORAGE_COMPLEX, L of G
+ *  is in double if rows 2j and 2j+1 of A do not follow each other in rows.
  *
- *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
+ *  G and S do not depend on F, which may change or be released. Their row k is row rows[k] of A.
  *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
  *  work as with any factor. The numbers stay as they are: refactorizations, changes and saving give
  *  SL_ERR_STATE. What compares a matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement,
@@ -3029,24 +3030,25 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
- *                computed anew; its pattern is not compared with the analyzed one.
+ *                computed again; its pattern is not compared with the analyzed one.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
- *           SL_ERR_PATTERN: A has not the size or the number of entries of the analyzed matrix, or
+ *           SL_ERR_PATTERN: A differs in size or number of entries from the analyzed matrix, or
  *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
  *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
  *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
- *           entries of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid
- *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
- *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
- *           factoring A[R, R] in a given order; 0.43 for half of the grid. Sets of which nothing is
- *           kept take 0.85 to 1.0 times as long as extracting, analyzing and factoring A[R, R] in
- *           that order, be they bands, lines, spirals or rows at random; if A[R, R] is at hand,
- *           0.95 to 1.1 times, where R has most rows of A or half, and up to 1.3 times where it has
- *           a tenth: reading A is the difference. 1 % of 1e6 rows at random: 0.6 and 1.5.
+ *           entries of L, and the flops of the other columns. For a disc of 1e4 vertices in a grid
+ *           of 1e6, 80 % of the columns are kept, but the others have half of the flops, and the
+ *           Schur complements of the kept ones another fifth. The call then takes 0.55 of the time
+ *           of analyzing and factoring A[R, R] in a given order, and 0.43 for half of the grid.
+ *           Where nothing is kept (bands, lines, spirals, random rows), it takes 0.85 to 1.0 times
+ *           as long as extracting, analyzing and factoring A[R, R] in that order. If A[R, R] is
+ *           available already, it takes 0.95 to 1.1 times as long where R has half of the rows of A
+ *           or more, and up to 1.3 times where it has a tenth: reading A is the difference. For 1 %
+ *           of 1e6 rows at random the ratios are 0.6 and 1.5.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c
@@ -3058,19 +3060,20 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
 
 /* src/public/edit.h: analyses and factors that follow edits of the pattern: rows and entries come and go */
 
-/** Analyzes an edited matrix B from the analysis of the matrix A that it was before.
+/** Analyzes an edited matrix B, starting from the analysis of A, the matrix before the edit.
  *
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
- *  vertices doubled. The elimination tree of A stays where B has the same neighbors. A row that is
- *  new or has other neighbors goes to the lowest supernode from which they are all above or below;
- *  so an entry between two subtrees moves one of its rows into their separator, which is then
- *  replaced near the edit by a minimum vertex cut. Subtrees with many such rows are ordered anew.
+ *  and vertices are doubled. Where no neighbors change, the elimination tree of A is kept. A row
+ *  that is new or has other neighbors goes to the lowest supernode that has all of its neighbors
+ *  among its ancestors and descendants. So an entry between two subtrees moves one of its rows into
+ *  their separator, which is then replaced near the edit by a minimum vertex cut. Subtrees with
+ *  many such rows are ordered again.
  *
- *  The result is an analysis as any other. Its order is as good as the one before if edits are
- *  local, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
- *  stats.edit.is_due, create a new analysis of the present matrix, when there is time for it. If a
- *  quarter of the rows has other neighbors, or the edits are no local ones, this call does that
- *  itself (stats.edit.is_anew).
+ *  The result is an analysis like any other. If edits are local, its order is about as good as the
+ *  one before, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
+ *  stats.edit.is_due is set, create a new analysis of the present matrix when there is time. If a
+ *  quarter of the rows have other neighbors, or the edits are not local, this call does so itself
+ *  (stats.edit.is_anew).
  *
  *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
  *                 depend on S. It has no separator tree, unless it is a new one.
@@ -3083,9 +3086,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *                 reads; may be NULL.
  *  stats   [out]  symbolic, edit; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
- *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
- *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A does not have the
+ *           analyzed pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created
+ *           with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
  *           copy the analysis, and the order and analysis of the columns above the edit. Where
  *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
@@ -3098,7 +3101,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors an edited matrix B from a factor of the matrix A that it was before.
+/** Factors an edited matrix B, starting from a factor of A, the matrix before the edit.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
  *  were computed from the same entries; F knows these by hashes. The others, all of them ancestors

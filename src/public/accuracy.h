@@ -48,8 +48,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  Up to rounding, the residual of the solution x of (A + E) x = b is E x, and E is nonzero in the
  *  regularized rows only. The iteration x <- (A + E)^-1 (b + E x) therefore needs x in these rows
  *  and in the wanted ones only, and each step costs one local solve. It removes the error of
- *  regularization. Rounding errors remain as in sl_plan_solve; to reduce them takes all of x and
- *  sl_factor_refine. If nothing was regularized, this is sl_plan_solve.
+ *  regularization. Rounding errors remain as in sl_plan_solve; reducing them takes all of x
+ *  and sl_factor_refine. If nothing was regularized, this is sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.

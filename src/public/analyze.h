@@ -5,25 +5,25 @@
 #include "options.h"
 #include "stats.h"
 
-/** Analyses the pattern of a symmetric matrix, for any number of factorizations with that pattern.
+/** Analyzes the pattern of a symmetric matrix, for any number of factorizations with that pattern.
  *
  *  Orders the rows; computes the elimination tree, its postorder, column counts, supernodes and
  *  their row structure; and maps each entry of A to its position in L.
  *
  *  SL_ORDERING_GIVEN and SL_ORDERING_NATURAL keep the caller's order if it is a postorder of the
  *  supernodes: the columns of each supernode are consecutive, and so are those of each subtree of
- *  supernodes. L is stored in this form, so that any other order is replaced by an equivalent one,
- *  with the same fill and the same elimination tree up to numbering: the columns of a supernode
- *  keep the caller's order, and sibling subtrees follow each other by their last columns. With
+ *  supernodes. L is stored in this form. Any other order is replaced by an equivalent one, with the
+ *  same fill and the same elimination tree up to numbering: the columns of a supernode keep the
+ *  caller's order, and sibling subtrees follow each other by their last columns. With
  *  SL_RELAXATION_NONE every postorder of the elimination tree is kept; the default relaxation may
  *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
  *  used.
  *
- *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, as those of networks and KKT
- *  systems, it also tries minimum degree, and takes that if L has fewer entries and the paths to
- *  the roots have fewer of them. Dissection is not tried where it cannot win: if nearly all
- *  operations of minimum degree are in one dense block, and on KKT systems with a diagonal Hessian
- *  and paths as short as those of plane meshes.
+ *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, such as networks and KKT
+ *  systems, it also tries minimum degree, and takes that if both L and the paths to the roots have
+ *  fewer entries. Dissection is not tried where it cannot win: if nearly all operations of minimum
+ *  degree are in one dense block, and on KKT systems with a diagonal Hessian and paths as short as
+ *  those of plane meshes.
  *
  *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
  *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
@@ -70,13 +70,13 @@
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Analyses a symmetric indefinite matrix, with pivots that are chosen by its values.
+/** Analyzes a symmetric indefinite matrix, with pivots that are chosen by its values.
  *
- *  For matrices that have no stable factorization with a diagonal D in the order of the pattern, as
- *  KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1 and 2x2
- *  pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A column
- *  without an acceptable pivot in its front is delayed: it moves up to the parent's front. The
- *  result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
+ *  For matrices that have no stable factorization with a diagonal D in the order of the pattern,
+ *  such as KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1
+ *  and 2x2 pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A
+ *  column without an acceptable pivot in its front is delayed: it moves up to the parent's front.
+ *  The result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
  *
  *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
  *  accurate than in any fixed order: check stats.factor.growth, as with any indefinite matrix

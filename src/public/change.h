@@ -15,28 +15,29 @@
  *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
  *
  *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
- *  first, and the others fail only if the changed matrix is not definite, to rounding. With pivots
- *  of both signs a change may also fail because it meets a null pivot on its way.
+ *  first, and the others fail only if the changed matrix is not definite, up to rounding. With
+ *  pivots of both signs a change may also fail because it meets a null pivot on its way.
  *
  *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
  *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
- *  growth or drift are too large, refactor.
+ *  growth or drift is too large, refactor.
  *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
  *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
  *
  *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
- *                   SL_ERR_NOT_FINITE for an overflow, or where a pivot fails although a trial
- *                   found none that does, by rounding: then it has no numbers.
+ *                   SL_ERR_NOT_FINITE for an overflow, or where rounding makes a pivot fail that a
+ *                   trial had accepted: then it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     change, factor; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V has not n rows; SL_ERR_PATTERN: V is malformed, or
- *           its row error.row is not in the column of L of error.column; SL_ERR_PIVOT: a pivot
- *           would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE: an entry of V at
- *           error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE: growth beyond its
- *           limit; SL_ERR_STATE: F has no numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots
- *           were skipped, there are 2x2 pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is
+ *           malformed, or its row error.row is not in the column of L of error.column;
+ *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
+ *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
+ *           growth beyond its limit; SL_ERR_STATE: F has no numbers or is mapped;
+ *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
  *           writes these columns once. A pass that may fail takes another forward sweep; several
  *           such passes, and pivots of both signs, a copy of the columns.

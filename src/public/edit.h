@@ -5,19 +5,20 @@
 #include "options.h"
 #include "stats.h"
 
-/** Analyzes an edited matrix B from the analysis of the matrix A that it was before.
+/** Analyzes an edited matrix B, starting from the analysis of A, the matrix before the edit.
  *
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
- *  vertices doubled. The elimination tree of A stays where B has the same neighbors. A row that is
- *  new or has other neighbors goes to the lowest supernode from which they are all above or below;
- *  so an entry between two subtrees moves one of its rows into their separator, which is then
- *  replaced near the edit by a minimum vertex cut. Subtrees with many such rows are ordered anew.
+ *  and vertices are doubled. Where no neighbors change, the elimination tree of A is kept. A row
+ *  that is new or has other neighbors goes to the lowest supernode that has all of its neighbors
+ *  among its ancestors and descendants. So an entry between two subtrees moves one of its rows into
+ *  their separator, which is then replaced near the edit by a minimum vertex cut. Subtrees with
+ *  many such rows are ordered again.
  *
- *  The result is an analysis as any other. Its order is as good as the one before if edits are
- *  local, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
- *  stats.edit.is_due, create a new analysis of the present matrix, when there is time for it. If a
- *  quarter of the rows has other neighbors, or the edits are no local ones, this call does that
- *  itself (stats.edit.is_anew).
+ *  The result is an analysis like any other. If edits are local, its order is about as good as the
+ *  one before, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
+ *  stats.edit.is_due is set, create a new analysis of the present matrix when there is time. If a
+ *  quarter of the rows have other neighbors, or the edits are not local, this call does so itself
+ *  (stats.edit.is_anew).
  *
  *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
  *                 depend on S. It has no separator tree, unless it is a new one.
@@ -30,9 +31,9 @@
  *                 reads; may be NULL.
  *  stats   [out]  symbolic, edit; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
- *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A has not the analyzed
- *           pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created with
- *           pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A does not have the
+ *           analyzed pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created
+ *           with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
  *           copy the analysis, and the order and analysis of the columns above the edit. Where
  *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
@@ -45,7 +46,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors an edited matrix B from a factor of the matrix A that it was before.
+/** Factors an edited matrix B, starting from a factor of A, the matrix before the edit.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
  *  were computed from the same entries; F knows these by hashes. The others, all of them ancestors

@@ -90,17 +90,17 @@
  *  those of the graph of nonzero entries; duplicates that cancel are zeros.
  *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
  *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
- *    within rounding of 0, as where a weak spring joins two grids, is kept and counted in
- *    stats.factor.weak. If such a component has a second null vector that is not given, its
+ *    within rounding of 0, for example where a weak spring joins two grids, is kept and counted
+ *    in stats.factor.weak. If such a component has a second null vector that is not given, its
  *    solutions are arbitrary in that direction; set z = 0 there.
- *  - Components with several null vectors, as elastic bodies without supports, need all of them:
- *    options.null_vector is then a matrix of options.null_vector_count columns, such as the 3 rigid
- *    motions in 2D or the 6 in 3D. Each component keeps those combinations of the columns that
- *    A Z = 0 holds for, by the bound above: a body that hangs on one hinge keeps the rotation about
- *    it. As many of its pivots are skipped, in rows that are far from each other, and no other one
- *    is null. The directions of translations and the center of rotations may be any; a center far
- *    from a body costs digits. In each tree of the elimination forest, the null vectors of all
- *    components with more than one row must not be more than the columns.
+ *  - Components with several null vectors, such as elastic bodies without supports, need all of
+ *    them: options.null_vector is then a matrix of options.null_vector_count columns, such as the 3
+ *    rigid motions in 2D or the 6 in 3D. Each component keeps the combinations Z of the columns
+ *    with A Z = 0, by the bound above: a body that hangs on one hinge keeps the rotation
+ *    about it. As many of its pivots are skipped, in rows that are far from each other, and no
+ *    other one is null. The directions of translations and the center of rotations may be any; a
+ *    center far from a body costs digits. In each tree of the elimination forest, the null vectors
+ *    of all components with more than one row must not outnumber the columns.
  *  - In other components, and where z is 0, null_tolerance decides. It misses null pivots whose
  *    rounding errors come from rows much heavier than their own, and takes regular pivots for null
  *    that are smaller than it.
@@ -119,8 +119,8 @@
  *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
  *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
  *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is not
- *    definite beyond rounding, as where the only weights are those of one vertex, the factorization
- *    is refused; so are null pivots by the tolerance in components of more than one row.
+ *    definite beyond rounding, for example if only one vertex has weights, the factorization is
+ *    refused; so are null pivots by the tolerance in components of more than one row.
  *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
  *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
  *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
@@ -202,8 +202,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *
  *  Meant for many changes in one place. Each recomputed supernode gathers from all its descendants,
  *  and the reach of a single vertex ends in the large top separators: on a 2D mesh that already
- *  costs about 30 % of a factorization. Results agree with sl_factor_refactor to rounding; the
- *  other columns of L keep their bits. An up-looking factor is recomputed completely.
+ *  costs about 30 % of a factorization. Results agree with sl_factor_refactor up to rounding;
+ *  the other columns of L keep their bits. An up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
  *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without

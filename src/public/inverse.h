@@ -11,8 +11,8 @@
  *
  * where only the common ancestors of b and c in the elimination tree contribute: one forward sweep
  * for each and no backward sweep. Requests are sorted internally, and nearby ones share one sweep
- * of up to 8 SIMD lanes. Results are in the caller's order and equal those of full solves to
- * rounding. The last bits depend on the other requests of the same call, since these determine
+ * of up to 8 SIMD lanes. Results are in the caller's order and equal those of full solves up
+ * to rounding. The last bits depend on the other requests of the same call, since these determine
  * which sweeps are shared.
  *
  * All calls below
@@ -63,8 +63,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_diagonal(const sl_factor *F, double *
  *
  *  out    [out]  count values.
  *  rows, columns  [in]  count rows of A each, in 0..n-1, any order, repetitions allowed. Selected
- *                 inversion is possible only if all entries are in the pattern of L, as those of A
- *                 are.
+ *                 inversion is possible only if all entries are in the pattern of L, which contains
+ *                 that of A.
  */
 SL_API SL_WARN_UNUSED sl_status sl_inverse_pairs(const sl_factor *F, double *out,
                                                  const sl_int *rows, const sl_int *columns,

@@ -5,8 +5,8 @@
 #include "types.h"
 
 /** Runs body(data, k) once for each k = 0 .. count-1, in any order and concurrently if it can, and
- *  returns when all are done. A body may wait for others that have begun, never for one that has
- *  not: fewer threads, or one, only take longer. tools/examples/threads.c is a pool of pthreads. */
+ *  returns when all are done. A body waits only for bodies that have begun. So any number of
+ *  threads suffices; fewer take longer. tools/examples/threads.c is a pool of pthreads. */
 typedef void (*sl_parallel_for)(void *context, sl_int count, void (*body)(void *data, sl_int k),
                                 void *data);
 

@@ -43,7 +43,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  row    [in]   in 0..n-1.
  *  stats  [out]  error.row; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
- *           combination of the others, to rounding; SL_ERR_STATE: F has changed;
+ *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
@@ -99,7 +99,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release_rows(sl_pins *P, const sl_int *i
 
 /** Gives P the matrix of F, so that pins may be eliminated. After F has changed this also takes
  *  its present numbers, as sl_pins_refactor does, by the cheaper way. Both ways give the same
- *  solutions, to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX pins
+ *  solutions, up to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX, pins
  *  stay with the capacitance matrix (stats.pins.reason).
  *
  *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve

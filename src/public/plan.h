@@ -43,7 +43,7 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 /** Solves A x = b on the sets of a plan: exactly what the full solve gives there.
  *
  *  For the same instruction set and nrhs the result equals that of sl_factor_solve bit for bit,
- *  except for the sign of zeros. In a region it agrees to rounding.
+ *  except for the sign of zeros. In a region it agrees up to rounding.
  *
  *  F      [in]   a factor over the plan's analysis.
  *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of

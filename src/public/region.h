@@ -12,9 +12,9 @@
  *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
  *
  * and the backward sweep continues in T. The region keeps (A^-1)_SS, so that a solve reads L in T
- * only and gives the answer of the full solve to rounding. If null pivots were skipped, A^-1 is the
- * generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency of b
- * is then checked only for null rows inside the region, and where components have several null
+ * only and gives the answer of the full solve up to rounding. If null pivots were skipped, A^-1 is
+ * the generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency
+ * of b is then checked only for null rows inside the region, and where components have several null
  * vectors (options.null_vector_count), only if the region has no boundary.
  */
 
@@ -33,9 +33,9 @@
  *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
  *                it is not dereferenced.
  *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
- *                all entries needed, as for a single row or the subtree of one supernode; such a
- *                region is then preferred if it costs a solve at most twice as much. Otherwise
- *                forward sweeps compute the entries, as in sl_inverse_block.
+ *                all entries needed, for example those of a single row or of the subtree of one
+ *                supernode; such a region is then preferred if it costs a solve at most twice as
+ *                much. Otherwise forward sweeps compute the entries, as in sl_inverse_block.
  *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
  *                stats.region.bytes is at most region_bytes. If only a region without boundary
  *                fits, solves go to the roots of the tree.

@@ -9,13 +9,13 @@
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
- *  not in R. The others are analyzed and computed anew, in the order of A. So there is no ordering.
- *  If less than 40 % of the columns could be kept, none is, and all are analyzed and computed
- *  (stats.restriction.is_anew). So they are if F has several null vectors or L in another storage
- *  than SL_STORAGE_DOUBLE. G has that storage, too; but with SL_STORAGE_COMPLEX, L of G is in
- *  double if rows 2j and 2j+1 of A do not follow each other in rows.
+ *  not in R. The others are analyzed and computed again, in the order of A; nothing is ordered. If
+ *  fewer than 40 % of the columns could be kept, all are analyzed and computed
+ *  (stats.restriction.is_anew). The same happens if F has several null vectors or stores L in
+ *  another way than SL_STORAGE_DOUBLE. G has the storage of F; but with SL_STORAGE_COMPLEX, L of G
+ *  is in double if rows 2j and 2j+1 of A do not follow each other in rows.
  *
- *  G and S do not depend on F, which may change or be released. Row k of them is rows[k] of A.
+ *  G and S do not depend on F, which may change or be released. Their row k is row rows[k] of A.
  *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
  *  work as with any factor. The numbers stay as they are: refactorizations, changes and saving give
  *  SL_ERR_STATE. What compares a matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement,
@@ -31,24 +31,25 @@
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
- *                computed anew; its pattern is not compared with the analyzed one.
+ *                computed again; its pattern is not compared with the analyzed one.
  *  rows   [in]   count rows of A in 0..n-1, any order, no duplicates.
  *  opt    [in]   allocator; may be NULL.
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
- *           SL_ERR_PATTERN: A has not the size or the number of entries of the analyzed matrix, or
+ *           SL_ERR_PATTERN: A differs in size or number of entries from the analyzed matrix, or
  *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
  *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
  *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
- *           entries of L, and the flops of the other columns. Of a disc of 1e4 vertices of a grid
- *           of 1e6 80 % of the columns are kept, but the others have half of the flops, and the
- *           Schur complements of the kept ones another fifth: 0.55 of the time of analyzing and
- *           factoring A[R, R] in a given order; 0.43 for half of the grid. Sets of which nothing is
- *           kept take 0.85 to 1.0 times as long as extracting, analyzing and factoring A[R, R] in
- *           that order, be they bands, lines, spirals or rows at random; if A[R, R] is at hand,
- *           0.95 to 1.1 times, where R has most rows of A or half, and up to 1.3 times where it has
- *           a tenth: reading A is the difference. 1 % of 1e6 rows at random: 0.6 and 1.5.
+ *           entries of L, and the flops of the other columns. For a disc of 1e4 vertices in a grid
+ *           of 1e6, 80 % of the columns are kept, but the others have half of the flops, and the
+ *           Schur complements of the kept ones another fifth. The call then takes 0.55 of the time
+ *           of analyzing and factoring A[R, R] in a given order, and 0.43 for half of the grid.
+ *           Where nothing is kept (bands, lines, spirals, random rows), it takes 0.85 to 1.0 times
+ *           as long as extracting, analyzing and factoring A[R, R] in that order. If A[R, R] is
+ *           available already, it takes 0.95 to 1.1 times as long where R has half of the rows of A
+ *           or more, and up to 1.3 times where it has a tenth: reading A is the difference. For 1 %
+ *           of 1e6 rows at random the ratios are 0.6 and 1.5.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c

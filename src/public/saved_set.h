@@ -9,8 +9,8 @@
 /* Regions and selected inverses take longer to make than to read. The calls below save them
  * together with their factor. Without them, the file is the same as that of sl_save_file. */
 
-/** What one file holds. The caller fills one in to save his objects; a load fills in new ones,
- *  which sl_saved_set_free releases. */
+/** What one file holds. The caller fills one in to save objects; a load fills in new ones, which
+ *  sl_saved_set_free releases. */
 typedef struct sl_saved_set {
     sl_symbolic *symbolic;
     sl_factor *factor;     /* over symbolic; NULL: none */
@@ -118,8 +118,8 @@ SL_API SL_WARN_UNUSED sl_status sl_map_set_memory(sl_saved_set *set, const void 
 SL_API SL_WARN_UNUSED sl_status sl_map_set_file(sl_saved_set *set, const char *path,
                                                 sl_load_checks checks, const sl_options *opt);
 
-/** Releases the objects of a set that a load filled in, then sets it to all zero. Objects that the
- *  caller keeps he takes out before, by setting their pointers to NULL. NULL is allowed. */
+/** Releases the objects of a set that a load filled in, then sets it to all zero. To keep an
+ *  object, set its pointer to NULL before. NULL is allowed. */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
 #endif

@@ -80,7 +80,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  S             [in]   the analysis; borrowed, must outlive the factor.
  *  coefficients  [in]   terms finite numbers.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
- *  terms         [in]   0 or more; the sum of none is the zero matrix.
+ *  terms         [in]   0 or more; the sum of no terms is the zero matrix.
  *  opt, stats           as in sl_factor_create.
  *  Returns  as sl_factor_create, but never SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient
  *           (error.value, no row) or a sum, at error.row >= error.column.

@@ -98,8 +98,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
 
 /** Solves A X = B with interleaved right-hand sides: the numbers of one row are contiguous.
  *
- *  The same bits as sl_factor_solve, and the fastest layout for several right-hand sides: to gather
- *  and scatter 8 separate columns takes about a fifth of a solve.
+ *  The same bits as sl_factor_solve, and the fastest layout for several right-hand sides:
+ *  gathering and scattering 8 separate columns takes about a fifth of a solve.
  *
  *  F      [in]   factor of A, n x n.
  *  X      [out]  n x nrhs, row-major, ldx >= nrhs elements from row to row. May be B itself (then

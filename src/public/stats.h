@@ -140,9 +140,9 @@ typedef struct sl_restrict_info {
 typedef struct sl_edit_info {
     sl_int changed;   /* rows of B that are new or have other neighbors than before */
     sl_int moved;     /* rows that moved to another separator */
-    sl_int reordered; /* rows of subtrees that were ordered anew; n if is_anew */
-    sl_int computed;  /* columns of L whose structure was computed anew */
-    int is_anew;      /* 1: the edit is not local: all rows were ordered anew */
+    sl_int reordered; /* rows of subtrees that were ordered again; n if is_anew */
+    sl_int computed;  /* columns of L whose structure was computed again */
+    int is_anew;      /* 1: the edit is not local: all rows were ordered again */
     int is_due;       /* 1: a new order is due, as growth exceeds 1.1 */
     /* nnz_l relative to that of a new order, which is estimated: the entries of the last one, times
      * the growth of the entries of A since then. A loaded analysis counts as a new one */

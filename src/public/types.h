@@ -79,7 +79,7 @@ typedef enum sl_ordering {
     SL_ORDERING_METIS_REFINED, /* METIS's separators, improved: the best order, in twice its time */
     SL_ORDERING_GIVEN,         /* options.perm, or equivalent: see sl_symbolic_create */
     SL_ORDERING_NATURAL,       /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
-    SL_ORDERING_MINDEG         /* approximate minimum degree, soonest done [ADD96] */
+    SL_ORDERING_MINDEG         /* approximate minimum degree, the quickest [ADD96] */
 } sl_ordering;
 
 /** What the analysis is for. */
