@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e1d62a754f453e14
+ * FNV-1a of the lines after this comment, without the license: 975ce450ea22a825
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -17710,7 +17710,7 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
   } else if (nrhs % 8 == 0 && at.row == 1) {
     const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
     sl_int first, r;
-    for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+    for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
         kernels->interleave(y + r, lanes, index + first,
                   sli_min(SLI_PACK_CHUNK, count - first),
@@ -17738,7 +17738,7 @@ static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X
   const sl_int *index = q->x_index, count = q->nx;
   if (nrhs % 8 == 0 && at.row == 1) {
     sl_int first, r;
-    for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+    for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
         kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
                   lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
@@ -18461,7 +18461,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
                  sli_dense b_at, sl_int nrhs, void *memory) {
   sl_int r;
-  for (r = 0; r < nrhs; r += 8) {
+  for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
     const sl_int block = sli_min(8, nrhs - r);
     const sli_vectors v = sli_vectors_of(q, block, memory);
     if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
@@ -19213,7 +19213,7 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
     sli_parts_layout(p, &b, nrhs);
     sli_parts_fill(p);
   }
-  for (r = 0; r < nrhs && status == SL_OK; r += 8) {
+  for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
     const sl_int block = sli_min(8, nrhs - r);
     const int kind = sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);
@@ -19493,7 +19493,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   status = nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
   if (status == SL_OK && nrhs > 0 && F->S->n > 0) {
     sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
-    for (r = 0; r < nrhs; r += 8) {
+    for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
       sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
                sli_min(8, nrhs - r), steps);
       for (c = 0; c < sli_min(8, nrhs - r); c++) {
@@ -19659,7 +19659,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
   if (c != -1) {
     return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
   }
-  for (r = 0; r < nrhs; r += 8) {
+  for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
     const sl_int columns = sli_min(8, nrhs - r);
     sli_local_refinement_block(f, X + ldx * (size_t)r, ldx,
                    f->q->nb > 0 ? B + ldb * (size_t)r : B, ldb, columns, steps);
@@ -19885,7 +19885,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
             const double *B, size_t ldb, sl_int nrhs, void *memory) {
   sl_int c, r, m;
-  for (c = 0; c < nrhs; c += 8) {
+  for (c = 0; c < nrhs; c += sli_min(8, nrhs - c)) {
     const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(q, block, memory);
     sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
@@ -25396,7 +25396,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   if (status == SL_OK) {
     sli_pins_layout(&w, &counted, P, q, nrhs);
     status = sli_pins_nulls_factor(&w.nulls, P);
-    for (r = 0; r < nrhs && status == SL_OK; r += 8) {
+    for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
       const sl_int block = sli_min(8, nrhs - r);
       status = sli_pins_block(
         P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),

@@ -274,7 +274,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     if (status == SL_OK) {
         sli_pins_layout(&w, &counted, P, q, nrhs);
         status = sli_pins_nulls_factor(&w.nulls, P);
-        for (r = 0; r < nrhs && status == SL_OK; r += 8) {
+        for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
             const sl_int block = sli_min(8, nrhs - r);
             status = sli_pins_block(
                 P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),

@@ -9,7 +9,7 @@
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
                         const double *B, size_t ldb, sl_int nrhs, void *memory) {
     sl_int c, r, m;
-    for (c = 0; c < nrhs; c += 8) {
+    for (c = 0; c < nrhs; c += sli_min(8, nrhs - c)) {
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
         sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),

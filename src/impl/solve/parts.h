@@ -191,7 +191,7 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
         sli_parts_layout(p, &b, nrhs);
         sli_parts_fill(p);
     }
-    for (r = 0; r < nrhs && status == SL_OK; r += 8) {
+    for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
         const sl_int block = sli_min(8, nrhs - r);
         const int kind = sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);

@@ -205,7 +205,7 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
     } else if (nrhs % 8 == 0 && at.row == 1) {
         const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
         sl_int first, r;
-        for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+        for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
             for (r = 0; r < nrhs; r += 8) {
                 kernels->interleave(y + r, lanes, index + first,
                                     sli_min(SLI_PACK_CHUNK, count - first),
@@ -234,7 +234,7 @@ static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X
     const sl_int *index = q->x_index, count = q->nx;
     if (nrhs % 8 == 0 && at.row == 1) {
         sl_int first, r;
-        for (first = 0; first < count; first += SLI_PACK_CHUNK) {
+        for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
             for (r = 0; r < nrhs; r += 8) {
                 kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
                                   lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));

@@ -182,7 +182,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     status = nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
     if (status == SL_OK && nrhs > 0 && F->S->n > 0) { /* without rows all arrays are NULL */
         sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
-        for (r = 0; r < nrhs; r += 8) {
+        for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
             sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
                              sli_min(8, nrhs - r), steps);
             for (c = 0; c < sli_min(8, nrhs - r); c++) {

@@ -166,7 +166,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
     if (c != -1) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
     }
-    for (r = 0; r < nrhs; r += 8) {
+    for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
         const sl_int columns = sli_min(8, nrhs - r);
         sli_local_refinement_block(f, X + ldx * (size_t)r, ldx,
                                    f->q->nb > 0 ? B + ldb * (size_t)r : B, ldb, columns, steps);

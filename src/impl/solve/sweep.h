@@ -98,7 +98,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
 static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
                                  sli_dense b_at, sl_int nrhs, void *memory) {
     sl_int r;
-    for (r = 0; r < nrhs; r += 8) {
+    for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
         const sl_int block = sli_min(8, nrhs - r);
         const sli_vectors v = sli_vectors_of(q, block, memory);
         if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
