@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 975ce450ea22a825
+ * FNV-1a of the lines after this comment, without the license: c753b4ffc9ca34e8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,57 +35,57 @@
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4210 panel.h   4235 step.h   4313 pivot_rule.h   4387 front.h   4448 pairs.h
  *   4655 inverse_front.h   4727 table.h   4776 simd.h   4871 simd_scalar_single.h
- *   4917 simd_scalar.h   5055 simd_avx2_single.h   5109 simd_avx2.h   5350 simd_avx512_single.h
- *   5405 simd_avx512.h   5581 simd_neon_single.h   5623 simd_neon.h   5858 dispatch.h
+ *   4915 simd_scalar.h   5041 simd_avx2_single.h   5093 simd_avx2.h   5319 simd_avx512_single.h
+ *   5373 simd_avx512.h   5538 simd_neon_single.h   5578 simd_neon.h   5798 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5951 csc.h   6094 csc_build.h   6228 csc64.h   6299 csc_triangle.h   6364 csc_products.h
- *   6481 permute.h   6547 sum.h   6629 output_file.h   6838 matrix_market.h
+ *   5891 csc.h   6034 csc_build.h   6168 csc64.h   6239 csc_triangle.h   6304 csc_products.h
+ *   6421 permute.h   6487 sum.h   6569 output_file.h   6778 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7284 graph.h   7402 contract.h   7656 coarsen.h   7819 labels.h   8040 subgraph.h   8234 heap.h
- *   8294 bisect.h   8521 separator.h   8783 mindeg.h   8966 dissect.h   9290 tree_cost.h
- *   9342 levelset.h   9448 geometric.h   9623 cells.h   9803 septree.h   9879 metis.h
- *  10028 metis_refined.h  10142 nd.h  10342 compress.h  10463 levels.h  10516 border.h
- *  10569 forest.h  10656 peel.h  10856 quotient.h  11273 graph_kind.h  11344 order.h
+ *   7224 graph.h   7342 contract.h   7596 coarsen.h   7759 labels.h   7980 subgraph.h   8174 heap.h
+ *   8234 bisect.h   8461 separator.h   8723 mindeg.h   8906 dissect.h   9230 tree_cost.h
+ *   9282 levelset.h   9388 geometric.h   9563 cells.h   9743 septree.h   9819 metis.h
+ *   9968 metis_refined.h  10082 nd.h  10282 compress.h  10403 levels.h  10456 border.h
+ *  10509 forest.h  10596 peel.h  10796 quotient.h  11213 graph_kind.h  11284 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11669 symbolic_types.h  11706 etree.h  11762 counts.h  11811 supernodes.h  12051 pattern.h
- *  12141 structure.h  12344 schedule.h  12624 symbolic.h  13094 reach.h
+ *  11609 symbolic_types.h  11646 etree.h  11702 counts.h  11751 supernodes.h  11991 pattern.h
+ *  12081 structure.h  12284 schedule.h  12564 symbolic.h  13034 reach.h
  * (factor: the numbers of L and D)
- *  13365 factor_types.h  13793 storage.h  13931 pivot_search.h  14277 pivoted.h  14346 scatter.h
- *  14504 uplooking.h  14576 null_product.h  14780 null_dense.h  14857 null_basis.h
- *  15177 null_vectors.h  15319 multifrontal.h  15513 gather.h  15561 kept.h  15731 front_tasks.h
- *  16074 null_center.h  16198 nullspace.h  16385 growth.h  16463 factor_setup.h  16789 factor.h
- *  16999 leftlooking.h  17146 factor_query.h  17281 combination.h
+ *  13305 factor_types.h  13733 storage.h  13871 pivot_search.h  14217 pivoted.h  14286 scatter.h
+ *  14444 uplooking.h  14516 null_product.h  14720 null_dense.h  14797 null_basis.h
+ *  15117 null_vectors.h  15259 multifrontal.h  15453 gather.h  15501 kept.h  15671 front_tasks.h
+ *  16014 null_center.h  16138 nullspace.h  16325 growth.h  16403 factor_setup.h  16729 factor.h
+ *  16939 leftlooking.h  17086 factor_query.h  17221 combination.h
  * (solve: full and local solves)
- *  17342 region_types.h  17446 work.h  17546 query.h  17762 singular.h  18019 backward.h
- *  18049 sweep_tasks.h  18380 sweep.h  18588 compile.h  18781 plan.h  18888 local.h  19040 parts.h
- *  19329 refine.h  19508 refine_local.h  19724 rcond.h  19883 defects.h
+ *  17282 region_types.h  17386 work.h  17486 query.h  17702 singular.h  17959 backward.h
+ *  17989 sweep_tasks.h  18320 sweep.h  18528 compile.h  18721 plan.h  18828 local.h  18980 parts.h
+ *  19269 refine.h  19448 refine_local.h  19664 rcond.h  19823 defects.h
  * (inverse: entries of the inverse, regions)
- *  19942 traversal.h  20191 traversal_run.h  20384 row_sets.h  20418 unit_vectors.h
- *  20645 bilinear.h  20817 entries.h  21094 block.h  21329 reserve.h  21521 selected.h
- *  21731 selected_query.h  21833 region_choose.h  22060 region.h
+ *  19882 traversal.h  20131 traversal_run.h  20324 row_sets.h  20358 unit_vectors.h
+ *  20585 bilinear.h  20757 entries.h  21034 block.h  21269 reserve.h  21461 selected.h
+ *  21671 selected_query.h  21773 region_choose.h  22000 region.h
  * (change: a factor that follows changes of its matrix)
- *  22308 update.h  22672 path.h  22773 rank.h  23149 edges.h  23303 choose.h  23536 pins_types.h
- *  23615 pins_nulls.h  23798 pins_capacitance.h  24050 pins_balance.h  24229 pins_held.h
- *  24445 pins_choose.h  24502 pins_rebuild.h  24720 pins_matrix.h  24871 pins.h  25140 pins_solve.h
- *  25411 subset.h  25539 restrict_kept.h  25737 restrict_analysis.h  25989 restrict_symbolic.h
- *  26184 restrict.h  26415 edit_match.h  26614 edit_place.h  26863 edit_separate.h
- *  27177 edit_order.h  27332 edit_graph.h  27414 edit_join.h  27690 edit.h  27853 edit_factor.h
+ *  22248 update.h  22612 path.h  22713 rank.h  23089 edges.h  23243 choose.h  23476 pins_types.h
+ *  23555 pins_nulls.h  23738 pins_capacitance.h  23990 pins_balance.h  24169 pins_held.h
+ *  24385 pins_choose.h  24442 pins_rebuild.h  24660 pins_matrix.h  24811 pins.h  25080 pins_solve.h
+ *  25351 subset.h  25479 restrict_kept.h  25677 restrict_analysis.h  25929 restrict_symbolic.h
+ *  26124 restrict.h  26355 edit_match.h  26554 edit_place.h  26803 edit_separate.h
+ *  27117 edit_order.h  27272 edit_graph.h  27354 edit_join.h  27630 edit.h  27793 edit_factor.h
  * (save: factors in files)
- *  28138 format.h  28435 decode.h  28583 check.h  28913 write.h  29218 load.h  29486 load_inverse.h
- *  29816 load_calls.h
+ *  28078 format.h  28375 decode.h  28523 check.h  28853 write.h  29158 load.h  29426 load_inverse.h
+ *  29756 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30015 batch_solve.h  30224 batch_factor.h  30425 batch_diagonal.h
+ *  29955 batch_solve.h  30164 batch_factor.h  30365 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30565 hermitian.h  30727 complex_rows.h
+ *  30505 hermitian.h  30667 complex_rows.h
  * (last: undefine every internal macro)
- *  30895 undef.h
+ *  30835 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31175 front.inl.h  31177 product.inl.h  31688 words_undef.inl.h  31765 copy_rows.inl.h
- *  31803 multi_rhs.inl.h  31822 complex_groups.inl.h  31961 multi_rhs_small.inl.h
- *  32133 multi_rhs_tiles.inl.h  32410 sweeps.inl.h  32412 unit_triangle.inl.h  32449 two_rhs.inl.h
- *  32618 small_supernode.inl.h  32799 single_rhs.inl.h  33043 kernel_set.inl.h
- *  33045 complex_small.inl.h  33215 complex_rows.inl.h  33430 inverse_front.inl.h  33715 row.inl.h
- *  33745 change.inl.h  33980 interleave.inl.h  34114 lanes_undef.inl.h
+ *  31115 front.inl.h  31117 product.inl.h  31628 copy_rows.inl.h  31666 sweeps.inl.h
+ *  31668 unit_triangle.inl.h  31705 two_rhs.inl.h  31874 small_supernode.inl.h
+ *  32055 single_rhs.inl.h  32291 multi_rhs.inl.h  32310 complex_groups.inl.h
+ *  32449 multi_rhs_small.inl.h  32621 multi_rhs_tiles.inl.h  32898 kernel_set.inl.h
+ *  32900 complex_small.inl.h  33070 complex_rows.inl.h  33285 inverse_front.inl.h  33570 row.inl.h
+ *  33600 change.inl.h  33835 interleave.inl.h  33969 lanes_undef.inl.h  33988 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4907,13 +4907,11 @@ typedef struct sli_kernels {
 #endif
 #endif
 #define SLI_SECTION_FRONT
+#define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER /* not found: define SL_HEADER, see above */
-#ifdef SLI_SECTION_FRONT
+#ifdef SLI_SECTION_WORDS_UNDEF
 #error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
-#define SLI_SECTION_WORDS_UNDEF
-#include SL_HEADER
-
 /* src/impl/kernels/simd_scalar.h: the kernels in plain C: a vector is an array */
 
 #define SLV_NAME(f) sli_##f##_scalar
@@ -5003,10 +5001,28 @@ typedef struct sli_kernels {
 #define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
 #define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
 
+#define SLW_NAME(f) sli_##f##8_scalar
+#define SLW_GROUPS 32
+#define SLW_NRHS 8
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLW_NAME(f) sli_##f##4_scalar
+#define SLW_NRHS 4
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#include SL_HEADER
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5016,38 +5032,8 @@ typedef struct sli_kernels {
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-
-#define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_NRHS 4
-#define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-
-#define SLW_NAME(f) sli_##f##8_scalar
-#define SLW_GROUPS 32
-#define SLW_NRHS 8
-#define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
-#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 #undef SLI_LOOP
@@ -5100,10 +5086,8 @@ SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
           _mm256_load_ps(to), \
           _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
 #define SLI_SECTION_FRONT
-#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
-
 #endif
 
 /* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA: a vector of 8 doubles is two registers */
@@ -5271,21 +5255,22 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
 #define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-
 #define SLW_NAME(f) sli_##f##2_avx2
 #define SLW_NRHS 2
 #define SLW_ROWS 8
@@ -5299,12 +5284,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_GROUPS 2
 #define SLW_COMPLEX
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-
 #define SLW_NAME(f) sli_##f##8_avx2
 #define SLW_GROUPS 32
 #define SLW_HALF(f) sli_##f##4_avx2
@@ -5325,26 +5307,13 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
   a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
-#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
-
 #endif
 
 /* src/impl/kernels/simd_avx512_single.h: the kernels of fronts in float in AVX-512F: a register has 16 lanes */
@@ -5394,7 +5363,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
                   expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
                 0)));
 #define SLI_SECTION_FRONT
-#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 #undef SLV_HALF
@@ -5511,22 +5479,23 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLW_GROUPS 8
+#define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
 #define SLW_GROUPS 8
 #define SLW_COMPLEX
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-
 #define SLW_NAME(f) sli_##f##16_avx512
 #define SLW_GROUPS 32
 #define SLW_NRHS 16
@@ -5546,7 +5515,6 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
   a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
   a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
@@ -5556,25 +5524,14 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
 #define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_KERNEL_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 #undef SLW_TAKES_FLOATS
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1
 #undef SLV_SPREAD
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
-#define SLI_SECTION_KERNEL_SET
-#include SL_HEADER
-#define SLI_SECTION_LANES_UNDEF
-#include SL_HEADER
-#define SLI_SECTION_WORDS_UNDEF
-#include SL_HEADER
 
 #endif
 
@@ -5614,10 +5571,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_EXPAND SLI_EXPAND_PLAIN
 #define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
 #define SLI_SECTION_FRONT
-#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
-
 #endif
 
 /* src/impl/kernels/simd_neon.h: the kernels in NEON: a vector of 8 doubles is four registers */
@@ -5772,21 +5727,22 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_0 = vdivq_f64(a##_0, s_); \
     a##_1 = vdivq_f64(a##_1, s_); \
   }
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
+#define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-
 #define SLW_NAME(f) sli_##f##2_neon
 #define SLW_NRHS 2
 #define SLW_ROWS 8
@@ -5800,12 +5756,9 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_GROUPS 2
 #define SLW_COMPLEX
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-
 #define SLW_NAME(f) sli_##f##8_neon
 #define SLW_GROUPS 32
 #define SLW_HALF(f) sli_##f##4_neon
@@ -5833,26 +5786,13 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_3 = vdivq_f64(a##_3, s_); \
   }
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
-#define SLI_SECTION_FRONT
-#include SL_HEADER
 #define SLI_SECTION_KERNEL_SET
-#include SL_HEADER
 #define SLI_SECTION_LANES_UNDEF
-#include SL_HEADER
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
-
 #endif
 
 /* src/impl/kernels/dispatch.h: detects the instruction sets of this processor and selects a kernel table */
@@ -31678,83 +31618,6 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 #endif
 #endif
 
-#ifdef SLI_SECTION_WORDS_UNDEF
-#undef SLI_SECTION_WORDS_UNDEF
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
-
-#undef SLV_SINGLE
-#define SLV_SINGLE 0
-#undef SLV_COMPLEX
-#define SLV_COMPLEX 0
-
-#undef SLV_NAME
-#undef SLV_NAME_4
-#undef SLV_NAME_2
-#undef SLV_ISA
-#undef SLV_FUNCTION
-#undef SLV_DECLARE
-#undef SLV_ZERO
-#undef SLV_LOAD
-#undef SLV_STORE
-#undef SLV_STREAM
-#undef SLV_STREAM_END
-#undef SLV_ADD
-#undef SLV_READ_0
-#undef SLV_READ_1
-#undef SLV_WIDEN_ROWS
-#undef SLV_AXPY
-#undef SLV_DOT
-#undef SLV_FNMA1
-#undef SLV_STORE_ANY
-#undef SLV_FNMA
-#undef SLV_SWAP
-#undef SLV_SAME
-#undef SLV_TURN
-#undef SLV_TURN_2
-#undef SLV_TURN_ALL
-#undef SLV_TURN_BACK
-#undef SLV_DUP_LOW
-#undef SLV_DUP_HIGH
-#undef SLV_DUP_AT
-#undef SLV_PAIR
-#undef SLV_TILES
-#undef SLV_VECTOR_TILES
-#undef SLV_LOAD_TILES
-#undef SLV_STORE_TILES
-#undef SLV_COLUMNS
-#undef SLV_EACH_COLUMN
-#undef SLV_LOAD_PINNED
-#undef SLV_BROADCAST
-#undef SLV_MULTIPLY
-#undef SLV_DIVIDE
-#undef SLV_BELOW
-#undef SLV_BELOW_2
-#undef SLV_EXPAND
-#undef SLV_EXPAND_ADD
-#undef SLV_LOAD_PART
-#undef SLV_FIRST
-#undef SLV_LANE
-#undef SLV_GATHER
-#undef SLV_TRANSPOSE
-#undef SLV_TRANSPOSE_4
-#undef SLV_BLOCKS_EVEN
-#undef SLV_BLOCKS_ODD
-#undef SLV_GATHER_2
-#undef SLV_SUM_DECLARE
-#undef SLV_SUM_ZERO
-#undef SLV_SUM_DOT
-#undef SLV_SUM_2
-#undef SLV_SUM_4
-#undef SLV_SUMS
-#undef SLV_SUM_LOAD
-#undef SLV_SUM_STORE
-#endif
-
 #ifdef SLI_SECTION_COPY_ROWS
 #undef SLI_SECTION_COPY_ROWS
 #if SL_VERSION_MAJOR != 0 || \
@@ -31791,613 +31654,6 @@ SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner,
           b)
   }
 }
-#endif
-
-#ifdef SLI_SECTION_MULTI_RHS
-#undef SLI_SECTION_MULTI_RHS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/multi_rhs.inl.h: sweeps for 2 or more right-hand sides, vectorized over right-hand sides */
-
-#if SLW_ROWS == 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#else
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#endif
-
-#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
-#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
-#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
-
-#if defined(SLW_COMPLEX)
-/* src/impl/kernels/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
-
-#define SLI_PARTS 2
-#define SLI_KERNEL(f) SLW_NAME(complex_group_##f)
-#define SLI_TABLE(f) SLV_NAME(complex_##f)
-
-#if SLW_ROWS == 8
-#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
-#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
-#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
-#else
-#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
-#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
-#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
-#endif
-
-#define SLI_PREPARE const double one = 1.0;
-#define SLI_NEGATE(n, c) \
-  SLW_ZERO(n) \
-  SLW_FNMA(n, one, c)
-#define SLI_SUBTRACT(r, s, l, b, c, n) \
-  SLW_FNMA(a##r, (l)[r], b) \
-  SLW_FNMA(a##s, (l)[r], c) \
-  SLW_FNMA(a##r, (l)[s], n) \
-  SLW_FNMA(a##s, (l)[s], b)
-#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
-#define SLI_APPLY_COLUMN \
-  SLW_DECLARE(b) \
-  SLW_DECLARE(c) \
-  SLW_DECLARE(n) \
-  SLW_LOAD(b, xj) \
-  SLW_LOAD(c, xj + stride) \
-  SLI_NEGATE(n, c) \
-  SLI_PAIRS(SLI_APPLY, l)
-#define SLI_GATHER(r, s, l) \
-  SLW_FNMA(b, (l)[r], a##r) \
-  SLW_FNMA(c, (l)[r], a##s) \
-  SLW_FNMA(e, (l)[s], a##s) \
-  SLW_FNMA(n, (l)[s], a##r)
-#define SLI_GATHER_COLUMN \
-  SLW_DECLARE(b) \
-  SLW_DECLARE(c) \
-  SLW_DECLARE(e) \
-  SLW_DECLARE(n) \
-  SLW_LOAD(b, xj) \
-  SLW_LOAD(c, xj + stride) \
-  SLW_ZERO(e) \
-  SLW_ZERO(n) \
-  SLI_PAIRS(SLI_GATHER, l) \
-  SLW_ADD(b, e) \
-  SLW_FNMA(c, one, n) \
-  SLW_STORE(xj, b) \
-  SLW_STORE(xj + stride, c)
-#define SLI_BELOW(r, s, k, m) \
-  if ((r) > (k)) { \
-    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
-  }
-#define SLI_COLUMN(k, m, unused) \
-  if (SLI_IS_IN(k, inner)) { \
-    SLI_NEGATE(n, a##m) \
-    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
-  }
-#define SLI_TRIANGLE \
-  SLW_DECLARE(n) \
-  SLI_PAIRS(SLI_COLUMN, 0)
-#define SLI_BEFORE(i, j, k, m) \
-  if ((i) < (k) && SLI_IS_IN(i, inner)) { \
-    const double *at = l + SLI_TILE / 2 * (i); \
-    SLW_FNMA(a##i, at[k], a##k) \
-    SLW_FNMA(a##i, at[m], a##m) \
-    SLW_FNMA(a##j, at[k], a##m) \
-    SLW_FNMA(a##j, at[m], n) \
-  }
-#define SLI_ROW(k, m, unused) \
-  SLI_NEGATE(n, a##k) \
-  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
-#define SLI_TRIANGLE_UP \
-  SLW_DECLARE(n) \
-  SLI_PAIRS_DOWN(SLI_ROW, 0)
-/* end of complex_groups.inl.h */
-#else
-
-#define SLI_PARTS 1
-#if defined(SLW_GROUPS)
-#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
-#else
-#define SLI_KERNEL(f) SLW_SWEEP(f)
-#endif
-#define SLI_TABLE(f) SLV_SWEEP(f)
-
-#if defined(SLW_TAKES_FLOATS)
-#define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
-#define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
-#else
-#define SLW_ENTRIES(v, columns) SLV_WIDE(v, columns)
-#define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
-#endif
-
-#define SLI_PREPARE SLW_ENTRIES(v, SLI_TILE)
-#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
-#define SLI_APPLY_COLUMN \
-  SLW_DECLARE(b) \
-  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
-  SLW_LOAD(b, xj) \
-  SLW_EACH(SLI_APPLY, v)
-#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
-#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
-#define SLI_GATHER_COLUMN \
-  SLW_DECLARE(b) \
-  SLW_DECLARE(c) \
-  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
-  SLW_LOAD(b, xj) \
-  SLW_ZERO(c) \
-  SLW_HIGH(SLI_GATHER, v) \
-  SLW_LOW(SLI_GATHER2, v) \
-  SLW_ADD(b, c) \
-  SLW_STORE(xj, b)
-#define SLI_DOWN(r, k) \
-  if ((r) > (k)) { \
-    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
-  }
-#define SLI_COLUMN(k, unused) \
-  if (SLI_IS_IN(k, inner)) { \
-    SLW_EACH_AGAIN(SLI_DOWN, k) \
-  }
-#define SLI_TRIANGLE \
-  SLW_SET_ENTRIES(v, l, inner, SLW_ROWS) \
-  SLW_EACH(SLI_COLUMN, 0)
-#define SLI_UP(j, k) \
-  if ((j) < (k) && SLI_IS_IN(j, inner)) { \
-    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
-  }
-#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
-#define SLI_TRIANGLE_UP \
-  SLW_SET_ENTRIES(v, l, inner, SLW_ROWS) \
-  SLW_HIGH(SLI_ROW, 0) \
-  SLW_LOW(SLI_ROW, 0)
-
-#if SLW_ROWS == 8 || defined(SLW_HALF)
-/* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
-
-#if SLW_ROWS == 8
-#define SLI_LOAD_OWN(k, p) \
-  if (SLI_IS_IN(k, w)) { \
-    SLW_LOAD(a##k, (p) + (k)*stride) \
-  }
-#define SLI_STORE_OWN(k, p) \
-  if (SLI_IS_IN(k, w)) { \
-    SLW_STORE((p) + (k)*stride, a##k) \
-  }
-#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
-#define SLI_PREFETCH_OWN(k, bytes) \
-  if (SLI_IS_IN(k, w)) { \
-    SLV_PREFETCH(l, k, bytes) \
-  }
-#define SLI_DOWN_OWN(r, k) \
-  if ((r) > (k) && (r) < w) { \
-    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
-  }
-#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
-#define SLI_BELOW_OWN(k, unused) \
-  if (SLI_IS_IN(k, w)) { \
-    SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
-  }
-
-#if defined(SLW_GROUPS) && SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
-#define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
-#else
-#define SLI_CLEAR_WIDE
-#endif
-
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
-                               sl_int below, const sl_int *rows,
-                               const SLV_VALUE *l, double *xs,
-                               double *x) {
-  sl_int lane = w, i;
-  SLW_EACH(SLI_DECLARE, 0)
-  SLW_DECLARE(b)
-  SLW_ENTRIES(v, SLI_TILE)
-  SLI_CLEAR_WIDE
-  SLW_SET_ENTRIES(v, l, w, SLI_TILE)
-  SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
-#if defined(SLW_GROUPS)
-  SLW_EACH(SLI_ZERO_OWN, 0)
-#endif
-  SLW_EACH(SLI_LOAD_OWN, xs)
-  SLW_EACH(SLI_COLUMN_OWN, 0)
-  SLW_EACH(SLI_STORE_OWN, xs)
-  for (i = 0; i < below; lane++, i++) {
-    double *to = x + (ptrdiff_t)rows[i] * stride;
-    if (lane == SLI_TILE) {
-      lane = 0;
-      l += SLI_TILE * w;
-      SLW_SET_ENTRIES(v, l, w, SLI_TILE)
-      SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
-    }
-    SLW_LOAD(b, to)
-    SLW_EACH(SLI_BELOW_OWN, 0)
-    SLW_STORE(to, b)
-  }
-}
-
-#define SLI_UP_OWN(j, k) \
-  if ((j) < (k) && (k) < w) { \
-    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
-  }
-#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
-#define SLI_ABOVE_OWN(k, unused) \
-  if (SLI_IS_IN(k, w)) { \
-    SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
-  }
-#define SLI_DIVIDE_OWN(k, unused) \
-  if (SLI_IS_IN(k, w)) { \
-    SLW_LOAD(b, xs + (k)*stride) \
-    SLW_DIVIDE(b, d[k]) \
-    SLW_ADD(a##k, b) \
-  }
-
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
-                                sl_int below, const sl_int *rows,
-                                const SLV_VALUE *l, const double *d,
-                                double *xs, const double *x) {
-  sl_int i = below - 1, lane = (w + i) % SLI_TILE;
-  SLW_EACH(SLI_DECLARE, 0)
-  SLW_DECLARE(b)
-  SLW_ENTRIES(v, SLI_TILE)
-  SLI_CLEAR_WIDE
-  SLW_SET_ENTRIES(v, l, w, SLI_TILE)
-  SLW_EACH(SLI_ZERO_OWN, 0)
-  SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
-  SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
-  for (; i >= 0; lane--, i--) {
-    if (lane < 0) {
-      lane = SLI_TILE - 1;
-      l -= SLI_TILE * w;
-      SLW_SET_ENTRIES(v, l, w, SLI_TILE)
-      SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
-      SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
-    }
-    SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
-    SLW_HIGH(SLI_ABOVE_OWN, 0)
-    SLW_LOW(SLI_ABOVE_OWN, 0)
-  }
-  if (w == SLI_TILE && below > 0) {
-    l -= SLI_TILE * w;
-    SLW_SET_ENTRIES(v, l, w, SLI_TILE)
-  }
-  SLW_EACH(SLI_DIVIDE_OWN, 0)
-  SLW_HIGH(SLI_ROW_OWN, 0)
-  SLW_LOW(SLI_ROW_OWN, 0)
-  SLW_EACH(SLI_STORE_OWN, xs)
-}
-
-#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
-#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
-#if defined(SLW_GROUPS)
-#define SLI_BY_WIDTH(call) call(w)
-#else
-#define SLI_BY_WIDTH(call) SLI_CASES(call)
-#endif
-
-SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-                          const sl_int *rows, const SLV_VALUE *l,
-                          double *xs, double *x) {
-  SLI_BY_WIDTH(SLI_FORWARD);
-}
-
-SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-                           const sl_int *rows, const SLV_VALUE *l,
-                           const double *d, double *xs, const double *x) {
-  SLI_BY_WIDTH(SLI_BACKWARD);
-}
-
-#undef SLI_LOAD_OWN
-#undef SLI_STORE_OWN
-#undef SLI_ZERO_OWN
-#undef SLI_PREFETCH_OWN
-#undef SLI_DOWN_OWN
-#undef SLI_COLUMN_OWN
-#undef SLI_BELOW_OWN
-#undef SLI_UP_OWN
-#undef SLI_ROW_OWN
-#undef SLI_ABOVE_OWN
-#undef SLI_DIVIDE_OWN
-#undef SLI_FORWARD
-#undef SLI_BACKWARD
-#undef SLI_BY_WIDTH
-#undef SLI_CLEAR_WIDE
-#else
-SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
-                            const sl_int *rows, const SLV_VALUE *l,
-                            double *xs, double *x) {
-  const sl_int half = SLW_NRHS / 2;
-  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
-  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
-}
-
-SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
-                             const sl_int *rows, const SLV_VALUE *l,
-                             const double *d, double *xs,
-                             const double *x) {
-  const sl_int half = SLW_NRHS / 2;
-  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
-  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
-}
-#endif
-/* end of multi_rhs_small.inl.h */
-#define SLI_SMALL
-#endif
-#endif
-
-/* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
-
-#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
-#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
-
-#if defined(SLW_GROUPS)
-#define SLI_STRIDE_PARAMETER , sl_int stride
-#define SLI_SET_STRIDE
-#define SLI_IS_DIRECT 1
-#else
-#define SLI_IS_DIRECT 0
-#define SLI_STRIDE_PARAMETER
-#define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
-#endif
-
-SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
-                       const void *values, double *x,
-                       double *buf SLI_STRIDE_PARAMETER) {
-  const SLV_VALUE *L = (const SLV_VALUE *)values;
-  SLI_SET_STRIDE
-#if SLW_GROUPS >= 8
-  const int is_fetched = sli_steps_exceed_cache(count, s, stride);
-#endif
-  SLI_PREPARE
-  for (; count > 0; rows += s->below, count--, s++) {
-    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const SLV_VALUE *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / SLI_PARTS;
-    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
-    ptrdiff_t row;
-    sl_int group, j;
-#if SLW_GROUPS >= 8
-    if (is_fetched && count > SLI_STEPS_AHEAD) {
-      sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
-    }
-#endif
-#if defined(SLI_SMALL)
-    if (w <= SLI_TILE) {
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
-      }
-      continue;
-    }
-#endif
-    for (row = first; row < height; row += SLW_ROWS) {
-      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sl_int below = height - (sl_int)row - inner;
-      const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
-      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      const sl_int *below_rows = rows + (row + inner - w);
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
-        const double *xj = xs + (ptrdiff_t)first * stride + group;
-        SLW_EACH(SLI_DECLARE, 0)
-        if (is_below) {
-          SLW_EACH(SLI_LOAD_BELOW, x + group)
-        } else {
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
-          }
-          SLW_EACH(SLI_LOAD, p)
-        }
-        for (j = first; j < final;
-           j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
-          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
-          SLI_APPLY_COLUMN
-        }
-        if (inner > 0) {
-          SLI_TRIANGLE
-        }
-        if (is_below) {
-          SLW_EACH(SLI_STORE_BELOW, x + group)
-          continue;
-        }
-        SLW_EACH(SLI_STORE, p)
-        if (inner < SLW_ROWS) {
-          SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
-        }
-      }
-      if (lane + SLW_ROWS == SLI_TILE) {
-        tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-      }
-    }
-  }
-}
-
-SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
-                        const sl_int *rows_end, const void *values,
-                        const double *D, double *x,
-                        double *buf SLI_STRIDE_PARAMETER) {
-  const SLV_VALUE *L = (const SLV_VALUE *)values;
-  SLI_SET_STRIDE
-#if SLW_GROUPS >= 8
-  const int is_fetched = sli_steps_exceed_cache(count, s, stride);
-#endif
-  SLI_PREPARE
-  for (s += count; count > 0; count--) {
-    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
-    const SLV_VALUE *tile = L + (s->panel + sli_panel_size(w, s->below)) / SLI_PARTS;
-    const double *d = D + s->column - first;
-    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
-    ptrdiff_t row;
-    sl_int group, i, j;
-    rows_end -= s->below;
-#if SLW_GROUPS >= 8
-    if (is_fetched && count > SLI_STEPS_AHEAD) {
-      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
-    }
-#endif
-#if defined(SLI_SMALL)
-    if (w <= SLI_TILE) {
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        SLW_SWEEP(backward_small)
-        (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
-      }
-      continue;
-    }
-#endif
-    for (i = first; i < w; i++) {
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        SLW_DECLARE(b)
-        SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
-        SLW_DIVIDE(b, d[i])
-        SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
-      }
-    }
-    for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
-      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
-      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
-      const sl_int below = height - (sl_int)row - inner;
-      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
-      const sl_int *below_rows = rows_end + (row + inner - w);
-      if (lane + SLW_ROWS == SLI_TILE) {
-        tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
-      }
-      for (group = 0; group < stride; group += SLW_NRHS) {
-        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
-        double *xj = xs + (ptrdiff_t) final * stride + group;
-        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
-        SLW_EACH(SLI_DECLARE, 0)
-        if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
-          SLW_EACH(SLI_LOAD_BELOW, x + group)
-        } else {
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
-          }
-          SLW_EACH(SLI_LOAD, p)
-        }
-        if (inner > 0) {
-          SLI_TRIANGLE_UP
-          SLW_EACH(SLI_STORE, p)
-          if (inner < SLW_ROWS) {
-            SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
-          }
-        }
-        l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
-        for (j = final - SLI_PARTS; j >= first; j -= SLI_PARTS) {
-          l -= SLI_TILE;
-          xj -= SLI_PARTS * (ptrdiff_t)stride;
-          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
-          SLI_GATHER_COLUMN
-        }
-      }
-    }
-  }
-}
-
-#if defined(SLW_GROUPS)
-#define SLI_GROUPED_KERNELS(lanes) \
-  SLV_FUNCTION static void SLI_TABLE(forward##lanes)(sl_int count, const sli_step *s, \
-                             const sl_int *rows, const void *values, \
-                             double *x, double *buf) { \
-    SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
-  } \
-  SLV_FUNCTION static void SLI_TABLE(backward##lanes)( \
-    sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
-    const double *D, double *x, double *buf) { \
-    SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
-  }
-#if SLW_NRHS == 2
-SLI_GROUPED_KERNELS(2)
-#endif
-#if SLW_NRHS <= 4 && SLW_GROUPS >= 4
-SLI_GROUPED_KERNELS(4)
-#endif
-#if SLW_NRHS <= 8 && SLW_GROUPS >= 8
-SLI_GROUPED_KERNELS(8)
-#endif
-#if SLW_GROUPS == 32
-SLI_GROUPED_KERNELS(16)
-SLI_GROUPED_KERNELS(32)
-#endif
-#undef SLI_GROUPED_KERNELS
-#endif
-
-#undef SLI_LOAD_BELOW
-#undef SLI_STORE_BELOW
-#undef SLI_STRIDE_PARAMETER
-#undef SLI_SET_STRIDE
-#undef SLI_IS_DIRECT
-/* end of multi_rhs_tiles.inl.h */
-
-#if SLW_NRHS == 8 && !SLV_SINGLE && !defined(SLW_COMPLEX)
-SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
-                      double *sums) {
-  enum { distance = SLW_NRHS };
-  sl_int row, k;
-  for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
-    const double *l = y + row, *p = z;
-    double *s = sums + row * SLW_NRHS;
-    SLW_EACH(SLI_DECLARE, 0)
-    SLW_DECLARE(b)
-    SLW_EACH(SLI_LOAD, s)
-    for (k = 0; k < count; k++, l += SLW_NRHS, p += SLW_NRHS) {
-      SLW_LOAD(b, p)
-      SLW_EACH(SLI_APPLY, l)
-    }
-    SLW_EACH(SLI_STORE, s)
-  }
-}
-#endif
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_PARTS
-#undef SLI_KERNEL
-#undef SLI_TABLE
-#undef SLI_SMALL
-#undef SLI_PREPARE
-#undef SLI_APPLY
-#undef SLI_APPLY_COLUMN
-#undef SLI_GATHER
-#undef SLI_GATHER2
-#undef SLI_GATHER_COLUMN
-#undef SLI_DOWN
-#undef SLI_UP
-#undef SLI_COLUMN
-#undef SLI_ROW
-#undef SLI_TRIANGLE
-#undef SLI_TRIANGLE_UP
-#undef SLI_PAIRS
-#undef SLI_PAIRS_AGAIN
-#undef SLI_PAIRS_DOWN
-#undef SLI_NEGATE
-#undef SLI_SUBTRACT
-#undef SLI_BELOW
-#undef SLI_BEFORE
-#undef SLW_ENTRIES
-#undef SLW_SET_ENTRIES
-#undef SLW_EACH
-#undef SLW_EACH_AGAIN
-#undef SLW_HIGH
-#undef SLW_LOW
-
-#if SLV_SINGLE || defined(SLW_COMPLEX)
-#undef SLV_SINGLE
-#define SLV_SINGLE 0
-#undef SLW_COMPLEX
-#undef SLW_NAME
-#undef SLW_NRHS
-#undef SLW_HALF
-#undef SLW_GROUPS
-#else
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#endif
 #endif
 
 #ifdef SLI_SECTION_SWEEPS
@@ -33023,10 +32279,609 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
 #undef SLI_TAKE_SUM
 #undef SLI_FEW_STEPS
 /* end of single_rhs.inl.h */
+#endif
 
-#if SLV_SINGLE
+#ifdef SLI_SECTION_MULTI_RHS
+#undef SLI_SECTION_MULTI_RHS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/multi_rhs.inl.h: sweeps for 2 or more right-hand sides, vectorized over right-hand sides */
+
+#if SLW_ROWS == 8
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#else
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+
+#if defined(SLW_COMPLEX)
+/* src/impl/kernels/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
+
+#define SLI_PARTS 2
+#define SLI_KERNEL(f) SLW_NAME(complex_group_##f)
+#define SLI_TABLE(f) SLV_NAME(complex_##f)
+
+#if SLW_ROWS == 8
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
+#else
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
+#endif
+
+#define SLI_PREPARE const double one = 1.0;
+#define SLI_NEGATE(n, c) \
+  SLW_ZERO(n) \
+  SLW_FNMA(n, one, c)
+#define SLI_SUBTRACT(r, s, l, b, c, n) \
+  SLW_FNMA(a##r, (l)[r], b) \
+  SLW_FNMA(a##s, (l)[r], c) \
+  SLW_FNMA(a##r, (l)[s], n) \
+  SLW_FNMA(a##s, (l)[s], b)
+#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
+#define SLI_APPLY_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_DECLARE(n) \
+  SLW_LOAD(b, xj) \
+  SLW_LOAD(c, xj + stride) \
+  SLI_NEGATE(n, c) \
+  SLI_PAIRS(SLI_APPLY, l)
+#define SLI_GATHER(r, s, l) \
+  SLW_FNMA(b, (l)[r], a##r) \
+  SLW_FNMA(c, (l)[r], a##s) \
+  SLW_FNMA(e, (l)[s], a##s) \
+  SLW_FNMA(n, (l)[s], a##r)
+#define SLI_GATHER_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_DECLARE(e) \
+  SLW_DECLARE(n) \
+  SLW_LOAD(b, xj) \
+  SLW_LOAD(c, xj + stride) \
+  SLW_ZERO(e) \
+  SLW_ZERO(n) \
+  SLI_PAIRS(SLI_GATHER, l) \
+  SLW_ADD(b, e) \
+  SLW_FNMA(c, one, n) \
+  SLW_STORE(xj, b) \
+  SLW_STORE(xj + stride, c)
+#define SLI_BELOW(r, s, k, m) \
+  if ((r) > (k)) { \
+    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
+  }
+#define SLI_COLUMN(k, m, unused) \
+  if (SLI_IS_IN(k, inner)) { \
+    SLI_NEGATE(n, a##m) \
+    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
+  }
+#define SLI_TRIANGLE \
+  SLW_DECLARE(n) \
+  SLI_PAIRS(SLI_COLUMN, 0)
+#define SLI_BEFORE(i, j, k, m) \
+  if ((i) < (k) && SLI_IS_IN(i, inner)) { \
+    const double *at = l + SLI_TILE / 2 * (i); \
+    SLW_FNMA(a##i, at[k], a##k) \
+    SLW_FNMA(a##i, at[m], a##m) \
+    SLW_FNMA(a##j, at[k], a##m) \
+    SLW_FNMA(a##j, at[m], n) \
+  }
+#define SLI_ROW(k, m, unused) \
+  SLI_NEGATE(n, a##k) \
+  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
+#define SLI_TRIANGLE_UP \
+  SLW_DECLARE(n) \
+  SLI_PAIRS_DOWN(SLI_ROW, 0)
+/* end of complex_groups.inl.h */
+#else
+
+#define SLI_PARTS 1
+#if defined(SLW_GROUPS)
+#define SLI_KERNEL(f) SLW_SWEEP(grouped_##f)
+#else
+#define SLI_KERNEL(f) SLW_SWEEP(f)
+#endif
+#define SLI_TABLE(f) SLV_SWEEP(f)
+
+#if defined(SLW_TAKES_FLOATS)
+#define SLW_ENTRIES(v, columns) const SLV_VALUE *v;
+#define SLW_SET_ENTRIES(v, l, columns, rows) v = (l);
+#else
+#define SLW_ENTRIES(v, columns) SLV_WIDE(v, columns)
+#define SLW_SET_ENTRIES(v, l, columns, rows) SLV_WIDEN(v, l, columns, rows)
+#endif
+
+#define SLI_PREPARE SLW_ENTRIES(v, SLI_TILE)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
+#define SLI_APPLY_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
+  SLW_LOAD(b, xj) \
+  SLW_EACH(SLI_APPLY, v)
+#define SLI_GATHER(r, l) SLW_FNMA(b, (l)[r], a##r)
+#define SLI_GATHER2(r, l) SLW_FNMA(c, (l)[r], a##r)
+#define SLI_GATHER_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_SET_ENTRIES(v, l, 1, SLW_ROWS) \
+  SLW_LOAD(b, xj) \
+  SLW_ZERO(c) \
+  SLW_HIGH(SLI_GATHER, v) \
+  SLW_LOW(SLI_GATHER2, v) \
+  SLW_ADD(b, c) \
+  SLW_STORE(xj, b)
+#define SLI_DOWN(r, k) \
+  if ((r) > (k)) { \
+    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
+  }
+#define SLI_COLUMN(k, unused) \
+  if (SLI_IS_IN(k, inner)) { \
+    SLW_EACH_AGAIN(SLI_DOWN, k) \
+  }
+#define SLI_TRIANGLE \
+  SLW_SET_ENTRIES(v, l, inner, SLW_ROWS) \
+  SLW_EACH(SLI_COLUMN, 0)
+#define SLI_UP(j, k) \
+  if ((j) < (k) && SLI_IS_IN(j, inner)) { \
+    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
+  }
+#define SLI_ROW(k, unused) SLW_EACH_AGAIN(SLI_UP, k)
+#define SLI_TRIANGLE_UP \
+  SLW_SET_ENTRIES(v, l, inner, SLW_ROWS) \
+  SLW_HIGH(SLI_ROW, 0) \
+  SLW_LOW(SLI_ROW, 0)
+
+#if SLW_ROWS == 8 || defined(SLW_HALF)
+/* src/impl/kernels/multi_rhs_small.inl.h: several right-hand sides through a supernode of at most 8 columns */
+
+#if SLW_ROWS == 8
+#define SLI_LOAD_OWN(k, p) \
+  if (SLI_IS_IN(k, w)) { \
+    SLW_LOAD(a##k, (p) + (k)*stride) \
+  }
+#define SLI_STORE_OWN(k, p) \
+  if (SLI_IS_IN(k, w)) { \
+    SLW_STORE((p) + (k)*stride, a##k) \
+  }
+#define SLI_ZERO_OWN(k, unused) SLW_ZERO(a##k)
+#define SLI_PREFETCH_OWN(k, bytes) \
+  if (SLI_IS_IN(k, w)) { \
+    SLV_PREFETCH(l, k, bytes) \
+  }
+#define SLI_DOWN_OWN(r, k) \
+  if ((r) > (k) && (r) < w) { \
+    SLW_FNMA(a##r, v[SLI_TILE * (k) + (r)], a##k) \
+  }
+#define SLI_COLUMN_OWN(k, unused) SLW_EACH_AGAIN(SLI_DOWN_OWN, k)
+#define SLI_BELOW_OWN(k, unused) \
+  if (SLI_IS_IN(k, w)) { \
+    SLW_FNMA(b, v[SLI_TILE * (k) + lane], a##k) \
+  }
+
+#if defined(SLW_GROUPS) && SLV_SINGLE && !defined(SLW_TAKES_FLOATS)
+#define SLI_CLEAR_WIDE memset(v, 0, sizeof v);
+#else
+#define SLI_CLEAR_WIDE
+#endif
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_forward)(const sl_int w, sl_int stride,
+                               sl_int below, const sl_int *rows,
+                               const SLV_VALUE *l, double *xs,
+                               double *x) {
+  sl_int lane = w, i;
+  SLW_EACH(SLI_DECLARE, 0)
+  SLW_DECLARE(b)
+  SLW_ENTRIES(v, SLI_TILE)
+  SLI_CLEAR_WIDE
+  SLW_SET_ENTRIES(v, l, w, SLI_TILE)
+  SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
+#if defined(SLW_GROUPS)
+  SLW_EACH(SLI_ZERO_OWN, 0)
+#endif
+  SLW_EACH(SLI_LOAD_OWN, xs)
+  SLW_EACH(SLI_COLUMN_OWN, 0)
+  SLW_EACH(SLI_STORE_OWN, xs)
+  for (i = 0; i < below; lane++, i++) {
+    double *to = x + (ptrdiff_t)rows[i] * stride;
+    if (lane == SLI_TILE) {
+      lane = 0;
+      l += SLI_TILE * w;
+      SLW_SET_ENTRIES(v, l, w, SLI_TILE)
+      SLW_EACH(SLI_PREFETCH_OWN, SLI_PREFETCH_DISTANCE)
+    }
+    SLW_LOAD(b, to)
+    SLW_EACH(SLI_BELOW_OWN, 0)
+    SLW_STORE(to, b)
+  }
+}
+
+#define SLI_UP_OWN(j, k) \
+  if ((j) < (k) && (k) < w) { \
+    SLW_FNMA(a##j, v[SLI_TILE * (j) + (k)], a##k) \
+  }
+#define SLI_ROW_OWN(k, unused) SLW_EACH_AGAIN(SLI_UP_OWN, k)
+#define SLI_ABOVE_OWN(k, unused) \
+  if (SLI_IS_IN(k, w)) { \
+    SLW_FNMA(a##k, v[SLI_TILE * (k) + lane], b) \
+  }
+#define SLI_DIVIDE_OWN(k, unused) \
+  if (SLI_IS_IN(k, w)) { \
+    SLW_LOAD(b, xs + (k)*stride) \
+    SLW_DIVIDE(b, d[k]) \
+    SLW_ADD(a##k, b) \
+  }
+
+SLV_FUNCTION SLI_ALWAYS_INLINE void SLW_SWEEP(small_backward)(const sl_int w, sl_int stride,
+                                sl_int below, const sl_int *rows,
+                                const SLV_VALUE *l, const double *d,
+                                double *xs, const double *x) {
+  sl_int i = below - 1, lane = (w + i) % SLI_TILE;
+  SLW_EACH(SLI_DECLARE, 0)
+  SLW_DECLARE(b)
+  SLW_ENTRIES(v, SLI_TILE)
+  SLI_CLEAR_WIDE
+  SLW_SET_ENTRIES(v, l, w, SLI_TILE)
+  SLW_EACH(SLI_ZERO_OWN, 0)
+  SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+  SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+  for (; i >= 0; lane--, i--) {
+    if (lane < 0) {
+      lane = SLI_TILE - 1;
+      l -= SLI_TILE * w;
+      SLW_SET_ENTRIES(v, l, w, SLI_TILE)
+      SLW_HIGH(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+      SLW_LOW(SLI_PREFETCH_OWN, -SLI_PREFETCH_DISTANCE)
+    }
+    SLW_LOAD(b, x + (ptrdiff_t)rows[i] * stride)
+    SLW_HIGH(SLI_ABOVE_OWN, 0)
+    SLW_LOW(SLI_ABOVE_OWN, 0)
+  }
+  if (w == SLI_TILE && below > 0) {
+    l -= SLI_TILE * w;
+    SLW_SET_ENTRIES(v, l, w, SLI_TILE)
+  }
+  SLW_EACH(SLI_DIVIDE_OWN, 0)
+  SLW_HIGH(SLI_ROW_OWN, 0)
+  SLW_LOW(SLI_ROW_OWN, 0)
+  SLW_EACH(SLI_STORE_OWN, xs)
+}
+
+#define SLI_FORWARD(k) SLW_SWEEP(small_forward)(k, stride, below, rows, l, xs, x)
+#define SLI_BACKWARD(k) SLW_SWEEP(small_backward)(k, stride, below, rows, l, d, xs, x)
+#if defined(SLW_GROUPS)
+#define SLI_BY_WIDTH(call) call(w)
+#else
+#define SLI_BY_WIDTH(call) SLI_CASES(call)
+#endif
+
+SLV_FUNCTION static void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                          const sl_int *rows, const SLV_VALUE *l,
+                          double *xs, double *x) {
+  SLI_BY_WIDTH(SLI_FORWARD);
+}
+
+SLV_FUNCTION static void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                           const sl_int *rows, const SLV_VALUE *l,
+                           const double *d, double *xs, const double *x) {
+  SLI_BY_WIDTH(SLI_BACKWARD);
+}
+
+#undef SLI_LOAD_OWN
+#undef SLI_STORE_OWN
+#undef SLI_ZERO_OWN
+#undef SLI_PREFETCH_OWN
+#undef SLI_DOWN_OWN
+#undef SLI_COLUMN_OWN
+#undef SLI_BELOW_OWN
+#undef SLI_UP_OWN
+#undef SLI_ROW_OWN
+#undef SLI_ABOVE_OWN
+#undef SLI_DIVIDE_OWN
+#undef SLI_FORWARD
+#undef SLI_BACKWARD
+#undef SLI_BY_WIDTH
+#undef SLI_CLEAR_WIDE
+#else
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(forward_small)(sl_int w, sl_int stride, sl_int below,
+                            const sl_int *rows, const SLV_VALUE *l,
+                            double *xs, double *x) {
+  const sl_int half = SLW_NRHS / 2;
+  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs, x);
+  SLW_SWEEP_HALF(forward_small)(w, stride, below, rows, l, xs + half, x + half);
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, sl_int below,
+                             const sl_int *rows, const SLV_VALUE *l,
+                             const double *d, double *xs,
+                             const double *x) {
+  const sl_int half = SLW_NRHS / 2;
+  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs, x);
+  SLW_SWEEP_HALF(backward_small)(w, stride, below, rows, l, d, xs + half, x + half);
+}
+#endif
+/* end of multi_rhs_small.inl.h */
+#define SLI_SMALL
+#endif
+#endif
+
+/* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
+
+#define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
+#define SLI_STORE_BELOW(r, p) SLW_STORE((p) + (ptrdiff_t)below_rows[r] * stride, a##r)
+
+#if defined(SLW_GROUPS)
+#define SLI_STRIDE_PARAMETER , sl_int stride
+#define SLI_SET_STRIDE
+#define SLI_IS_DIRECT 1
+#else
+#define SLI_IS_DIRECT 0
+#define SLI_STRIDE_PARAMETER
+#define SLI_SET_STRIDE const sl_int stride = SLW_NRHS;
+#endif
+
+SLV_FUNCTION static void SLI_KERNEL(forward)(sl_int count, const sli_step *s, const sl_int *rows,
+                       const void *values, double *x,
+                       double *buf SLI_STRIDE_PARAMETER) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  SLI_SET_STRIDE
+#if SLW_GROUPS >= 8
+  const int is_fetched = sli_steps_exceed_cache(count, s, stride);
+#endif
+  SLI_PREPARE
+  for (; count > 0; rows += s->below, count--, s++) {
+    const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const SLV_VALUE *tile = L + (s->panel + sli_tile_offset(w, s->first_tile)) / SLI_PARTS;
+    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
+    ptrdiff_t row;
+    sl_int group, j;
+#if SLW_GROUPS >= 8
+    if (is_fetched && count > SLI_STEPS_AHEAD) {
+      sli_step_prefetch(s + SLI_STEPS_AHEAD, rows + s->below + s[1].below, x, stride);
+    }
+#endif
+#if defined(SLI_SMALL)
+    if (w <= SLI_TILE) {
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_SWEEP(forward_small)(w, stride, s->below, rows, tile, xs + group, x + group);
+      }
+      continue;
+    }
+#endif
+    for (row = first; row < height; row += SLW_ROWS) {
+      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+      const sl_int below = height - (sl_int)row - inner;
+      const int is_below = SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS;
+      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+      const sl_int *below_rows = rows + (row + inner - w);
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t)first + lane;
+        const double *xj = xs + (ptrdiff_t)first * stride + group;
+        SLW_EACH(SLI_DECLARE, 0)
+        if (is_below) {
+          SLW_EACH(SLI_LOAD_BELOW, x + group)
+        } else {
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+          }
+          SLW_EACH(SLI_LOAD, p)
+        }
+        for (j = first; j < final;
+           j += SLI_PARTS, l += SLI_TILE, xj += SLI_PARTS * (ptrdiff_t)stride) {
+          SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE);
+          SLI_APPLY_COLUMN
+        }
+        if (inner > 0) {
+          SLI_TRIANGLE
+        }
+        if (is_below) {
+          SLW_EACH(SLI_STORE_BELOW, x + group)
+          continue;
+        }
+        SLW_EACH(SLI_STORE, p)
+        if (inner < SLW_ROWS) {
+          SLW_NAME(rows_out)(buf, inner, below, below_rows, own, x + group, stride);
+        }
+      }
+      if (lane + SLW_ROWS == SLI_TILE) {
+        tile += SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+      }
+    }
+  }
+}
+
+SLV_FUNCTION static void SLI_KERNEL(backward)(sl_int count, const sli_step *s,
+                        const sl_int *rows_end, const void *values,
+                        const double *D, double *x,
+                        double *buf SLI_STRIDE_PARAMETER) {
+  const SLV_VALUE *L = (const SLV_VALUE *)values;
+  SLI_SET_STRIDE
+#if SLW_GROUPS >= 8
+  const int is_fetched = sli_steps_exceed_cache(count, s, stride);
+#endif
+  SLI_PREPARE
+  for (s += count; count > 0; count--) {
+    const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
+    const SLV_VALUE *tile = L + (s->panel + sli_panel_size(w, s->below)) / SLI_PARTS;
+    const double *d = D + s->column - first;
+    double *xs = x + ((ptrdiff_t)s->base - first) * stride;
+    ptrdiff_t row;
+    sl_int group, i, j;
+    rows_end -= s->below;
+#if SLW_GROUPS >= 8
+    if (is_fetched && count > SLI_STEPS_AHEAD) {
+      sli_step_prefetch(s - SLI_STEPS_AHEAD, rows_end - s[-1].below - s[-2].below, x, stride);
+    }
+#endif
+#if defined(SLI_SMALL)
+    if (w <= SLI_TILE) {
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_SWEEP(backward_small)
+        (w, stride, s->below, rows_end, tile - SLI_TILE * w, d, xs + group, x + group);
+      }
+      continue;
+    }
+#endif
+    for (i = first; i < w; i++) {
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        SLW_DECLARE(b)
+        SLW_LOAD(b, xs + (ptrdiff_t)i * stride + group)
+        SLW_DIVIDE(b, d[i])
+        SLW_STORE(xs + (ptrdiff_t)i * stride + group, b)
+      }
+    }
+    for (row = SLI_TILE * sli_tiles(height) - SLW_ROWS; row >= first; row -= SLW_ROWS) {
+      const sl_int lane = (sl_int)(row % SLI_TILE), final = (sl_int)(row < w ? row : w);
+      const sl_int inner = sli_clamp(w - (sl_int)row, SLW_ROWS);
+      const sl_int below = height - (sl_int)row - inner;
+      const ptrdiff_t distance = inner == SLW_ROWS ? stride : SLW_NRHS;
+      const sl_int *below_rows = rows_end + (row + inner - w);
+      if (lane + SLW_ROWS == SLI_TILE) {
+        tile -= SLI_TILE / SLI_PARTS * (ptrdiff_t)sli_min(w, (sl_int)row + SLW_ROWS);
+      }
+      for (group = 0; group < stride; group += SLW_NRHS) {
+        double *own = xs + row * stride + group, *p = inner == SLW_ROWS ? own : buf;
+        double *xj = xs + (ptrdiff_t) final * stride + group;
+        const SLV_VALUE *l = tile + SLI_TILE / SLI_PARTS * row + lane;
+        SLW_EACH(SLI_DECLARE, 0)
+        if (SLI_IS_DIRECT && inner == 0 && below >= SLW_ROWS) {
+          SLW_EACH(SLI_LOAD_BELOW, x + group)
+        } else {
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_in)(buf, inner, below, below_rows, own, x + group, stride);
+          }
+          SLW_EACH(SLI_LOAD, p)
+        }
+        if (inner > 0) {
+          SLI_TRIANGLE_UP
+          SLW_EACH(SLI_STORE, p)
+          if (inner < SLW_ROWS) {
+            SLW_NAME(rows_out)(buf, inner, 0, NULL, own, x, stride);
+          }
+        }
+        l = tile + SLI_TILE / SLI_PARTS * (ptrdiff_t) final + lane;
+        for (j = final - SLI_PARTS; j >= first; j -= SLI_PARTS) {
+          l -= SLI_TILE;
+          xj -= SLI_PARTS * (ptrdiff_t)stride;
+          SLI_PREFETCH(l, -SLI_PREFETCH_DISTANCE);
+          SLI_GATHER_COLUMN
+        }
+      }
+    }
+  }
+}
+
+#if defined(SLW_GROUPS)
+#define SLI_GROUPED_KERNELS(lanes) \
+  SLV_FUNCTION static void SLI_TABLE(forward##lanes)(sl_int count, const sli_step *s, \
+                             const sl_int *rows, const void *values, \
+                             double *x, double *buf) { \
+    SLI_KERNEL(forward)(count, s, rows, values, x, buf, lanes); \
+  } \
+  SLV_FUNCTION static void SLI_TABLE(backward##lanes)( \
+    sl_int count, const sli_step *s, const sl_int *rows_end, const void *values, \
+    const double *D, double *x, double *buf) { \
+    SLI_KERNEL(backward)(count, s, rows_end, values, D, x, buf, lanes); \
+  }
+#if SLW_NRHS == 2
+SLI_GROUPED_KERNELS(2)
+#endif
+#if SLW_NRHS <= 4 && SLW_GROUPS >= 4
+SLI_GROUPED_KERNELS(4)
+#endif
+#if SLW_NRHS <= 8 && SLW_GROUPS >= 8
+SLI_GROUPED_KERNELS(8)
+#endif
+#if SLW_GROUPS == 32
+SLI_GROUPED_KERNELS(16)
+SLI_GROUPED_KERNELS(32)
+#endif
+#undef SLI_GROUPED_KERNELS
+#endif
+
+#undef SLI_LOAD_BELOW
+#undef SLI_STORE_BELOW
+#undef SLI_STRIDE_PARAMETER
+#undef SLI_SET_STRIDE
+#undef SLI_IS_DIRECT
+/* end of multi_rhs_tiles.inl.h */
+
+#if SLW_NRHS == 8 && !SLV_SINGLE && !defined(SLW_COMPLEX)
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                      double *sums) {
+  enum { distance = SLW_NRHS };
+  sl_int row, k;
+  for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
+    const double *l = y + row, *p = z;
+    double *s = sums + row * SLW_NRHS;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_LOAD, s)
+    for (k = 0; k < count; k++, l += SLW_NRHS, p += SLW_NRHS) {
+      SLW_LOAD(b, p)
+      SLW_EACH(SLI_APPLY, l)
+    }
+    SLW_EACH(SLI_STORE, s)
+  }
+}
+#endif
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_PARTS
+#undef SLI_KERNEL
+#undef SLI_TABLE
+#undef SLI_SMALL
+#undef SLI_PREPARE
+#undef SLI_APPLY
+#undef SLI_APPLY_COLUMN
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_GATHER_COLUMN
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLI_TRIANGLE
+#undef SLI_TRIANGLE_UP
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_BELOW
+#undef SLI_BEFORE
+#undef SLW_ENTRIES
+#undef SLW_SET_ENTRIES
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
+
+#if SLV_SINGLE || defined(SLW_COMPLEX)
 #undef SLV_SINGLE
 #define SLV_SINGLE 0
+#undef SLW_COMPLEX
+#undef SLW_NAME
+#undef SLW_NRHS
+#undef SLW_HALF
+#undef SLW_GROUPS
 #else
 #undef SLV_SINGLE
 #define SLV_SINGLE 1
@@ -34121,6 +33976,83 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLW_FNMA
 #undef SLW_ADD
 #undef SLW_DIVIDE
+#endif
+
+#ifdef SLI_SECTION_WORDS_UNDEF
+#undef SLI_SECTION_WORDS_UNDEF
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
+
+#undef SLV_SINGLE
+#define SLV_SINGLE 0
+#undef SLV_COMPLEX
+#define SLV_COMPLEX 0
+
+#undef SLV_NAME
+#undef SLV_NAME_4
+#undef SLV_NAME_2
+#undef SLV_ISA
+#undef SLV_FUNCTION
+#undef SLV_DECLARE
+#undef SLV_ZERO
+#undef SLV_LOAD
+#undef SLV_STORE
+#undef SLV_STREAM
+#undef SLV_STREAM_END
+#undef SLV_ADD
+#undef SLV_READ_0
+#undef SLV_READ_1
+#undef SLV_WIDEN_ROWS
+#undef SLV_AXPY
+#undef SLV_DOT
+#undef SLV_FNMA1
+#undef SLV_STORE_ANY
+#undef SLV_FNMA
+#undef SLV_SWAP
+#undef SLV_SAME
+#undef SLV_TURN
+#undef SLV_TURN_2
+#undef SLV_TURN_ALL
+#undef SLV_TURN_BACK
+#undef SLV_DUP_LOW
+#undef SLV_DUP_HIGH
+#undef SLV_DUP_AT
+#undef SLV_PAIR
+#undef SLV_TILES
+#undef SLV_VECTOR_TILES
+#undef SLV_LOAD_TILES
+#undef SLV_STORE_TILES
+#undef SLV_COLUMNS
+#undef SLV_EACH_COLUMN
+#undef SLV_LOAD_PINNED
+#undef SLV_BROADCAST
+#undef SLV_MULTIPLY
+#undef SLV_DIVIDE
+#undef SLV_BELOW
+#undef SLV_BELOW_2
+#undef SLV_EXPAND
+#undef SLV_EXPAND_ADD
+#undef SLV_LOAD_PART
+#undef SLV_FIRST
+#undef SLV_LANE
+#undef SLV_GATHER
+#undef SLV_TRANSPOSE
+#undef SLV_TRANSPOSE_4
+#undef SLV_BLOCKS_EVEN
+#undef SLV_BLOCKS_ODD
+#undef SLV_GATHER_2
+#undef SLV_SUM_DECLARE
+#undef SLV_SUM_ZERO
+#undef SLV_SUM_DOT
+#undef SLV_SUM_2
+#undef SLV_SUM_4
+#undef SLV_SUMS
+#undef SLV_SUM_LOAD
+#undef SLV_SUM_STORE
 #endif
 
 /*

@@ -40,7 +40,8 @@
  *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
  *
  *  Sweeps read L in the type in which it is stored. Their templates are included twice, for double
- *  and for float, and flip SLV_SINGLE at their end. The templates of fronts compute in that type.
+ *  and for float; multi_rhs.inl.h, the last of them, flips SLV_SINGLE at its end. The templates of
+ *  fronts compute in that type.
  *
  *  SLV_SINGLE             0: L is stored in double; 1: in float. In sweeps all else is double
  *  SLV_VALUE              the type of an entry of L, and of a front

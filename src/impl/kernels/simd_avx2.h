@@ -179,13 +179,19 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
 #define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
+
+#include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
+
 #define SLW_NAME(f) sli_##f##4_avx2
 #define SLW_NRHS 4
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
+#include "front.inl.h"
 #include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
@@ -228,11 +234,8 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
     a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
 #include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
+
 #include "multi_rhs.inl.h"
-#include "sweeps.inl.h"
-#include "sweeps.inl.h"
-#include "front.inl.h"
-#include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "lanes_undef.inl.h"
 #include "words_undef.inl.h"

@@ -121,14 +121,18 @@
 #define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
 #define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
 #define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
 #define SLW_GROUPS 8 /* of L in float: no copies by width, to keep the object small */
+#include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##8_avx512
 #define SLW_NRHS 8
 #define SLW_GROUPS 8
 #define SLW_COMPLEX
+#include "front.inl.h"
 #include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
@@ -154,23 +158,20 @@
     a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
 #include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
+
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##16_avx512
 #define SLW_NRHS 16
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
 #include "multi_rhs.inl.h"
+#include "kernel_set.inl.h"
+#include "lanes_undef.inl.h"
+#include "words_undef.inl.h"
 #undef SLW_TAKES_FLOATS
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1
 #undef SLV_SPREAD
-#include "sweeps.inl.h"
-#include "sweeps.inl.h"
-#include "front.inl.h"
-#include "front.inl.h"
-#include "kernel_set.inl.h"
-#include "lanes_undef.inl.h"
-#include "words_undef.inl.h"
 
 #endif
 

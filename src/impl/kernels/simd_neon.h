@@ -158,13 +158,19 @@
         a##_0 = vdivq_f64(a##_0, s_); \
         a##_1 = vdivq_f64(a##_1, s_); \
     }
+#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
+
+#include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
+
 #define SLW_NAME(f) sli_##f##4_neon
 #define SLW_NRHS 4
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
+#include "front.inl.h"
 #include "multi_rhs.inl.h"
 #include "lanes_undef.inl.h"
 
@@ -214,11 +220,8 @@
     }
 #include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
+
 #include "multi_rhs.inl.h"
-#include "sweeps.inl.h"
-#include "sweeps.inl.h"
-#include "front.inl.h"
-#include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "lanes_undef.inl.h"
 #include "words_undef.inl.h"

@@ -93,34 +93,37 @@
 #define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
 #define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
 
+#define SLW_NAME(f) sli_##f##8_scalar
+#define SLW_GROUPS 32
+#define SLW_NRHS 8
+#include "front.inl.h"
+#include "copy_rows.inl.h"
+#include "sweeps.inl.h"
+#include "multi_rhs.inl.h"
+
+#include "sweeps.inl.h"
+#include "multi_rhs.inl.h"
+
+#define SLW_NAME(f) sli_##f##4_scalar
+#define SLW_NRHS 4
+#include "front.inl.h"
+#include "copy_rows.inl.h"
+#include "multi_rhs.inl.h"
+
+#include "multi_rhs.inl.h"
+
 /* Arrays gain nothing from duplicating L: two right-hand sides use multi_rhs.inl.h too. */
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
 #include "copy_rows.inl.h"
 #include "multi_rhs.inl.h"
+
 #include "multi_rhs.inl.h"
 #define SLW_NAME(f) sli_##f##2_scalar
 #define SLW_NRHS 2
 #define SLW_GROUPS 32
 #define SLW_COMPLEX
 #include "multi_rhs.inl.h"
-
-#define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_NRHS 4
-#include "copy_rows.inl.h"
-#include "multi_rhs.inl.h"
-#include "multi_rhs.inl.h"
-
-#define SLW_NAME(f) sli_##f##8_scalar
-#define SLW_GROUPS 32
-#define SLW_NRHS 8
-#include "copy_rows.inl.h"
-#include "multi_rhs.inl.h"
-#include "multi_rhs.inl.h"
-#include "sweeps.inl.h"
-#include "sweeps.inl.h"
-#include "front.inl.h"
-#include "front.inl.h"
 #include "kernel_set.inl.h"
 #include "lanes_undef.inl.h"
 #include "words_undef.inl.h"

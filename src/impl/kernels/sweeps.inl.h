@@ -6,11 +6,3 @@
 #endif
 #include "small_supernode.inl.h"
 #include "single_rhs.inl.h"
-
-#if SLV_SINGLE
-#undef SLV_SINGLE
-#define SLV_SINGLE 0
-#else
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#endif
