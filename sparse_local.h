@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c753b4ffc9ca34e8
+ * FNV-1a of the lines after this comment, without the license: 54f3bf737e5f6dda
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -30,62 +30,62 @@
  *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3154 base.h   3448 status.h   3509 options.h   3567 alloc.h   3723 hash.h   3853 file_map.h
- *   3950 sort.h   4014 parallel.h
+ *   3154 base.h   3448 status.h   3509 options.h   3567 alloc.h   3730 hash.h   3860 file_map.h
+ *   3957 sort.h   4021 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4210 panel.h   4235 step.h   4313 pivot_rule.h   4387 front.h   4448 pairs.h
- *   4655 inverse_front.h   4727 table.h   4776 simd.h   4871 simd_scalar_single.h
- *   4915 simd_scalar.h   5041 simd_avx2_single.h   5093 simd_avx2.h   5319 simd_avx512_single.h
- *   5373 simd_avx512.h   5538 simd_neon_single.h   5578 simd_neon.h   5798 dispatch.h
+ *   4217 panel.h   4242 step.h   4320 pivot_rule.h   4394 front.h   4455 pairs.h
+ *   4662 inverse_front.h   4734 table.h   4783 simd.h   4878 simd_scalar_single.h
+ *   4922 simd_scalar.h   5048 simd_avx2_single.h   5100 simd_avx2.h   5326 simd_avx512_single.h
+ *   5380 simd_avx512.h   5545 simd_neon_single.h   5585 simd_neon.h   5805 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5891 csc.h   6034 csc_build.h   6168 csc64.h   6239 csc_triangle.h   6304 csc_products.h
- *   6421 permute.h   6487 sum.h   6569 output_file.h   6778 matrix_market.h
+ *   5898 csc.h   6041 csc_build.h   6175 csc64.h   6246 csc_triangle.h   6311 csc_products.h
+ *   6428 permute.h   6494 sum.h   6576 output_file.h   6785 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7224 graph.h   7342 contract.h   7596 coarsen.h   7759 labels.h   7980 subgraph.h   8174 heap.h
- *   8234 bisect.h   8461 separator.h   8723 mindeg.h   8906 dissect.h   9230 tree_cost.h
- *   9282 levelset.h   9388 geometric.h   9563 cells.h   9743 septree.h   9819 metis.h
- *   9968 metis_refined.h  10082 nd.h  10282 compress.h  10403 levels.h  10456 border.h
- *  10509 forest.h  10596 peel.h  10796 quotient.h  11213 graph_kind.h  11284 order.h
+ *   7231 graph.h   7349 contract.h   7603 coarsen.h   7766 labels.h   7987 subgraph.h   8181 heap.h
+ *   8241 bisect.h   8468 separator.h   8730 mindeg.h   8913 dissect.h   9237 tree_cost.h
+ *   9289 levelset.h   9395 geometric.h   9570 cells.h   9750 septree.h   9826 metis.h
+ *   9975 metis_refined.h  10089 nd.h  10289 compress.h  10410 levels.h  10463 border.h
+ *  10516 forest.h  10603 peel.h  10803 quotient.h  11220 graph_kind.h  11291 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11609 symbolic_types.h  11646 etree.h  11702 counts.h  11751 supernodes.h  11991 pattern.h
- *  12081 structure.h  12284 schedule.h  12564 symbolic.h  13034 reach.h
+ *  11616 symbolic_types.h  11653 etree.h  11709 counts.h  11758 supernodes.h  11998 pattern.h
+ *  12088 structure.h  12291 schedule.h  12571 symbolic.h  13041 reach.h
  * (factor: the numbers of L and D)
- *  13305 factor_types.h  13733 storage.h  13871 pivot_search.h  14217 pivoted.h  14286 scatter.h
- *  14444 uplooking.h  14516 null_product.h  14720 null_dense.h  14797 null_basis.h
- *  15117 null_vectors.h  15259 multifrontal.h  15453 gather.h  15501 kept.h  15671 front_tasks.h
- *  16014 null_center.h  16138 nullspace.h  16325 growth.h  16403 factor_setup.h  16729 factor.h
- *  16939 leftlooking.h  17086 factor_query.h  17221 combination.h
+ *  13312 factor_types.h  13740 storage.h  13878 pivot_search.h  14224 pivoted.h  14293 scatter.h
+ *  14451 uplooking.h  14523 null_product.h  14727 null_dense.h  14804 null_basis.h
+ *  15124 null_vectors.h  15266 multifrontal.h  15460 gather.h  15508 kept.h  15678 front_tasks.h
+ *  16021 null_center.h  16145 nullspace.h  16332 growth.h  16410 factor_setup.h  16736 factor.h
+ *  16946 leftlooking.h  17093 factor_query.h  17228 combination.h
  * (solve: full and local solves)
- *  17282 region_types.h  17386 work.h  17486 query.h  17702 singular.h  17959 backward.h
- *  17989 sweep_tasks.h  18320 sweep.h  18528 compile.h  18721 plan.h  18828 local.h  18980 parts.h
- *  19269 refine.h  19448 refine_local.h  19664 rcond.h  19823 defects.h
+ *  17289 region_types.h  17393 work.h  17493 query.h  17711 singular.h  17968 backward.h
+ *  17998 sweep_tasks.h  18329 sweep.h  18537 compile.h  18730 plan.h  18837 local.h  18989 parts.h
+ *  19278 refine.h  19457 refine_local.h  19673 rcond.h  19832 defects.h
  * (inverse: entries of the inverse, regions)
- *  19882 traversal.h  20131 traversal_run.h  20324 row_sets.h  20358 unit_vectors.h
- *  20585 bilinear.h  20757 entries.h  21034 block.h  21269 reserve.h  21461 selected.h
- *  21671 selected_query.h  21773 region_choose.h  22000 region.h
+ *  19891 traversal.h  20140 traversal_run.h  20333 row_sets.h  20367 unit_vectors.h
+ *  20594 bilinear.h  20766 entries.h  21043 block.h  21278 reserve.h  21470 selected.h
+ *  21680 selected_query.h  21782 region_choose.h  22009 region.h
  * (change: a factor that follows changes of its matrix)
- *  22248 update.h  22612 path.h  22713 rank.h  23089 edges.h  23243 choose.h  23476 pins_types.h
- *  23555 pins_nulls.h  23738 pins_capacitance.h  23990 pins_balance.h  24169 pins_held.h
- *  24385 pins_choose.h  24442 pins_rebuild.h  24660 pins_matrix.h  24811 pins.h  25080 pins_solve.h
- *  25351 subset.h  25479 restrict_kept.h  25677 restrict_analysis.h  25929 restrict_symbolic.h
- *  26124 restrict.h  26355 edit_match.h  26554 edit_place.h  26803 edit_separate.h
- *  27117 edit_order.h  27272 edit_graph.h  27354 edit_join.h  27630 edit.h  27793 edit_factor.h
+ *  22257 update.h  22621 path.h  22722 rank.h  23098 edges.h  23252 choose.h  23485 pins_types.h
+ *  23564 pins_nulls.h  23747 pins_capacitance.h  23999 pins_balance.h  24178 pins_held.h
+ *  24394 pins_choose.h  24451 pins_rebuild.h  24669 pins_matrix.h  24820 pins.h  25089 pins_solve.h
+ *  25360 subset.h  25488 restrict_kept.h  25686 restrict_analysis.h  25938 restrict_symbolic.h
+ *  26133 restrict.h  26364 edit_match.h  26563 edit_place.h  26812 edit_separate.h
+ *  27126 edit_order.h  27281 edit_graph.h  27363 edit_join.h  27639 edit.h  27802 edit_factor.h
  * (save: factors in files)
- *  28078 format.h  28375 decode.h  28523 check.h  28853 write.h  29158 load.h  29426 load_inverse.h
- *  29756 load_calls.h
+ *  28087 format.h  28384 decode.h  28532 check.h  28862 write.h  29167 load.h  29435 load_inverse.h
+ *  29765 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29955 batch_solve.h  30164 batch_factor.h  30365 batch_diagonal.h
+ *  29964 batch_solve.h  30173 batch_factor.h  30374 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30505 hermitian.h  30667 complex_rows.h
+ *  30514 hermitian.h  30676 complex_rows.h
  * (last: undefine every internal macro)
- *  30835 undef.h
+ *  30844 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31115 front.inl.h  31117 product.inl.h  31628 copy_rows.inl.h  31666 sweeps.inl.h
- *  31668 unit_triangle.inl.h  31705 two_rhs.inl.h  31874 small_supernode.inl.h
- *  32055 single_rhs.inl.h  32291 multi_rhs.inl.h  32310 complex_groups.inl.h
- *  32449 multi_rhs_small.inl.h  32621 multi_rhs_tiles.inl.h  32898 kernel_set.inl.h
- *  32900 complex_small.inl.h  33070 complex_rows.inl.h  33285 inverse_front.inl.h  33570 row.inl.h
- *  33600 change.inl.h  33835 interleave.inl.h  33969 lanes_undef.inl.h  33988 words_undef.inl.h
+ *  31125 front.inl.h  31127 product.inl.h  31638 copy_rows.inl.h  31676 sweeps.inl.h
+ *  31678 unit_triangle.inl.h  31715 two_rhs.inl.h  31884 small_supernode.inl.h
+ *  32065 single_rhs.inl.h  32301 multi_rhs.inl.h  32320 complex_groups.inl.h
+ *  32459 multi_rhs_small.inl.h  32631 multi_rhs_tiles.inl.h  32908 kernel_set.inl.h
+ *  32910 complex_small.inl.h  33080 complex_rows.inl.h  33295 inverse_front.inl.h  33580 row.inl.h
+ *  33610 change.inl.h  33845 interleave.inl.h  33979 lanes_undef.inl.h  33998 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3543,7 +3543,7 @@ static int sli_options_set(const sl_options *opt) {
 }
 #endif
 
-SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
+SLI_NOINLINE static int sli_options_are_valid(const sl_options *opt, int reads) {
   size_t k;
   if (opt == NULL) {
     return 1;
@@ -3616,7 +3616,7 @@ SLI_INLINE sl_options sli_options_with(const sl_allocator *a) {
   return opt;
 }
 
-SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
+SLI_NOINLINE static void *sli_alloc(const sl_allocator *a, size_t bytes) {
   unsigned char *raw, *block;
   if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
     return NULL;
@@ -3631,7 +3631,7 @@ SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
   return block;
 }
 
-SLI_INLINE void sli_free(const sl_allocator *a, void *block) {
+SLI_NOINLINE static void sli_free(const sl_allocator *a, void *block) {
   void *raw;
   if (block != NULL) {
     memcpy(&raw, (unsigned char *)block - sizeof(void *), sizeof(void *));
@@ -3645,10 +3645,11 @@ typedef struct sli_block {
   int overflow;
 } sli_block;
 
-SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
-  const size_t at = b->used;
+SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
+  const size_t at = b->used, half = SIZE_MAX >> (4 * sizeof(size_t));
   size_t bytes = SIZE_MAX;
-  if (count <= (SIZE_MAX - SLI_ALIGN) / size) {
+  if ((count < half && size < half) ||
+    count <= (SIZE_MAX - SLI_ALIGN) / size) {
     bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
   }
   if (bytes > SIZE_MAX - at) {
@@ -3660,7 +3661,11 @@ SLI_INLINE void *sli_take(sli_block *b, uint64_t count, size_t size) {
   return b->base == NULL ? NULL : b->base + at;
 }
 
-SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
+SLI_NOINLINE static void *sli_take(sli_block *b, uint64_t count, size_t size) {
+  return sli_take_inline(b, count, size);
+}
+
+SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
   if (b->overflow) {
     return SL_ERR_TOO_LARGE;
   }
@@ -3673,6 +3678,8 @@ SLI_INLINE sl_status sli_block_alloc(sli_block *b, const sl_allocator *a) {
 }
 
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
+#define SLI_TAKE_INLINE(b, type, count) \
+  ((type *)sli_take_inline((b), (uint64_t)(count), sizeof(type)))
 
 typedef struct sli_lender {
   sl_allocator more;
@@ -17546,11 +17553,13 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
   const size_t backward = sli_sweep_scratch(q->backward.tallest, q->backward.widest, lanes);
   const size_t across = q->region == NULL ? 0 : sli_region_scratch(q->region, lanes);
   const size_t most = forward > backward ? forward : backward;
-  v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
-  v->x =
-    q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
-  v->product = SLI_TAKE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
-  v->scratch = SLI_TAKE(b, double, most > across ? most : across);
+  v->y = SLI_TAKE_INLINE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
+  v->x = q->is_shared
+         ? v->y
+         : SLI_TAKE_INLINE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
+  v->product =
+    SLI_TAKE_INLINE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
+  v->scratch = SLI_TAKE_INLINE(b, double, most > across ? most : across);
 }
 
 static size_t sli_vectors_bytes(const sli_query *q, sl_int nrhs, sl_int most) {
@@ -18551,17 +18560,17 @@ static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count
 
 static void sli_set_layout_seeds(sli_set *set, sli_block *b) {
   const size_t count = set->rows == NULL ? 0 : (size_t)set->count;
-  set->seeds = SLI_TAKE(b, uint64_t, count);
-  set->scratch = SLI_TAKE(b, uint64_t, count);
+  set->seeds = SLI_TAKE_INLINE(b, uint64_t, count);
+  set->scratch = SLI_TAKE_INLINE(b, uint64_t, count);
 }
 
 static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R) {
   if (set->rows != NULL) {
-    set->index = SLI_TAKE(b, sl_int, set->count);
-    set->steps = SLI_TAKE(b, sli_step, R->count);
-    set->row_index = SLI_TAKE(b, sl_int, R->n_rows);
-    set->boundary = SLI_TAKE(b, unsigned char,
-                 set->extent == NULL ? 0 : sli_region_chunks(set->extent->n_rows));
+    set->index = SLI_TAKE_INLINE(b, sl_int, set->count);
+    set->steps = SLI_TAKE_INLINE(b, sli_step, R->count);
+    set->row_index = SLI_TAKE_INLINE(b, sl_int, R->n_rows);
+    set->boundary = SLI_TAKE_INLINE(
+      b, unsigned char, set->extent == NULL ? 0 : sli_region_chunks(set->extent->n_rows));
   }
 }
 
@@ -18773,7 +18782,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     sli_set_measure(S, &x, &query.backward);
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    P = (sl_plan *)sli_take(&kept, 1, sizeof(sl_plan));
+    P = (sl_plan *)sli_take_inline(&kept, 1, sizeof(sl_plan));
     sli_set_layout_reach(&b, &kept, &query.forward);
     sli_set_layout_reach(&x, &kept, &query.backward);
     status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
@@ -30888,6 +30897,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
 #undef SLI_TAKE
+#undef SLI_TAKE_INLINE
 #undef SLI_SORT_SMALL
 #undef SLI_TILE
 #undef SLI_CASE

@@ -45,7 +45,7 @@ static int sli_options_set(const sl_options *opt) {
 /* Checks the size of the struct, that no option unknown to this library is set, the completeness of
  * the allocator, and the number of threads. reads: the groups that the call reads. An option that
  * is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
-SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
+SLI_NOINLINE static int sli_options_are_valid(const sl_options *opt, int reads) {
     size_t k;
     if (opt == NULL) {
         return 1;

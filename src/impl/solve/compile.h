@@ -33,17 +33,17 @@ static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count
 /* Lays out what sorting a set needs. */
 static void sli_set_layout_seeds(sli_set *set, sli_block *b) {
     const size_t count = set->rows == NULL ? 0 : (size_t)set->count;
-    set->seeds = SLI_TAKE(b, uint64_t, count);
-    set->scratch = SLI_TAKE(b, uint64_t, count);
+    set->seeds = SLI_TAKE_INLINE(b, uint64_t, count);
+    set->scratch = SLI_TAKE_INLINE(b, uint64_t, count);
 }
 
 static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R) {
     if (set->rows != NULL) {
-        set->index = SLI_TAKE(b, sl_int, set->count);
-        set->steps = SLI_TAKE(b, sli_step, R->count);
-        set->row_index = SLI_TAKE(b, sl_int, R->n_rows);
-        set->boundary = SLI_TAKE(b, unsigned char,
-                                 set->extent == NULL ? 0 : sli_region_chunks(set->extent->n_rows));
+        set->index = SLI_TAKE_INLINE(b, sl_int, set->count);
+        set->steps = SLI_TAKE_INLINE(b, sli_step, R->count);
+        set->row_index = SLI_TAKE_INLINE(b, sl_int, R->n_rows);
+        set->boundary = SLI_TAKE_INLINE(
+            b, unsigned char, set->extent == NULL ? 0 : sli_region_chunks(set->extent->n_rows));
     }
 }
 

@@ -59,7 +59,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         sli_set_measure(S, &x, &query.backward);
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        P = (sl_plan *)sli_take(&kept, 1, sizeof(sl_plan));
+        P = (sl_plan *)sli_take_inline(&kept, 1, sizeof(sl_plan));
         sli_set_layout_reach(&b, &kept, &query.forward);
         sli_set_layout_reach(&x, &kept, &query.backward);
         status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;

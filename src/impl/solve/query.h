@@ -78,11 +78,13 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const size_t backward = sli_sweep_scratch(q->backward.tallest, q->backward.widest, lanes);
     const size_t across = q->region == NULL ? 0 : sli_region_scratch(q->region, lanes);
     const size_t most = forward > backward ? forward : backward;
-    v->y = SLI_TAKE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
-    v->x =
-        q->is_shared ? v->y : SLI_TAKE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
-    v->product = SLI_TAKE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
-    v->scratch = SLI_TAKE(b, double, most > across ? most : across);
+    v->y = SLI_TAKE_INLINE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
+    v->x = q->is_shared
+               ? v->y
+               : SLI_TAKE_INLINE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
+    v->product =
+        SLI_TAKE_INLINE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
+    v->scratch = SLI_TAKE_INLINE(b, double, most > across ? most : across);
 }
 
 /* Bytes for the blocks of up to nrhs right-hand sides, at most `most` in a block; SIZE_MAX if that
