@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 54f3bf737e5f6dda
+ * FNV-1a of the lines after this comment, without the license: e1fb14b2f764c2ed
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,68 +24,68 @@
  *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2634 change.h     a factor that follows small changes of its matrix
- *   2723 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2874 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3005 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2724 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2875 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3006 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3062 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3154 base.h   3448 status.h   3509 options.h   3567 alloc.h   3730 hash.h   3860 file_map.h
- *   3957 sort.h   4021 parallel.h
+ *   3155 base.h   3449 status.h   3510 options.h   3568 alloc.h   3731 hash.h   3861 file_map.h
+ *   3958 sort.h   4022 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4217 panel.h   4242 step.h   4320 pivot_rule.h   4394 front.h   4455 pairs.h
- *   4662 inverse_front.h   4734 table.h   4783 simd.h   4878 simd_scalar_single.h
- *   4922 simd_scalar.h   5048 simd_avx2_single.h   5100 simd_avx2.h   5326 simd_avx512_single.h
- *   5380 simd_avx512.h   5545 simd_neon_single.h   5585 simd_neon.h   5805 dispatch.h
+ *   4218 panel.h   4243 step.h   4321 pivot_rule.h   4395 front.h   4456 pairs.h
+ *   4663 inverse_front.h   4735 table.h   4784 simd.h   4879 simd_scalar_single.h
+ *   4923 simd_scalar.h   5049 simd_avx2_single.h   5101 simd_avx2.h   5327 simd_avx512_single.h
+ *   5381 simd_avx512.h   5546 simd_neon_single.h   5586 simd_neon.h   5806 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5898 csc.h   6041 csc_build.h   6175 csc64.h   6246 csc_triangle.h   6311 csc_products.h
- *   6428 permute.h   6494 sum.h   6576 output_file.h   6785 matrix_market.h
+ *   5899 csc.h   6042 csc_build.h   6176 csc64.h   6247 csc_triangle.h   6312 csc_products.h
+ *   6429 permute.h   6495 sum.h   6577 output_file.h   6786 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7231 graph.h   7349 contract.h   7603 coarsen.h   7766 labels.h   7987 subgraph.h   8181 heap.h
- *   8241 bisect.h   8468 separator.h   8730 mindeg.h   8913 dissect.h   9237 tree_cost.h
- *   9289 levelset.h   9395 geometric.h   9570 cells.h   9750 septree.h   9826 metis.h
- *   9975 metis_refined.h  10089 nd.h  10289 compress.h  10410 levels.h  10463 border.h
- *  10516 forest.h  10603 peel.h  10803 quotient.h  11220 graph_kind.h  11291 order.h
+ *   7232 graph.h   7350 contract.h   7604 coarsen.h   7767 labels.h   7988 subgraph.h   8182 heap.h
+ *   8242 bisect.h   8469 separator.h   8731 mindeg.h   8914 dissect.h   9238 tree_cost.h
+ *   9290 levelset.h   9396 geometric.h   9571 cells.h   9751 septree.h   9827 metis.h
+ *   9976 metis_refined.h  10090 nd.h  10290 compress.h  10411 levels.h  10464 border.h
+ *  10517 forest.h  10604 peel.h  10804 quotient.h  11221 graph_kind.h  11292 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11616 symbolic_types.h  11653 etree.h  11709 counts.h  11758 supernodes.h  11998 pattern.h
- *  12088 structure.h  12291 schedule.h  12571 symbolic.h  13041 reach.h
+ *  11617 symbolic_types.h  11654 etree.h  11710 counts.h  11759 supernodes.h  11999 pattern.h
+ *  12089 structure.h  12292 schedule.h  12572 symbolic.h  13042 reach.h
  * (factor: the numbers of L and D)
- *  13312 factor_types.h  13740 storage.h  13878 pivot_search.h  14224 pivoted.h  14293 scatter.h
- *  14451 uplooking.h  14523 null_product.h  14727 null_dense.h  14804 null_basis.h
- *  15124 null_vectors.h  15266 multifrontal.h  15460 gather.h  15508 kept.h  15678 front_tasks.h
- *  16021 null_center.h  16145 nullspace.h  16332 growth.h  16410 factor_setup.h  16736 factor.h
- *  16946 leftlooking.h  17093 factor_query.h  17228 combination.h
+ *  13313 factor_types.h  13741 storage.h  13879 pivot_search.h  14225 pivoted.h  14294 scatter.h
+ *  14452 uplooking.h  14524 null_product.h  14728 null_dense.h  14805 null_basis.h
+ *  15125 null_vectors.h  15267 multifrontal.h  15461 gather.h  15509 kept.h  15679 front_tasks.h
+ *  16022 null_center.h  16146 nullspace.h  16333 growth.h  16411 factor_setup.h  16737 factor.h
+ *  16952 leftlooking.h  17106 factor_query.h  17241 combination.h
  * (solve: full and local solves)
- *  17289 region_types.h  17393 work.h  17493 query.h  17711 singular.h  17968 backward.h
- *  17998 sweep_tasks.h  18329 sweep.h  18537 compile.h  18730 plan.h  18837 local.h  18989 parts.h
- *  19278 refine.h  19457 refine_local.h  19673 rcond.h  19832 defects.h
+ *  17302 region_types.h  17406 work.h  17506 query.h  17724 singular.h  17981 backward.h
+ *  18011 sweep_tasks.h  18342 sweep.h  18550 compile.h  18743 plan.h  18850 local.h  19002 parts.h
+ *  19291 refine.h  19470 refine_local.h  19686 rcond.h  19845 defects.h
  * (inverse: entries of the inverse, regions)
- *  19891 traversal.h  20140 traversal_run.h  20333 row_sets.h  20367 unit_vectors.h
- *  20594 bilinear.h  20766 entries.h  21043 block.h  21278 reserve.h  21470 selected.h
- *  21680 selected_query.h  21782 region_choose.h  22009 region.h
+ *  19904 traversal.h  20153 traversal_run.h  20346 row_sets.h  20380 unit_vectors.h
+ *  20607 bilinear.h  20779 entries.h  21056 block.h  21291 reserve.h  21483 selected.h
+ *  21693 selected_query.h  21795 region_choose.h  22022 region.h
  * (change: a factor that follows changes of its matrix)
- *  22257 update.h  22621 path.h  22722 rank.h  23098 edges.h  23252 choose.h  23485 pins_types.h
- *  23564 pins_nulls.h  23747 pins_capacitance.h  23999 pins_balance.h  24178 pins_held.h
- *  24394 pins_choose.h  24451 pins_rebuild.h  24669 pins_matrix.h  24820 pins.h  25089 pins_solve.h
- *  25360 subset.h  25488 restrict_kept.h  25686 restrict_analysis.h  25938 restrict_symbolic.h
- *  26133 restrict.h  26364 edit_match.h  26563 edit_place.h  26812 edit_separate.h
- *  27126 edit_order.h  27281 edit_graph.h  27363 edit_join.h  27639 edit.h  27802 edit_factor.h
+ *  22270 update.h  22634 path.h  22735 rank.h  23111 edges.h  23265 choose.h  23510 pins_types.h
+ *  23589 pins_nulls.h  23772 pins_capacitance.h  24024 pins_balance.h  24203 pins_held.h
+ *  24419 pins_choose.h  24476 pins_rebuild.h  24694 pins_matrix.h  24845 pins.h  25114 pins_solve.h
+ *  25385 subset.h  25513 restrict_kept.h  25711 restrict_analysis.h  25963 restrict_symbolic.h
+ *  26158 restrict.h  26389 edit_match.h  26588 edit_place.h  26837 edit_separate.h
+ *  27151 edit_order.h  27306 edit_graph.h  27388 edit_join.h  27664 edit.h  27827 edit_factor.h
  * (save: factors in files)
- *  28087 format.h  28384 decode.h  28532 check.h  28862 write.h  29167 load.h  29435 load_inverse.h
- *  29765 load_calls.h
+ *  28112 format.h  28409 decode.h  28557 check.h  28887 write.h  29192 load.h  29460 load_inverse.h
+ *  29790 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29964 batch_solve.h  30173 batch_factor.h  30374 batch_diagonal.h
+ *  29989 batch_solve.h  30198 batch_factor.h  30399 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30514 hermitian.h  30676 complex_rows.h
+ *  30539 hermitian.h  30701 complex_rows.h
  * (last: undefine every internal macro)
- *  30844 undef.h
+ *  30869 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31125 front.inl.h  31127 product.inl.h  31638 copy_rows.inl.h  31676 sweeps.inl.h
- *  31678 unit_triangle.inl.h  31715 two_rhs.inl.h  31884 small_supernode.inl.h
- *  32065 single_rhs.inl.h  32301 multi_rhs.inl.h  32320 complex_groups.inl.h
- *  32459 multi_rhs_small.inl.h  32631 multi_rhs_tiles.inl.h  32908 kernel_set.inl.h
- *  32910 complex_small.inl.h  33080 complex_rows.inl.h  33295 inverse_front.inl.h  33580 row.inl.h
- *  33610 change.inl.h  33845 interleave.inl.h  33979 lanes_undef.inl.h  33998 words_undef.inl.h
+ *  31150 front.inl.h  31152 product.inl.h  31663 copy_rows.inl.h  31701 sweeps.inl.h
+ *  31703 unit_triangle.inl.h  31740 two_rhs.inl.h  31909 small_supernode.inl.h
+ *  32090 single_rhs.inl.h  32326 multi_rhs.inl.h  32345 complex_groups.inl.h
+ *  32484 multi_rhs_small.inl.h  32656 multi_rhs_tiles.inl.h  32933 kernel_set.inl.h
+ *  32935 complex_small.inl.h  33105 complex_rows.inl.h  33320 inverse_front.inl.h  33605 row.inl.h
+ *  33635 change.inl.h  33870 interleave.inl.h  34004 lanes_undef.inl.h  34023 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2705,14 +2705,15 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
- *  A              [in]      the changed matrix, in the analyzed pattern.
+ *  A              [in]      the changed matrix, in the analyzed pattern. Rank-one changes compare
+ *                           its size only; the other ways read it and check its pattern.
  *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
  *                           sl_factor_update_entries.
  *  W              [in,out]  workspace; NULL: allocated for this call.
  *  stats          [out]     change, factor; may be NULL.
  *  Returns  as sl_factor_refactor and sl_factor_update_entries.
- *  Cost     that of the way, O(nnz) to compare the pattern of A, and at most a few percent of a
- *           refactorization to count flops.
+ *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
+ *           nothing of O(n) or O(nnz) for rank-one changes.
  *  Threads  exclusive use of F.
  *  Example  tests/core/test_change_choice.c
  */
@@ -16735,16 +16736,21 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
 
 /* src/impl/factor/factor.h: creates a factor, and refactors it with new values of the same pattern */
 
-static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
-  sli_hash pattern;
+static sl_status sli_factor_check_size(const sl_symbolic *S, const sl_csc *A) {
   if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
     return SL_ERR_ARGUMENT;
   }
   if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
     return SL_ERR_PATTERN;
   }
-  if (S->nnz_input > 0 && (A->i == NULL || A->x == NULL)) {
-    return SL_ERR_ARGUMENT;
+  return S->nnz_input > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
+  const sl_status status = sli_factor_check_size(S, A);
+  sli_hash pattern;
+  if (status != SL_OK) {
+    return status;
   }
   return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
                                          : SL_ERR_PATTERN;
@@ -17038,8 +17044,9 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
   return sli_factor_done(F, from, &failure, started, stats);
 }
 
-SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                      sl_int count, sl_stats *stats) {
+static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                       sl_int count, const uint64_t *given, sl_int n_given,
+                       sl_stats *stats) {
   const double started = sli_seconds();
   const sli_source from = sli_source_matrix(A);
   sli_left_work work;
@@ -17083,11 +17090,17 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
     F->identity = sli_hash_ints(F->identity, &columns[k], 1);
     F->identity = sli_hash_words(F->identity, A->x + p, q - p);
   }
-  count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-  status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
+  count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
+  status = sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started,
+                 stats);
   F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
   sli_free(&F->allocator, b.base);
   return status;
+}
+
+SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                      sl_int count, sl_stats *stats) {
+  return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
 }
 
 /* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
@@ -23259,11 +23272,10 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 #define SLI_CHANGE_DRIFT 1e-11
 
 typedef struct sli_way {
-  sl_int *columns;
-  sl_int n_columns;
-  uint64_t *seeds, *scratch;
-  uint64_t *keys;
+  uint64_t *seeds;
   sl_int n_seeds;
+  uint64_t *scratch;
+  sl_int *columns;
   double flops_update, flops_changed, flops_refactor;
   double update, changed, refactor;
   sl_change_reason reason;
@@ -23345,24 +23357,48 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
 }
 
-static void sli_way_columns(sli_way *c, const sli_rank *q) {
-  const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
+SLI_INLINE sl_int sli_way_append(uint64_t *keys, sl_int total, uint64_t key) {
+  if (total < 2 || (key != keys[total - 1] && key != keys[total - 2])) {
+    keys[total++] = key;
+  }
+  return total;
+}
+
+static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
+  sl_int k, count = 0;
+  sli_sort(keys, total, scratch);
+  for (k = 0; k < total; k++) {
+    if (count == 0 || keys[count - 1] != keys[k]) {
+      keys[count++] = keys[k];
+    }
+  }
+  return count;
+}
+
+static void sli_way_seeds(sli_way *c, const sli_rank *q) {
+  const sl_int *iperm = q->u.F->S->iperm;
+  sl_int k, total = 0;
+  for (k = 0; k < q->n_entries; k++) {
+    const sl_int a = iperm[q->entry_rows[k]], b = iperm[q->entry_columns[k]];
+    total = sli_way_append(c->seeds, total, sli_keyed(sli_min(a, b), 0));
+  }
+  c->n_seeds = sli_way_sort(c->seeds, total, c->scratch);
+}
+
+static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
+  sl_factor *F = q->u.F;
+  const int is_upper = F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
   sl_int k, total = 0;
   for (k = 0; k < q->n_entries; k++) {
     const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
-    const uint64_t key = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
-    if (total < 2 || (key != c->keys[total - 1] && key != c->keys[total - 2])) {
-      c->keys[total++] = key;
-    }
+    const sl_int column = is_upper ? sli_max(i, j) : sli_min(i, j);
+    total = sli_way_append(c->scratch, total, sli_keyed(column, 0));
   }
-  sli_sort(c->keys, total, c->keys + q->n_entries);
-  c->n_columns = 0;
+  total = sli_way_sort(c->scratch, total, c->scratch + q->n_entries);
   for (k = 0; k < total; k++) {
-    const sl_int column = sli_key(c->keys[k]);
-    if (c->n_columns == 0 || c->columns[c->n_columns - 1] != column) {
-      c->columns[c->n_columns++] = column;
-    }
+    c->columns[k] = sli_key(c->scratch[k]);
   }
+  return sli_left_refactor_columns(F, A, c->columns, total, c->seeds, c->n_seeds, q->stats);
 }
 
 static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
@@ -23374,11 +23410,14 @@ static double sli_way_update(const sli_rank *q, double entries, double pivots, d
 static void sli_way_estimate(sli_way *c, const sli_rank *q) {
   sl_int k, edges = 0, passes;
   sli_reach R;
+  memset(&R, 0, sizeof R);
   for (k = 0; k < q->n_entries; k++) {
     edges += q->entry_rows[k] != q->entry_columns[k];
   }
-  passes = sli_max(c->n_columns, edges) / (2 * SLI_TILE);
-  sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, c->n_seeds > 0, &R);
+  passes = sli_max(c->n_seeds, edges) / (2 * SLI_TILE);
+  if (passes > 0) {
+    sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, 1, &R);
+  }
   c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
   c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
                  c->flops_update);
@@ -23396,7 +23435,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
   sl_factor *F = q->u.F;
   const int can_update = sli_rank_is_suited(F) && F->is_valid;
   sl_status status = SL_OK;
-  c->n_seeds = sli_changed_seeds(F->S, A, c->columns, c->n_columns, c->seeds, c->scratch);
+  sli_way_seeds(c, q);
   if (can_update) {
     sli_way_estimate(c, q);
   }
@@ -23416,7 +23455,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     }
   }
   if (*method == SL_CHANGE_REACH) {
-    status = sl_factor_refactor_changed(F, A, c->columns, c->n_columns, q->stats);
+    status = sli_way_reach(c, q, A);
   } else if (*method == SL_CHANGE_REFACTOR) {
     status = sl_factor_refactor(F, A, q->stats);
   }
@@ -23426,47 +23465,33 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
 SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
                   const sl_int *columns, const double *deltas, sl_int count,
                   sl_work *W, sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   sl_change_method method = SL_CHANGE_NONE;
-  sli_block b = {NULL, 0, 0}, seeds = {NULL, 0, 0};
+  sli_block b = {NULL, 0, 0};
   sli_way c;
   sli_rank q;
   sl_work own;
-  uint64_t entries = 0;
   sl_status status;
-  sl_int k;
   int pass;
   sli_stats_clear_error(stats);
   status = sli_edges_check(F, rows, columns, deltas, count, stats);
   status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
-  status = status == SL_OK ? sli_factor_check(F->S, A) : status;
+  status = status == SL_OK ? sli_factor_check_size(F->S, A) : status;
   if (status != SL_OK) {
     return status;
   }
   memset(&c, 0, sizeof c);
   sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c.seeds = SLI_TAKE(&b, uint64_t, count);
+    c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
     c.columns = SLI_TAKE(&b, sl_int, count);
-    c.keys = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
     status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_way_columns(&c, &q);
-  for (k = 0; k < c.n_columns; k++) {
-    entries += (uint64_t)(A->p[c.columns[k] + 1] - A->p[c.columns[k]]);
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
-    c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
-    status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
-  }
   status = status == SL_OK ? sli_work_grow(W, 1) : status;
   status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
-  sli_free(&F->allocator, seeds.base);
   sli_free(&F->allocator, b.base);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK) {

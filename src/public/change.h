@@ -77,14 +77,15 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
- *  A              [in]      the changed matrix, in the analyzed pattern.
+ *  A              [in]      the changed matrix, in the analyzed pattern. Rank-one changes compare
+ *                           its size only; the other ways read it and check its pattern.
  *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
  *                           sl_factor_update_entries.
  *  W              [in,out]  workspace; NULL: allocated for this call.
  *  stats          [out]     change, factor; may be NULL.
  *  Returns  as sl_factor_refactor and sl_factor_update_entries.
- *  Cost     that of the way, O(nnz) to compare the pattern of A, and at most a few percent of a
- *           refactorization to count flops.
+ *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
+ *           nothing of O(n) or O(nnz) for rank-one changes.
  *  Threads  exclusive use of F.
  *  Example  tests/core/test_change_choice.c
  */

@@ -147,6 +147,38 @@ static void repeated_entries_have_the_reach_of_one(void **state) {
     grid_free(&g);
 }
 
+/* Rank-one changes do not read A; a way that reads it refuses a pattern that was not analyzed. */
+static void patterns_are_checked_where_they_are_read(void **state) {
+    (void)state;
+    for (sl_int count = 1; count <= 3600; count += 3599) {
+        grid_t g = grid_make(60, 0, NULL);
+        list_t *l = (list_t *)test_array(1, sizeof *l);
+        sl_int *wrong = (sl_int *)test_array((size_t)g.M.view.p[g.n], sizeof *wrong);
+        sl_csc A = g.M.view;
+        A.i = wrong;
+        l->count = count;
+        for (sl_int k = 0; k < count; k++) {
+            l->rows[k] = l->columns[k] = k;
+            l->deltas[k] = 0.5;
+        }
+        sl_stats stats;
+        const sl_status status = sl_factor_change(g.F, &A, l->rows, l->columns, l->deltas, count,
+                                                  NULL, &stats);
+        if (status == SL_OK) {
+            assert_int_equal(stats.change.method, SL_CHANGE_UPDATE);
+            for (sl_int k = 0; k < count; k++) {
+                grid_add(&g, k, k, 0.5);
+            }
+        } else {
+            assert_int_equal(status, SL_ERR_PATTERN);
+        }
+        assert_is_factor_of(&g);
+        free(wrong);
+        free(l);
+        grid_free(&g);
+    }
+}
+
 /* A change that makes A indefinite is factored; a failed factor is, too. */
 static void refused_updates_are_refactored(void **state) {
     (void)state;
@@ -297,6 +329,7 @@ int main(void) {
         cmocka_unit_test(each_way_is_taken_where_it_is_cheap),
         cmocka_unit_test(patches_of_all_sizes_give_the_factor),
         cmocka_unit_test(repeated_entries_have_the_reach_of_one),
+        cmocka_unit_test(patterns_are_checked_where_they_are_read),
         cmocka_unit_test(refused_updates_are_refactored),
         cmocka_unit_test(singular_laplacians_are_recomputed),
         cmocka_unit_test(float_factors_are_refactored),

@@ -16,11 +16,10 @@
 
 /* A choice between the three ways. */
 typedef struct sli_way {
-    sl_int *columns; /* n_columns: the columns of A that store changed entries, ascending */
-    sl_int n_columns;
-    uint64_t *seeds, *scratch; /* for the entries of these columns */
-    uint64_t *keys;            /* 2 count: for sorting them */
+    uint64_t *seeds; /* n_seeds: the columns of L that hold changed entries, ascending */
     sl_int n_seeds;
+    uint64_t *scratch; /* 2 count: for sorting */
+    sl_int *columns;   /* room for the columns of A that store changed entries */
     double flops_update, flops_changed, flops_refactor;
     double update, changed, refactor; /* seconds */
     sl_change_reason reason;
@@ -109,25 +108,52 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
 }
 
-/* The columns of A that store the changed entries, each once: many entries share a column. */
-static void sli_way_columns(sli_way *c, const sli_rank *q) {
-    const int is_upper = q->u.F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
+/* Appends a key that is not one of the last two. Returns how many there are. */
+SLI_INLINE sl_int sli_way_append(uint64_t *keys, sl_int total, uint64_t key) {
+    if (total < 2 || (key != keys[total - 1] && key != keys[total - 2])) {
+        keys[total++] = key;
+    }
+    return total;
+}
+
+/* Sorts keys and drops repeated ones: many entries share a column. Returns how many are left. */
+static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
+    sl_int k, count = 0;
+    sli_sort(keys, total, scratch);
+    for (k = 0; k < total; k++) {
+        if (count == 0 || keys[count - 1] != keys[k]) {
+            keys[count++] = keys[k];
+        }
+    }
+    return count;
+}
+
+/* The columns of L that hold the changed entries. */
+static void sli_way_seeds(sli_way *c, const sli_rank *q) {
+    const sl_int *iperm = q->u.F->S->iperm;
+    sl_int k, total = 0;
+    for (k = 0; k < q->n_entries; k++) {
+        const sl_int a = iperm[q->entry_rows[k]], b = iperm[q->entry_columns[k]];
+        total = sli_way_append(c->seeds, total, sli_keyed(sli_min(a, b), 0));
+    }
+    c->n_seeds = sli_way_sort(c->seeds, total, c->scratch);
+}
+
+/* Recomputes the columns of L that the change reaches. */
+static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
+    sl_factor *F = q->u.F;
+    const int is_upper = F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
     sl_int k, total = 0;
     for (k = 0; k < q->n_entries; k++) {
         const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
-        const uint64_t key = sli_keyed(is_upper ? sli_max(i, j) : sli_min(i, j), 0);
-        if (total < 2 || (key != c->keys[total - 1] && key != c->keys[total - 2])) {
-            c->keys[total++] = key;
-        }
+        const sl_int column = is_upper ? sli_max(i, j) : sli_min(i, j);
+        total = sli_way_append(c->scratch, total, sli_keyed(column, 0));
     }
-    sli_sort(c->keys, total, c->keys + q->n_entries);
-    c->n_columns = 0;
+    total = sli_way_sort(c->scratch, total, c->scratch + q->n_entries);
     for (k = 0; k < total; k++) {
-        const sl_int column = sli_key(c->keys[k]);
-        if (c->n_columns == 0 || c->columns[c->n_columns - 1] != column) {
-            c->columns[c->n_columns++] = column;
-        }
+        c->columns[k] = sli_key(c->scratch[k]);
     }
+    return sli_left_refactor_columns(F, A, c->columns, total, c->seeds, c->n_seeds, q->stats);
 }
 
 /* Seconds of rank-one changes. */
@@ -138,16 +164,19 @@ static double sli_way_update(const sli_rank *q, double entries, double pivots, d
 }
 
 /* Estimates the rank-one changes from below, with the path of the column in the middle: half a
- * vector for each column or edge, as an edge may be named twice. Where even they take too long, the
+ * vector for each seed or edge, as an edge may be named twice. Where even they take too long, the
  * vectors need not be sorted. */
 static void sli_way_estimate(sli_way *c, const sli_rank *q) {
     sl_int k, edges = 0, passes;
     sli_reach R;
+    memset(&R, 0, sizeof R);
     for (k = 0; k < q->n_entries; k++) {
         edges += q->entry_rows[k] != q->entry_columns[k];
     }
-    passes = sli_max(c->n_columns, edges) / (2 * SLI_TILE);
-    sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, c->n_seeds > 0, &R);
+    passes = sli_max(c->n_seeds, edges) / (2 * SLI_TILE);
+    if (passes > 0) {
+        sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, 1, &R);
+    }
     c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
     c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
                                c->flops_update);
@@ -166,7 +195,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     sl_factor *F = q->u.F;
     const int can_update = sli_rank_is_suited(F) && F->is_valid;
     sl_status status = SL_OK;
-    c->n_seeds = sli_changed_seeds(F->S, A, c->columns, c->n_columns, c->seeds, c->scratch);
+    sli_way_seeds(c, q);
     if (can_update) {
         sli_way_estimate(c, q);
     }
@@ -186,7 +215,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
         }
     }
     if (*method == SL_CHANGE_REACH) {
-        status = sl_factor_refactor_changed(F, A, c->columns, c->n_columns, q->stats);
+        status = sli_way_reach(c, q, A);
     } else if (*method == SL_CHANGE_REFACTOR) {
         status = sl_factor_refactor(F, A, q->stats);
     }
@@ -196,47 +225,33 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
 SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
                                   const sl_int *columns, const double *deltas, sl_int count,
                                   sl_work *W, sl_stats *stats) {
-    const double started = sli_seconds();
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sl_change_method method = SL_CHANGE_NONE;
-    sli_block b = {NULL, 0, 0}, seeds = {NULL, 0, 0};
+    sli_block b = {NULL, 0, 0};
     sli_way c;
     sli_rank q;
     sl_work own;
-    uint64_t entries = 0;
     sl_status status;
-    sl_int k;
     int pass;
     sli_stats_clear_error(stats);
     status = sli_edges_check(F, rows, columns, deltas, count, stats);
     status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
-    status = status == SL_OK ? sli_factor_check(F->S, A) : status;
+    status = status == SL_OK ? sli_factor_check_size(F->S, A) : status;
     if (status != SL_OK) {
         return status;
     }
     memset(&c, 0, sizeof c);
     sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        c.seeds = SLI_TAKE(&b, uint64_t, count);
+        c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
         c.columns = SLI_TAKE(&b, sl_int, count);
-        c.keys = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
         status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
-    }
-    if (status != SL_OK) {
-        return status;
-    }
-    sli_way_columns(&c, &q);
-    for (k = 0; k < c.n_columns; k++) {
-        entries += (uint64_t)(A->p[c.columns[k] + 1] - A->p[c.columns[k]]);
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        c.seeds = SLI_TAKE(&seeds, uint64_t, entries);
-        c.scratch = SLI_TAKE(&seeds, uint64_t, entries);
-        status = pass == 0 ? sli_block_alloc(&seeds, &F->allocator) : SL_OK;
-    }
     status = status == SL_OK ? sli_work_grow(W, 1) : status;
     status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
-    sli_free(&F->allocator, seeds.base);
     sli_free(&F->allocator, b.base);
     sli_free(&own.allocator, own.block);
     if (status == SL_OK) {

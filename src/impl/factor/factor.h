@@ -8,17 +8,23 @@
 #include "front_tasks.h"
 #include "uplooking.h"
 
-/* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */
-static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
-    sli_hash pattern;
+/* Checks that A has the size of the matrix that S was made from. */
+static sl_status sli_factor_check_size(const sl_symbolic *S, const sl_csc *A) {
     if (A == NULL || (A->n_cols > 0 && A->p == NULL)) {
         return SL_ERR_ARGUMENT;
     }
     if (A->n_rows != S->n || A->n_cols != S->n || sli_nnz(A) != S->nnz_input) {
         return SL_ERR_PATTERN;
     }
-    if (S->nnz_input > 0 && (A->i == NULL || A->x == NULL)) {
-        return SL_ERR_ARGUMENT;
+    return S->nnz_input > 0 && (A->i == NULL || A->x == NULL) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+/* Checks that A has the pattern that S was made from. Reads p and i of A, and no value. */
+static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
+    const sl_status status = sli_factor_check_size(S, A);
+    sli_hash pattern;
+    if (status != SL_OK) {
+        return status;
     }
     return sli_pattern_hash(A, &pattern) && sli_hash_equals(pattern, S->pattern) ? SL_OK
                                                                                  : SL_ERR_PATTERN;

@@ -110,8 +110,11 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
     return sli_factor_done(F, from, &failure, started, stats);
 }
 
-SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                                            sl_int count, sl_stats *stats) {
+/* sl_factor_refactor_changed. given: the columns of L that hold what changed, ascending; NULL: all
+ * entries of the columns of A. */
+static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                           sl_int count, const uint64_t *given, sl_int n_given,
+                                           sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
     sli_left_work work;
@@ -155,11 +158,17 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
         F->identity = sli_hash_ints(F->identity, &columns[k], 1);
         F->identity = sli_hash_words(F->identity, A->x + p, q - p);
     }
-    count = sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    status = sli_left_refactor(F, &work, &from, seeds, count, started, stats);
+    count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
+    status = sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started,
+                               stats);
     F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
     sli_free(&F->allocator, b.base);
     return status;
+}
+
+SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                            sl_int count, sl_stats *stats) {
+    return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
 }
 
 #endif
