@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e1fb14b2f764c2ed
+ * FNV-1a of the lines after this comment, without the license: d4ef8800ac12b6bc
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,50 +42,50 @@
  *   6429 permute.h   6495 sum.h   6577 output_file.h   6786 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
  *   7232 graph.h   7350 contract.h   7604 coarsen.h   7767 labels.h   7988 subgraph.h   8182 heap.h
- *   8242 bisect.h   8469 separator.h   8731 mindeg.h   8914 dissect.h   9238 tree_cost.h
- *   9290 levelset.h   9396 geometric.h   9571 cells.h   9751 septree.h   9827 metis.h
- *   9976 metis_refined.h  10090 nd.h  10290 compress.h  10411 levels.h  10464 border.h
- *  10517 forest.h  10604 peel.h  10804 quotient.h  11221 graph_kind.h  11292 order.h
+ *   8244 bisect.h   8450 separator.h   8712 mindeg.h   8895 dissect.h   9221 tree_cost.h
+ *   9273 levelset.h   9379 geometric.h   9554 cells.h   9734 septree.h   9810 metis.h
+ *   9959 metis_refined.h  10073 nd.h  10273 compress.h  10394 levels.h  10447 border.h
+ *  10500 forest.h  10587 peel.h  10787 quotient.h  11204 graph_kind.h  11275 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11617 symbolic_types.h  11654 etree.h  11710 counts.h  11759 supernodes.h  11999 pattern.h
- *  12089 structure.h  12292 schedule.h  12572 symbolic.h  13042 reach.h
+ *  11600 symbolic_types.h  11637 etree.h  11693 counts.h  11742 supernodes.h  11982 pattern.h
+ *  12072 structure.h  12275 schedule.h  12555 symbolic.h  13025 reach.h
  * (factor: the numbers of L and D)
- *  13313 factor_types.h  13741 storage.h  13879 pivot_search.h  14225 pivoted.h  14294 scatter.h
- *  14452 uplooking.h  14524 null_product.h  14728 null_dense.h  14805 null_basis.h
- *  15125 null_vectors.h  15267 multifrontal.h  15461 gather.h  15509 kept.h  15679 front_tasks.h
- *  16022 null_center.h  16146 nullspace.h  16333 growth.h  16411 factor_setup.h  16737 factor.h
- *  16952 leftlooking.h  17106 factor_query.h  17241 combination.h
+ *  13296 factor_types.h  13724 storage.h  13862 pivot_search.h  14208 pivoted.h  14277 scatter.h
+ *  14435 uplooking.h  14507 null_product.h  14711 null_dense.h  14788 null_basis.h
+ *  15108 null_vectors.h  15250 multifrontal.h  15444 gather.h  15492 kept.h  15662 front_tasks.h
+ *  16005 null_center.h  16129 nullspace.h  16316 growth.h  16394 factor_setup.h  16720 factor.h
+ *  16935 leftlooking.h  17089 factor_query.h  17224 combination.h
  * (solve: full and local solves)
- *  17302 region_types.h  17406 work.h  17506 query.h  17724 singular.h  17981 backward.h
- *  18011 sweep_tasks.h  18342 sweep.h  18550 compile.h  18743 plan.h  18850 local.h  19002 parts.h
- *  19291 refine.h  19470 refine_local.h  19686 rcond.h  19845 defects.h
+ *  17285 region_types.h  17389 work.h  17489 query.h  17707 singular.h  17964 backward.h
+ *  17994 sweep_tasks.h  18325 sweep.h  18533 compile.h  18726 plan.h  18833 local.h  18985 parts.h
+ *  19274 refine.h  19453 refine_local.h  19669 rcond.h  19828 defects.h
  * (inverse: entries of the inverse, regions)
- *  19904 traversal.h  20153 traversal_run.h  20346 row_sets.h  20380 unit_vectors.h
- *  20607 bilinear.h  20779 entries.h  21056 block.h  21291 reserve.h  21483 selected.h
- *  21693 selected_query.h  21795 region_choose.h  22022 region.h
+ *  19887 traversal.h  20136 traversal_run.h  20329 row_sets.h  20363 unit_vectors.h
+ *  20590 bilinear.h  20762 entries.h  21039 block.h  21274 reserve.h  21466 selected.h
+ *  21676 selected_query.h  21778 region_choose.h  22005 region.h
  * (change: a factor that follows changes of its matrix)
- *  22270 update.h  22634 path.h  22735 rank.h  23111 edges.h  23265 choose.h  23510 pins_types.h
- *  23589 pins_nulls.h  23772 pins_capacitance.h  24024 pins_balance.h  24203 pins_held.h
- *  24419 pins_choose.h  24476 pins_rebuild.h  24694 pins_matrix.h  24845 pins.h  25114 pins_solve.h
- *  25385 subset.h  25513 restrict_kept.h  25711 restrict_analysis.h  25963 restrict_symbolic.h
- *  26158 restrict.h  26389 edit_match.h  26588 edit_place.h  26837 edit_separate.h
- *  27151 edit_order.h  27306 edit_graph.h  27388 edit_join.h  27664 edit.h  27827 edit_factor.h
+ *  22253 update.h  22617 path.h  22718 rank.h  23094 edges.h  23248 choose.h  23493 pins_types.h
+ *  23572 pins_nulls.h  23755 pins_capacitance.h  24007 pins_balance.h  24186 pins_held.h
+ *  24402 pins_choose.h  24459 pins_rebuild.h  24677 pins_matrix.h  24828 pins.h  25097 pins_solve.h
+ *  25368 subset.h  25496 restrict_kept.h  25694 restrict_analysis.h  25946 restrict_symbolic.h
+ *  26141 restrict.h  26372 edit_match.h  26571 edit_place.h  26820 edit_separate.h
+ *  27134 edit_order.h  27289 edit_graph.h  27371 edit_join.h  27647 edit.h  27810 edit_factor.h
  * (save: factors in files)
- *  28112 format.h  28409 decode.h  28557 check.h  28887 write.h  29192 load.h  29460 load_inverse.h
- *  29790 load_calls.h
+ *  28095 format.h  28392 decode.h  28540 check.h  28870 write.h  29175 load.h  29443 load_inverse.h
+ *  29773 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29989 batch_solve.h  30198 batch_factor.h  30399 batch_diagonal.h
+ *  29972 batch_solve.h  30181 batch_factor.h  30382 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30539 hermitian.h  30701 complex_rows.h
+ *  30522 hermitian.h  30684 complex_rows.h
  * (last: undefine every internal macro)
- *  30869 undef.h
+ *  30852 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31150 front.inl.h  31152 product.inl.h  31663 copy_rows.inl.h  31701 sweeps.inl.h
- *  31703 unit_triangle.inl.h  31740 two_rhs.inl.h  31909 small_supernode.inl.h
- *  32090 single_rhs.inl.h  32326 multi_rhs.inl.h  32345 complex_groups.inl.h
- *  32484 multi_rhs_small.inl.h  32656 multi_rhs_tiles.inl.h  32933 kernel_set.inl.h
- *  32935 complex_small.inl.h  33105 complex_rows.inl.h  33320 inverse_front.inl.h  33605 row.inl.h
- *  33635 change.inl.h  33870 interleave.inl.h  34004 lanes_undef.inl.h  34023 words_undef.inl.h
+ *  31133 front.inl.h  31135 product.inl.h  31646 copy_rows.inl.h  31684 sweeps.inl.h
+ *  31686 unit_triangle.inl.h  31723 two_rhs.inl.h  31892 small_supernode.inl.h
+ *  32073 single_rhs.inl.h  32309 multi_rhs.inl.h  32328 complex_groups.inl.h
+ *  32467 multi_rhs_small.inl.h  32639 multi_rhs_tiles.inl.h  32916 kernel_set.inl.h
+ *  32918 complex_small.inl.h  33088 complex_rows.inl.h  33303 inverse_front.inl.h  33588 row.inl.h
+ *  33618 change.inl.h  33853 interleave.inl.h  33987 lanes_undef.inl.h  34006 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8016,7 +8016,7 @@ static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_of
   sub->local = SLI_TAKE(b, sl_int, n);
   sub->locked = SLI_TAKE(b, unsigned char, n);
   sub->best = SLI_TAKE(b, unsigned char, n);
-  sub->scratch = SLI_TAKE(b, sl_int, 6 * (uint64_t)n);
+  sub->scratch = SLI_TAKE(b, sl_int, 8 * (uint64_t)n);
 }
 
 SLI_INLINE void sli_subgraph_add(sli_subgraph *sub, sl_int v, int layer) {
@@ -8181,61 +8181,63 @@ static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_
 
 /* src/impl/ordering/heap.h: a priority queue of vertices by gain, the largest gain first */
 
+typedef struct sli_heap_item {
+  sl_int key, vertex;
+} sli_heap_item;
+
 typedef struct sli_heap {
   sl_int count;
-  sl_int *item;
+  sli_heap_item *item;
   sl_int *position;
-  sl_int *key;
 } sli_heap;
 
-SLI_INLINE void sli_heap_up(sli_heap *h, sl_int k, sl_int v) {
-  while (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
+SLI_INLINE void sli_heap_up(sli_heap *h, sl_int k, sli_heap_item v) {
+  while (k > 0 && h->item[(k - 1) / 2].key < v.key) {
     h->item[k] = h->item[(k - 1) / 2];
-    h->position[h->item[k]] = k;
+    h->position[h->item[k].vertex] = k;
     k = (k - 1) / 2;
   }
   h->item[k] = v;
-  h->position[v] = k;
+  h->position[v.vertex] = k;
 }
 
-SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sl_int v) {
+SLI_INLINE void sli_heap_down(sli_heap *h, sl_int k, sli_heap_item v) {
   for (;;) {
     sl_int c = 2 * k + 1;
     if (c >= h->count) {
       break;
     }
-    c += c + 1 < h->count && h->key[h->item[c + 1]] > h->key[h->item[c]];
-    if (h->key[h->item[c]] <= h->key[v]) {
+    c += c + 1 < h->count && h->item[c + 1].key > h->item[c].key;
+    if (h->item[c].key <= v.key) {
       break;
     }
     h->item[k] = h->item[c];
-    h->position[h->item[k]] = k;
+    h->position[h->item[k].vertex] = k;
     k = c;
   }
   h->item[k] = v;
-  h->position[v] = k;
+  h->position[v.vertex] = k;
 }
 
-SLI_INLINE void sli_heap_add(sli_heap *h, sl_int v) {
-  sli_heap_up(h, h->count++, v);
-}
-
-SLI_INLINE void sli_heap_update(sli_heap *h, sl_int v) {
-  const sl_int k = h->position[v];
-  if (k > 0 && h->key[h->item[(k - 1) / 2]] < h->key[v]) {
+SLI_INLINE void sli_heap_set(sli_heap *h, sl_int vertex, sl_int key) {
+  const sl_int k = h->position[vertex] == -1 ? h->count++ : h->position[vertex];
+  sli_heap_item v;
+  v.vertex = vertex;
+  v.key = key;
+  if (k > 0 && h->item[(k - 1) / 2].key < key) {
     sli_heap_up(h, k, v);
   } else {
     sli_heap_down(h, k, v);
   }
 }
 
-SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int v) {
-  const sl_int k = h->position[v], last = h->item[--h->count];
-  h->position[v] = -1;
-  if (last != v) {
-    h->position[last] = k;
-    h->item[k] = last;
-    sli_heap_update(h, last);
+SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int vertex) {
+  const sl_int k = h->position[vertex];
+  const sli_heap_item last = h->item[--h->count];
+  h->position[vertex] = -1;
+  if (last.vertex != vertex) {
+    h->position[last.vertex] = k;
+    sli_heap_set(h, last.vertex, last.key);
   }
 }
 
@@ -8247,39 +8249,12 @@ SLI_INLINE int64_t sli_cut_cost(int64_t cut, const int64_t *total) {
   return cut * (total[0] > total[1] ? total[0] : total[1]);
 }
 
-static sl_int sli_subgraph_gain(const sli_subgraph *sub, sl_int v, int *on_border) {
-  const int side = sub->side[v];
-  sl_int across = side != sub->home[v] ? sub->external[v] : 0;
-  sl_int within = sub->external[v] - across;
-  sl_off e;
-  for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
-    if (sub->side[sub->to[e]] != side) {
-      across += sub->edge[e];
-    } else {
-      within += sub->edge[e];
-    }
-  }
-  *on_border = across > 0;
-  return across - within;
-}
-
-static int64_t sli_subgraph_cut_weight(const sli_subgraph *sub) {
-  int64_t twice = 0;
-  sl_int v;
-  sl_off e;
-  for (v = 0; v < sub->n; v++) {
-    for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
-      twice += sub->side[sub->to[e]] != sub->side[v] ? sub->edge[e] : 0;
-    }
-    twice += sub->side[v] != sub->home[v] ? 2 * (int64_t)sub->external[v] : 0;
-  }
-  return twice / 2;
-}
-
 typedef struct sli_fm {
   sli_subgraph *sub;
   sli_heap heap[2];
   unsigned char *locked;
+  sl_int *degree;
+  sl_int *gain;
   sl_int *moves;
   int64_t most;
 } sli_fm;
@@ -8295,9 +8270,9 @@ static int sli_fm_choose(const sli_fm *m) {
   int side, best = -1;
   for (side = 0; side < 2; side++) {
     const sli_heap *h = &m->heap[side];
-    if (h->count > 0 && sli_fm_may_move(m, h->item[0])) {
-      if (best == -1 || h->key[h->item[0]] > h->key[m->heap[best].item[0]] ||
-        (h->key[h->item[0]] == h->key[m->heap[best].item[0]] &&
+    if (h->count > 0 && sli_fm_may_move(m, h->item[0].vertex)) {
+      if (best == -1 || h->item[0].key > m->heap[best].item[0].key ||
+        (h->item[0].key == m->heap[best].item[0].key &&
          m->sub->total[side] > m->sub->total[best])) {
         best = side;
       }
@@ -8306,31 +8281,19 @@ static int sli_fm_choose(const sli_fm *m) {
   return best;
 }
 
-static void sli_fm_flip(sli_fm *m, sl_int v) {
+SLI_INLINE void sli_fm_flip(sli_fm *m, sl_int v, int queue) {
   sli_subgraph *sub = m->sub;
   const int from = sub->side[v];
+  sl_off e;
   sub->side[v] = (unsigned char)(1 - from);
   sub->total[from] -= sub->weight[v];
   sub->total[1 - from] += sub->weight[v];
-}
-
-static void sli_fm_update(sli_fm *m, sl_int v) {
-  sli_subgraph *sub = m->sub;
-  sl_off e;
+  m->gain[v] = -m->gain[v];
   for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
     const sl_int u = sub->to[e];
-    sli_heap *h = &m->heap[sub->side[u]];
-    if (m->locked[u]) {
-      continue;
-    }
-    if (h->position[u] == -1) {
-      int on_border;
-      h->key[u] = sli_subgraph_gain(sub, u, &on_border);
-      SLI_ASSERT(on_border);
-      sli_heap_add(h, u);
-    } else {
-      h->key[u] += sub->side[u] == sub->side[v] ? -2 * sub->edge[e] : 2 * sub->edge[e];
-      sli_heap_update(h, u);
+    m->gain[u] += sub->side[u] == from ? 2 * sub->edge[e] : -2 * sub->edge[e];
+    if (queue && !m->locked[u]) {
+      sli_heap_set(&m->heap[sub->side[u]], u, m->gain[u]);
     }
   }
 }
@@ -8343,21 +8306,18 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
   int side;
   m->heap[0].count = m->heap[1].count = 0;
   for (v = 0; v < sub->n; v++) {
-    int on_border;
     m->locked[v] = 0;
     m->heap[0].position[v] = -1;
-    m->heap[0].key[v] = sli_subgraph_gain(sub, v, &on_border);
-    if (on_border) {
-      sli_heap_add(&m->heap[sub->side[v]], v);
+    if (m->gain[v] > -m->degree[v]) {
+      sli_heap_set(&m->heap[sub->side[v]], v, m->gain[v]);
     }
   }
   while (made - best < patience && (side = sli_fm_choose(m)) != -1) {
-    v = m->heap[side].item[0];
+    v = m->heap[side].item[0].vertex;
     sli_heap_remove(&m->heap[side], v);
     m->locked[v] = 1;
-    here -= m->heap[side].key[v];
-    sli_fm_flip(m, v);
-    sli_fm_update(m, v);
+    here -= m->gain[v];
+    sli_fm_flip(m, v, 1);
     m->moves[made++] = v;
     cost = sli_cut_cost(here, sub->total);
     if (cost < best_cost) {
@@ -8367,31 +8327,50 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
     }
   }
   while (made > best) {
-    sli_fm_flip(m, m->moves[--made]);
+    sli_fm_flip(m, m->moves[--made], 0);
   }
   return best > 0;
 }
 
 static sli_fm sli_fm_of(sli_subgraph *sub) {
+  const size_t n = (size_t)sub->n;
   sli_fm m;
+  sl_int v;
+  sl_off e;
   m.sub = sub;
   m.heap[0].position = m.heap[1].position = sub->scratch;
-  m.heap[0].key = m.heap[1].key = sub->scratch + sub->n;
-  m.heap[0].item = sub->scratch + 2 * (size_t)sub->n;
-  m.heap[1].item = sub->scratch + 3 * (size_t)sub->n;
-  m.moves = sub->scratch + 4 * (size_t)sub->n;
+  m.gain = sub->scratch + n;
+  m.degree = sub->scratch + 2 * n;
+  m.moves = sub->scratch + 3 * n;
+  m.heap[0].item = (sli_heap_item *)(void *)(sub->scratch + 4 * n);
+  m.heap[1].item = m.heap[0].item + n;
   m.locked = sub->locked;
-  m.heap[0].count = m.heap[1].count = 0;
   m.most = (sub->total[0] + sub->total[1]) * SLI_BISECT_BALANCE / 100;
+  for (v = 0; v < sub->n; v++) {
+    sl_int within = sub->external[v], across = 0;
+    for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
+      if (sub->side[sub->to[e]] != sub->side[v]) {
+        across += sub->edge[e];
+      } else {
+        within += sub->edge[e];
+      }
+    }
+    m.degree[v] = across + within;
+    m.gain[v] = across - within;
+  }
   return m;
 }
 
-static int64_t sli_subgraph_refine(sli_subgraph *sub, int rounds) {
-  sli_fm m = sli_fm_of(sub);
-  int64_t cut = sli_subgraph_cut_weight(sub);
-  while (rounds-- > 0 && sli_fm_pass(&m, &cut)) {
+static int64_t sli_fm_refine(sli_fm *m, int rounds) {
+  int64_t cut = 0;
+  sl_int v;
+  for (v = 0; v < m->sub->n; v++) {
+    cut += m->degree[v] + m->gain[v];
   }
-  return sli_cut_cost(cut, sub->total);
+  cut /= 4;
+  while (rounds-- > 0 && sli_fm_pass(m, &cut)) {
+  }
+  return sli_cut_cost(cut, m->sub->total);
 }
 
 static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *queue,
@@ -8412,29 +8391,30 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
   return queue[tail - 1];
 }
 
-static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
-  sli_fm m = sli_fm_of(sub);
+static void sli_fm_grow(sli_fm *m, sl_int seed) {
+  sli_subgraph *sub = m->sub;
   sl_int v, unseen = 0;
   sub->total[1] += sub->total[0];
   sub->total[0] = 0;
+  m->heap[1].count = 0;
   memset(sub->side, 1, (size_t)sub->n);
-  memset(m.locked, 0, (size_t)sub->n);
+  memset(m->locked, 0, (size_t)sub->n);
   for (v = 0; v < sub->n; v++) {
-    m.heap[0].position[v] = -1;
+    m->heap[0].position[v] = -1;
+    m->gain[v] = -m->degree[v];
   }
   v = seed;
   for (;;) {
-    m.locked[v] = 1;
-    sli_fm_flip(&m, v);
+    m->locked[v] = 1;
+    sli_fm_flip(m, v, 1);
     if (sub->total[0] >= sub->total[1]) {
       break;
     }
-    sli_fm_update(&m, v);
-    if (m.heap[1].count > 0) {
-      v = m.heap[1].item[0];
-      sli_heap_remove(&m.heap[1], v);
+    if (m->heap[1].count > 0) {
+      v = m->heap[1].item[0].vertex;
+      sli_heap_remove(&m->heap[1], v);
     } else {
-      while (m.locked[unseen]) {
+      while (m->locked[unseen]) {
         unseen++;
         SLI_ASSERT(unseen < sub->n);
       }
@@ -8444,6 +8424,7 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
 }
 
 static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
+  sli_fm m = sli_fm_of(sub);
   int64_t best = 0, total[2] = {0, 0};
   int k;
   for (k = 0; k < tries; k++) {
@@ -8452,8 +8433,8 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
     if (k % 2 == 0) {
       seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
     }
-    sli_subgraph_grow(sub, seed);
-    cost = sli_subgraph_refine(sub, rounds);
+    sli_fm_grow(&m, seed);
+    cost = sli_fm_refine(&m, rounds);
     if (k == 0 || cost < best) {
       best = cost;
       memcpy(sub->best, sub->side, (size_t)sub->n);
@@ -9090,8 +9071,10 @@ static void sli_dissect_visit(sli_dissection *d,
 
 static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
   const sli_level *g = &d->levels[d->level];
+  sli_fm m;
   sli_subgraph_band(&w->subgraph, g, &d->tree, node, d->label, &w->borders, SLI_DISSECT_LAYERS);
-  sli_subgraph_refine(&w->subgraph, 2);
+  m = sli_fm_of(&w->subgraph);
+  sli_fm_refine(&m, 2);
   sli_subgraph_apply(&w->subgraph, g, &d->tree, node, d->label, &w->borders);
   sli_subgraph_clear(&w->subgraph);
 }

@@ -13,45 +13,15 @@ SLI_INLINE int64_t sli_cut_cost(int64_t cut, const int64_t *total) {
     return cut * (total[0] > total[1] ? total[0] : total[1]);
 }
 
-/* The gain of moving v to the other side: the weight of its edges across the cut minus that of its
- * edges within its side. */
-static sl_int sli_subgraph_gain(const sli_subgraph *sub, sl_int v, int *on_border) {
-    const int side = sub->side[v];
-    sl_int across = side != sub->home[v] ? sub->external[v] : 0;
-    sl_int within = sub->external[v] - across;
-    sl_off e;
-    for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
-        if (sub->side[sub->to[e]] != side) {
-            across += sub->edge[e];
-        } else {
-            within += sub->edge[e];
-        }
-    }
-    *on_border = across > 0;
-    return across - within;
-}
-
-/* The weight of the edges across the cut, external edges included. */
-static int64_t sli_subgraph_cut_weight(const sli_subgraph *sub) {
-    int64_t twice = 0;
-    sl_int v;
-    sl_off e;
-    for (v = 0; v < sub->n; v++) {
-        for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
-            twice += sub->side[sub->to[e]] != sub->side[v] ? sub->edge[e] : 0;
-        }
-        twice += sub->side[v] != sub->home[v] ? 2 * (int64_t)sub->external[v] : 0;
-    }
-    return twice / 2;
-}
-
 /* The state of a Fiduccia-Mattheyses refinement. */
 typedef struct sli_fm {
     sli_subgraph *sub;
     sli_heap heap[2]; /* one for each side */
     unsigned char *locked;
-    sl_int *moves; /* the vertices moved so far */
-    int64_t most;  /* largest weight of a side */
+    sl_int *degree; /* n: the weight of all edges of a vertex, external ones included */
+    sl_int *gain;   /* n: the weight of its edges across the cut minus that of the others */
+    sl_int *moves;  /* the vertices moved so far */
+    int64_t most;   /* largest weight of a side */
 } sli_fm;
 
 /* Returns whether v may move: afterwards its new side is within the limit, or not heavier than its
@@ -68,9 +38,9 @@ static int sli_fm_choose(const sli_fm *m) {
     int side, best = -1;
     for (side = 0; side < 2; side++) {
         const sli_heap *h = &m->heap[side];
-        if (h->count > 0 && sli_fm_may_move(m, h->item[0])) {
-            if (best == -1 || h->key[h->item[0]] > h->key[m->heap[best].item[0]] ||
-                (h->key[h->item[0]] == h->key[m->heap[best].item[0]] &&
+        if (h->count > 0 && sli_fm_may_move(m, h->item[0].vertex)) {
+            if (best == -1 || h->item[0].key > m->heap[best].item[0].key ||
+                (h->item[0].key == m->heap[best].item[0].key &&
                  m->sub->total[side] > m->sub->total[best])) {
                 best = side;
             }
@@ -79,33 +49,20 @@ static int sli_fm_choose(const sli_fm *m) {
     return best;
 }
 
-/* Moves v to the other side. */
-static void sli_fm_flip(sli_fm *m, sl_int v) {
+/* Moves v to the other side. queue: its neighbors, now at the border, may move as well. */
+SLI_INLINE void sli_fm_flip(sli_fm *m, sl_int v, int queue) {
     sli_subgraph *sub = m->sub;
     const int from = sub->side[v];
+    sl_off e;
     sub->side[v] = (unsigned char)(1 - from);
     sub->total[from] -= sub->weight[v];
     sub->total[1 - from] += sub->weight[v];
-}
-
-/* Updates the gains of the neighbors of a vertex that has just moved. */
-static void sli_fm_update(sli_fm *m, sl_int v) {
-    sli_subgraph *sub = m->sub;
-    sl_off e;
+    m->gain[v] = -m->gain[v];
     for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
         const sl_int u = sub->to[e];
-        sli_heap *h = &m->heap[sub->side[u]];
-        if (m->locked[u]) {
-            continue;
-        }
-        if (h->position[u] == -1) {
-            int on_border;
-            h->key[u] = sli_subgraph_gain(sub, u, &on_border);
-            SLI_ASSERT(on_border); /* since v has moved */
-            sli_heap_add(h, u);
-        } else {
-            h->key[u] += sub->side[u] == sub->side[v] ? -2 * sub->edge[e] : 2 * sub->edge[e];
-            sli_heap_update(h, u);
+        m->gain[u] += sub->side[u] == from ? 2 * sub->edge[e] : -2 * sub->edge[e];
+        if (queue && !m->locked[u]) {
+            sli_heap_set(&m->heap[sub->side[u]], u, m->gain[u]);
         }
     }
 }
@@ -120,21 +77,18 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
     int side;
     m->heap[0].count = m->heap[1].count = 0;
     for (v = 0; v < sub->n; v++) {
-        int on_border;
         m->locked[v] = 0;
         m->heap[0].position[v] = -1;
-        m->heap[0].key[v] = sli_subgraph_gain(sub, v, &on_border);
-        if (on_border) {
-            sli_heap_add(&m->heap[sub->side[v]], v);
+        if (m->gain[v] > -m->degree[v]) { /* at the border */
+            sli_heap_set(&m->heap[sub->side[v]], v, m->gain[v]);
         }
     }
     while (made - best < patience && (side = sli_fm_choose(m)) != -1) {
-        v = m->heap[side].item[0];
+        v = m->heap[side].item[0].vertex;
         sli_heap_remove(&m->heap[side], v);
         m->locked[v] = 1;
-        here -= m->heap[side].key[v];
-        sli_fm_flip(m, v);
-        sli_fm_update(m, v);
+        here -= m->gain[v];
+        sli_fm_flip(m, v, 1);
         m->moves[made++] = v;
         cost = sli_cut_cost(here, sub->total);
         if (cost < best_cost) {
@@ -144,33 +98,52 @@ static int sli_fm_pass(sli_fm *m, int64_t *cut) {
         }
     }
     while (made > best) {
-        sli_fm_flip(m, m->moves[--made]);
+        sli_fm_flip(m, m->moves[--made], 0);
     }
     return best > 0;
 }
 
-/* A refinement of a subgraph, in its scratch arrays. */
+/* A refinement of a subgraph, in its scratch arrays. No vertex has left its home. */
 static sli_fm sli_fm_of(sli_subgraph *sub) {
+    const size_t n = (size_t)sub->n;
     sli_fm m;
+    sl_int v;
+    sl_off e;
     m.sub = sub;
     m.heap[0].position = m.heap[1].position = sub->scratch;
-    m.heap[0].key = m.heap[1].key = sub->scratch + sub->n;
-    m.heap[0].item = sub->scratch + 2 * (size_t)sub->n;
-    m.heap[1].item = sub->scratch + 3 * (size_t)sub->n;
-    m.moves = sub->scratch + 4 * (size_t)sub->n;
+    m.gain = sub->scratch + n;
+    m.degree = sub->scratch + 2 * n;
+    m.moves = sub->scratch + 3 * n;
+    m.heap[0].item = (sli_heap_item *)(void *)(sub->scratch + 4 * n);
+    m.heap[1].item = m.heap[0].item + n;
     m.locked = sub->locked;
-    m.heap[0].count = m.heap[1].count = 0;
     m.most = (sub->total[0] + sub->total[1]) * SLI_BISECT_BALANCE / 100;
+    for (v = 0; v < sub->n; v++) {
+        sl_int within = sub->external[v], across = 0;
+        for (e = sub->begin[v]; e < sub->begin[v + 1]; e++) {
+            if (sub->side[sub->to[e]] != sub->side[v]) {
+                across += sub->edge[e];
+            } else {
+                within += sub->edge[e];
+            }
+        }
+        m.degree[v] = across + within;
+        m.gain[v] = across - within;
+    }
     return m;
 }
 
-/* Refines the cut of a subgraph in up to `rounds` passes and returns its cost. [FM82] */
-static int64_t sli_subgraph_refine(sli_subgraph *sub, int rounds) {
-    sli_fm m = sli_fm_of(sub);
-    int64_t cut = sli_subgraph_cut_weight(sub);
-    while (rounds-- > 0 && sli_fm_pass(&m, &cut)) {
+/* Refines a cut in up to `rounds` passes and returns its cost. [FM82] */
+static int64_t sli_fm_refine(sli_fm *m, int rounds) {
+    int64_t cut = 0;
+    sl_int v;
+    for (v = 0; v < m->sub->n; v++) {
+        cut += m->degree[v] + m->gain[v];
     }
-    return sli_cut_cost(cut, sub->total);
+    cut /= 4;
+    while (rounds-- > 0 && sli_fm_pass(m, &cut)) {
+    }
+    return sli_cut_cost(cut, m->sub->total);
 }
 
 /* A vertex far from v: the last one that a breadth-first search reaches. queue, seen: n of
@@ -195,29 +168,30 @@ static sl_int sli_subgraph_farthest(const sli_subgraph *sub, sl_int v, sl_int *q
 
 /* Grows side 0 from seed until it has half of the weight. The next vertex is always the one that
  * leaves the lightest cut. */
-static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
-    sli_fm m = sli_fm_of(sub);
+static void sli_fm_grow(sli_fm *m, sl_int seed) {
+    sli_subgraph *sub = m->sub;
     sl_int v, unseen = 0;
     sub->total[1] += sub->total[0];
     sub->total[0] = 0;
+    m->heap[1].count = 0;
     memset(sub->side, 1, (size_t)sub->n);
-    memset(m.locked, 0, (size_t)sub->n);
+    memset(m->locked, 0, (size_t)sub->n);
     for (v = 0; v < sub->n; v++) {
-        m.heap[0].position[v] = -1;
+        m->heap[0].position[v] = -1;
+        m->gain[v] = -m->degree[v];
     }
     v = seed;
     for (;;) {
-        m.locked[v] = 1;
-        sli_fm_flip(&m, v);
+        m->locked[v] = 1;
+        sli_fm_flip(m, v, 1);
         if (sub->total[0] >= sub->total[1]) {
             break;
         }
-        sli_fm_update(&m, v);
-        if (m.heap[1].count > 0) {
-            v = m.heap[1].item[0];
-            sli_heap_remove(&m.heap[1], v);
+        if (m->heap[1].count > 0) {
+            v = m->heap[1].item[0].vertex;
+            sli_heap_remove(&m->heap[1], v);
         } else { /* the subgraph is not connected */
-            while (m.locked[unseen]) { /* not all are, as side 1 has weight */
+            while (m->locked[unseen]) { /* not all are, as side 1 has weight */
                 unseen++;
                 SLI_ASSERT(unseen < sub->n);
             }
@@ -228,6 +202,7 @@ static void sli_subgraph_grow(sli_subgraph *sub, sl_int seed) {
 
 /* Bisects a subgraph: keeps the cheapest cut of several tries. */
 static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
+    sli_fm m = sli_fm_of(sub);
     int64_t best = 0, total[2] = {0, 0};
     int k;
     for (k = 0; k < tries; k++) {
@@ -236,8 +211,8 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
         if (k % 2 == 0) {
             seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
         }
-        sli_subgraph_grow(sub, seed);
-        cost = sli_subgraph_refine(sub, rounds);
+        sli_fm_grow(&m, seed);
+        cost = sli_fm_refine(&m, rounds);
         if (k == 0 || cost < best) {
             best = cost;
             memcpy(sub->best, sub->side, (size_t)sub->n);

@@ -208,8 +208,10 @@ static void sli_dissect_visit(sli_dissection *d,
 /* Refines the border of a node on this level. */
 static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
     const sli_level *g = &d->levels[d->level];
+    sli_fm m;
     sli_subgraph_band(&w->subgraph, g, &d->tree, node, d->label, &w->borders, SLI_DISSECT_LAYERS);
-    sli_subgraph_refine(&w->subgraph, 2);
+    m = sli_fm_of(&w->subgraph);
+    sli_fm_refine(&m, 2);
     sli_subgraph_apply(&w->subgraph, g, &d->tree, node, d->label, &w->borders);
     sli_subgraph_clear(&w->subgraph);
 }

@@ -24,7 +24,7 @@ typedef struct sli_subgraph {
     int64_t total[2];             /* weight of each side, vertices outside the subgraph included */
     sl_int *local;                /* by vertex of the level: its number here, or -1 */
     unsigned char *locked, *best; /* n: scratch of bisection and separation */
-    sl_int *scratch;              /* 6 n */
+    sl_int *scratch;              /* 8 n */
 } sli_subgraph;
 
 static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_off edges) {
@@ -40,7 +40,7 @@ static void sli_subgraph_layout(sli_subgraph *sub, sli_block *b, sl_int n, sl_of
     sub->local = SLI_TAKE(b, sl_int, n);
     sub->locked = SLI_TAKE(b, unsigned char, n);
     sub->best = SLI_TAKE(b, unsigned char, n);
-    sub->scratch = SLI_TAKE(b, sl_int, 6 * (uint64_t)n);
+    sub->scratch = SLI_TAKE(b, sl_int, 8 * (uint64_t)n);
 }
 
 /* Adds vertex v of the level. */
