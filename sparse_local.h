@@ -1,91 +1,91 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d4ef8800ac12b6bc
+ * FNV-1a of the lines after this comment, without the license: 53cbf8aa4587b64c
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
  *     93 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    163 config.h     macros that a user may define before the include, the version, and the integer types
- *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    412 options.h    options of all calls, threads, and the allocator
- *    554 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    751 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    923 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1067 factor.h     the numerical factorization P A P' = L D L'
- *   1356 solve.h      full solves, and the workspace of all solves
- *   1469 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1563 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1676 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1789 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1925 batch.h      many independent solves by one call, distributed over threads
- *   1975 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2153 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2273 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2634 change.h     a factor that follows small changes of its matrix
- *   2724 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2875 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3006 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3062 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *    162 config.h     macros that a user may define before the include, the version, and the integer types
+ *    241 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    411 options.h    options of all calls, threads, and the allocator
+ *    553 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    750 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    922 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1066 factor.h     the numerical factorization P A P' = L D L'
+ *   1355 solve.h      full solves, and the workspace of all solves
+ *   1468 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1562 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1675 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1788 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1924 batch.h      many independent solves by one call, distributed over threads
+ *   1974 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2152 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2272 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2376 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2515 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2633 change.h     a factor that follows small changes of its matrix
+ *   2723 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2874 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3005 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3155 base.h   3449 status.h   3510 options.h   3568 alloc.h   3731 hash.h   3861 file_map.h
- *   3958 sort.h   4022 parallel.h
+ *   3154 base.h   3448 status.h   3509 options.h   3567 alloc.h   3730 hash.h   3860 file_map.h
+ *   3957 sort.h   4021 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4218 panel.h   4243 step.h   4321 pivot_rule.h   4395 front.h   4456 pairs.h
- *   4663 inverse_front.h   4735 table.h   4784 simd.h   4879 simd_scalar_single.h
- *   4923 simd_scalar.h   5049 simd_avx2_single.h   5101 simd_avx2.h   5327 simd_avx512_single.h
- *   5381 simd_avx512.h   5546 simd_neon_single.h   5586 simd_neon.h   5806 dispatch.h
+ *   4217 panel.h   4242 step.h   4320 pivot_rule.h   4394 front.h   4455 pairs.h
+ *   4662 inverse_front.h   4734 table.h   4783 simd.h   4878 simd_scalar_single.h
+ *   4922 simd_scalar.h   5048 simd_avx2_single.h   5100 simd_avx2.h   5326 simd_avx512_single.h
+ *   5380 simd_avx512.h   5545 simd_neon_single.h   5585 simd_neon.h   5805 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5899 csc.h   6042 csc_build.h   6176 csc64.h   6247 csc_triangle.h   6312 csc_products.h
- *   6429 permute.h   6495 sum.h   6577 output_file.h   6786 matrix_market.h
+ *   5898 csc.h   6041 csc_build.h   6175 csc64.h   6246 csc_triangle.h   6311 csc_products.h
+ *   6428 permute.h   6494 sum.h   6576 output_file.h   6785 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7232 graph.h   7350 contract.h   7604 coarsen.h   7767 labels.h   7988 subgraph.h   8182 heap.h
- *   8244 bisect.h   8450 separator.h   8712 mindeg.h   8895 dissect.h   9221 tree_cost.h
- *   9273 levelset.h   9379 geometric.h   9554 cells.h   9734 septree.h   9810 metis.h
- *   9959 metis_refined.h  10073 nd.h  10273 compress.h  10394 levels.h  10447 border.h
- *  10500 forest.h  10587 peel.h  10787 quotient.h  11204 graph_kind.h  11275 order.h
+ *   7231 graph.h   7349 contract.h   7603 coarsen.h   7766 labels.h   7987 subgraph.h   8181 heap.h
+ *   8243 bisect.h   8449 separator.h   8711 mindeg.h   8894 dissect.h   9220 tree_cost.h
+ *   9272 levelset.h   9378 geometric.h   9553 cells.h   9733 septree.h   9809 metis.h
+ *   9958 metis_refined.h  10072 nd.h  10272 compress.h  10393 levels.h  10446 border.h
+ *  10499 forest.h  10586 peel.h  10786 quotient.h  11203 graph_kind.h  11274 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11600 symbolic_types.h  11637 etree.h  11693 counts.h  11742 supernodes.h  11982 pattern.h
- *  12072 structure.h  12275 schedule.h  12555 symbolic.h  13025 reach.h
+ *  11599 symbolic_types.h  11636 etree.h  11762 supernodes.h  12002 pattern.h  12089 structure.h
+ *  12292 schedule.h  12572 symbolic.h  13032 reach.h
  * (factor: the numbers of L and D)
- *  13296 factor_types.h  13724 storage.h  13862 pivot_search.h  14208 pivoted.h  14277 scatter.h
- *  14435 uplooking.h  14507 null_product.h  14711 null_dense.h  14788 null_basis.h
- *  15108 null_vectors.h  15250 multifrontal.h  15444 gather.h  15492 kept.h  15662 front_tasks.h
- *  16005 null_center.h  16129 nullspace.h  16316 growth.h  16394 factor_setup.h  16720 factor.h
- *  16935 leftlooking.h  17089 factor_query.h  17224 combination.h
+ *  13303 factor_types.h  13731 storage.h  13869 pivot_search.h  14215 pivoted.h  14284 scatter.h
+ *  14442 uplooking.h  14514 null_product.h  14718 null_dense.h  14795 null_basis.h
+ *  15115 null_vectors.h  15257 multifrontal.h  15451 gather.h  15499 kept.h  15669 front_tasks.h
+ *  16012 null_center.h  16136 nullspace.h  16323 growth.h  16401 factor_setup.h  16727 factor.h
+ *  16942 leftlooking.h  17096 factor_query.h  17231 combination.h
  * (solve: full and local solves)
- *  17285 region_types.h  17389 work.h  17489 query.h  17707 singular.h  17964 backward.h
- *  17994 sweep_tasks.h  18325 sweep.h  18533 compile.h  18726 plan.h  18833 local.h  18985 parts.h
- *  19274 refine.h  19453 refine_local.h  19669 rcond.h  19828 defects.h
+ *  17292 region_types.h  17396 work.h  17496 query.h  17714 singular.h  17971 backward.h
+ *  18001 sweep_tasks.h  18332 sweep.h  18540 compile.h  18733 plan.h  18840 local.h  18992 parts.h
+ *  19281 refine.h  19460 refine_local.h  19676 rcond.h  19835 defects.h
  * (inverse: entries of the inverse, regions)
- *  19887 traversal.h  20136 traversal_run.h  20329 row_sets.h  20363 unit_vectors.h
- *  20590 bilinear.h  20762 entries.h  21039 block.h  21274 reserve.h  21466 selected.h
- *  21676 selected_query.h  21778 region_choose.h  22005 region.h
+ *  19894 traversal.h  20143 traversal_run.h  20336 row_sets.h  20370 unit_vectors.h
+ *  20597 bilinear.h  20769 entries.h  21046 block.h  21281 reserve.h  21473 selected.h
+ *  21683 selected_query.h  21785 region_choose.h  22012 region.h
  * (change: a factor that follows changes of its matrix)
- *  22253 update.h  22617 path.h  22718 rank.h  23094 edges.h  23248 choose.h  23493 pins_types.h
- *  23572 pins_nulls.h  23755 pins_capacitance.h  24007 pins_balance.h  24186 pins_held.h
- *  24402 pins_choose.h  24459 pins_rebuild.h  24677 pins_matrix.h  24828 pins.h  25097 pins_solve.h
- *  25368 subset.h  25496 restrict_kept.h  25694 restrict_analysis.h  25946 restrict_symbolic.h
- *  26141 restrict.h  26372 edit_match.h  26571 edit_place.h  26820 edit_separate.h
- *  27134 edit_order.h  27289 edit_graph.h  27371 edit_join.h  27647 edit.h  27810 edit_factor.h
+ *  22260 update.h  22624 path.h  22725 rank.h  23101 edges.h  23255 choose.h  23500 pins_types.h
+ *  23579 pins_nulls.h  23762 pins_capacitance.h  24014 pins_balance.h  24193 pins_held.h
+ *  24409 pins_choose.h  24466 pins_rebuild.h  24684 pins_matrix.h  24835 pins.h  25104 pins_solve.h
+ *  25375 subset.h  25503 restrict_kept.h  25701 restrict_analysis.h  25953 restrict_symbolic.h
+ *  26148 restrict.h  26379 edit_match.h  26578 edit_place.h  26827 edit_separate.h
+ *  27141 edit_order.h  27296 edit_graph.h  27378 edit_join.h  27654 edit.h  27817 edit_factor.h
  * (save: factors in files)
- *  28095 format.h  28392 decode.h  28540 check.h  28870 write.h  29175 load.h  29443 load_inverse.h
- *  29773 load_calls.h
+ *  28102 format.h  28399 decode.h  28547 check.h  28877 write.h  29182 load.h  29450 load_inverse.h
+ *  29780 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29972 batch_solve.h  30181 batch_factor.h  30382 batch_diagonal.h
+ *  29979 batch_solve.h  30188 batch_factor.h  30389 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30522 hermitian.h  30684 complex_rows.h
+ *  30529 hermitian.h  30691 complex_rows.h
  * (last: undefine every internal macro)
- *  30852 undef.h
+ *  30859 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31133 front.inl.h  31135 product.inl.h  31646 copy_rows.inl.h  31684 sweeps.inl.h
- *  31686 unit_triangle.inl.h  31723 two_rhs.inl.h  31892 small_supernode.inl.h
- *  32073 single_rhs.inl.h  32309 multi_rhs.inl.h  32328 complex_groups.inl.h
- *  32467 multi_rhs_small.inl.h  32639 multi_rhs_tiles.inl.h  32916 kernel_set.inl.h
- *  32918 complex_small.inl.h  33088 complex_rows.inl.h  33303 inverse_front.inl.h  33588 row.inl.h
- *  33618 change.inl.h  33853 interleave.inl.h  33987 lanes_undef.inl.h  34006 words_undef.inl.h
+ *  31140 front.inl.h  31142 product.inl.h  31653 copy_rows.inl.h  31691 sweeps.inl.h
+ *  31693 unit_triangle.inl.h  31730 two_rhs.inl.h  31899 small_supernode.inl.h
+ *  32080 single_rhs.inl.h  32316 multi_rhs.inl.h  32335 complex_groups.inl.h
+ *  32474 multi_rhs_small.inl.h  32646 multi_rhs_tiles.inl.h  32923 kernel_set.inl.h
+ *  32925 complex_small.inl.h  33095 complex_rows.inl.h  33310 inverse_front.inl.h  33595 row.inl.h
+ *  33625 change.inl.h  33860 interleave.inl.h  33994 lanes_undef.inl.h  34013 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -135,7 +135,6 @@
  *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [MR85]    Miller, Reif: Parallel tree contraction and its application, 1985.
- *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
  *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations,
  *            1983.
@@ -981,7 +980,7 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *           with METIS are safe only if rand() is, and may then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
- *           [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
+ *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
@@ -11634,44 +11633,114 @@ struct sl_symbolic {
   sl_off ordered_l, ordered_a;
 };
 
-/* src/impl/analysis/etree.h: elimination tree, and renumbering of the columns */
+/* src/impl/analysis/etree.h: elimination tree and column counts, and renumbering of the columns */
 
-static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
-  const sl_int *to = rows->to;
-  sl_int k, p = 0;
-  for (k = 0; k < n; k++) {
-    const sl_int end = rows->begin[k + 1];
-    parent[k] = -1;
-    ancestor[k] = n;
-    for (; p < end; p++) {
-      sl_int i = to[p], next = i < k ? ancestor[i] : k;
-      ancestor[i] = i < k ? k : n;
-      parent[i] = next == n ? k : parent[i];
-      while (next < k) {
-        i = next;
-        next = ancestor[i];
-        ancestor[i] = k;
-        parent[i] = next == n ? k : parent[i];
-      }
+#define SLI_MERGED UINT32_MAX
+
+typedef struct sli_merge {
+  sl_int *list;
+  size_t end;
+  uint32_t *from;
+  sl_int *waiting;
+  sl_int count;
+} sli_merge;
+
+static void sli_merge_compact(sli_merge *m, sl_int last, const sl_int *counts) {
+  sl_int q, kept = 0;
+  size_t to = 0;
+  for (q = 0; q < m->count; q++) {
+    const sl_int c = m->waiting[q];
+    if (m->from[c] != SLI_MERGED) {
+      const size_t length = c == last ? m->end - m->from[c] : (size_t)counts[c] - 1;
+      memmove(m->list + to, m->list + m->from[c], length * sizeof(sl_int));
+      m->from[c] = (uint32_t)to;
+      m->waiting[kept++] = c;
+      to += length;
     }
   }
+  m->count = kept;
+  m->end = to;
 }
 
-static void sli_etree_and_counts(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *counts,
-                 sl_int *mark) {
-  sl_int k, i, p = 0;
+SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_int id, sl_int *mark,
+                    const sl_int *rows, sl_int count) {
+  sl_int q;
+  for (q = 0; q < count; q++) {
+    const sl_int r = rows[q];
+    list[end] = r;
+    end += (size_t)((r > k) & (mark[r] != id));
+    mark[r] = id;
+  }
+  return end;
+}
+
+static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
+                 sl_int *list, sl_int *scratch) {
+  sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
+  sl_int k, c, id = -1, size = 0, gaps = 0;
+  int is_postorder = 1;
+  sli_merge m = {list, 0, NULL, NULL, 0};
+  m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
+  m.waiting = scratch + 4 * (size_t)n;
+  memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int));
   for (k = 0; k < n; k++) {
-    parent[k] = -1;
-    counts[k] = 1;
-    mark[k] = k;
-    for (; p < rows->begin[k + 1]; p++) {
-      for (i = rows->to[p]; mark[i] != k; i = parent[i]) {
-        parent[i] = parent[i] == -1 ? k : parent[i];
-        mark[i] = k;
-        counts[i]++;
+    size_t start, end, to, q;
+    sl_int up = n;
+    if (m.end > 2 * (size_t)columns->begin[n]) {
+      sli_merge_compact(&m, k - 1, counts);
+      gaps = 0;
+    }
+    start = end = m.end;
+    c = child[k];
+    if (c != -1 && c == k - 1) {
+      start = m.from[c];
+      m.from[c] = SLI_MERGED;
+      size--;
+      gaps++;
+      c = sibling[c];
+    } else {
+      id = k;
+      size = 0;
+    }
+    end = sli_merge_rows(list, end, k, id, mark, columns->to + columns->begin[k],
+               columns->begin[k + 1] - columns->begin[k]);
+    for (; c != -1; c = sibling[c]) {
+      end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1);
+      m.from[c] = SLI_MERGED;
+      gaps++;
+    }
+    size += (sl_int)(end - m.end);
+    counts[k] = size + 1;
+    while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
+      m.count--;
+      gaps--;
+    }
+    c = m.count == 0 ? -1 : m.waiting[m.count - 1];
+    m.end = to = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
+    if (size > 0 && mark[k + 1] == id) {
+      up = k + 1;
+      if (start != to) {
+        memmove(list + to, list + start, (end - start) * sizeof(sl_int));
+      }
+      m.end += end - start;
+    } else {
+      for (q = start; q < end; q++) {
+        const sl_int r = list[q];
+        list[m.end] = r;
+        m.end += r > k;
+        up = r > k ? sli_min(r, up) : up;
       }
     }
+    is_postorder &= gaps == 0 && (up < n || m.count == 0);
+    parent[k] = up == n ? -1 : up;
+    if (up < n) {
+      m.from[k] = (uint32_t)to;
+      m.waiting[m.count++] = k;
+      sibling[k] = child[up];
+      child[up] = k;
+    }
   }
+  return is_postorder;
 }
 
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
@@ -11688,55 +11757,6 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
     fresh[k] = old == -1 ? -1 : number[old];
   }
   memcpy(parent, fresh, (size_t)n * sizeof(sl_int));
-}
-
-/* src/impl/analysis/counts.h: column counts of L in nearly O(nnz(A)), from the leaves of the row subtrees */
-
-static void sli_counts(sl_int n, const sli_pattern *columns, const sl_int *old_of,
-             const sl_int *new_of, const sl_int *parent, sl_int *counts,
-             sl_int *scratch) {
-  sl_int *first = scratch, *up = scratch + n, *row = scratch + 2 * (size_t)n;
-  sl_int *queue = scratch + 4 * (size_t)n, j, p, c;
-  for (j = 0; j < n; j++) {
-    first[j] = j;
-    up[j] = parent[j] == -1 ? n : parent[j];
-    row[2 * (size_t)j] = -1;
-    row[2 * (size_t)j + 1] = n;
-    counts[j] = 0;
-  }
-  for (j = 0; j < n; j++) {
-    const sl_int from = first[j], end = columns->begin[old_of[j] + 1];
-    sl_int leaves = from == j, length = 0;
-    row[2 * (size_t)j] = from;
-    for (p = columns->begin[old_of[j]]; p < end; p++) {
-      sl_int *seen = row + 2 * (size_t)new_of[columns->to[p]], at = seen[1];
-      const int is_leaf = from > seen[0];
-      seen[0] = is_leaf ? from : seen[0];
-      seen[1] = is_leaf ? j : at;
-      leaves += is_leaf;
-      queue[length] = at;
-      length += is_leaf & (at < j);
-    }
-    counts[j] += leaves;
-    for (c = 0; c < length; c++) {
-      sl_int at = queue[c];
-      do {
-        const sl_int next = up[at];
-        up[at] = next < j ? up[next] : next;
-        at = up[at];
-      } while (at < j);
-      counts[at]--;
-    }
-    if (parent[j] != -1) {
-      first[parent[j]] = sli_min(first[parent[j]], from);
-      counts[parent[j]]--;
-    }
-  }
-  for (j = 0; j < n; j++) {
-    if (parent[j] != -1) {
-      counts[parent[j]] += counts[j];
-    }
-  }
 }
 
 /* src/impl/analysis/supernodes.h: fundamental supernodes, and relaxed amalgamation over the whole assembly tree */
@@ -12000,7 +12020,6 @@ typedef struct sli_analysis {
   const sl_csc *A;
   sli_hash pattern;
   sl_int *column;
-  int walks;
   sl_int side;
   sli_pattern rows, columns;
   sli_amalgamation amalgamation;
@@ -12042,9 +12061,7 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
       const sl_int i = a + b - k, at = row_at[k]++;
       w->rows.to[at] = i;
       w->rows.from[at] = p;
-      if (!w->walks) {
-        w->columns.to[column_at[i]++] = k;
-      }
+      w->columns.to[column_at[i]++] = k;
     }
   }
 }
@@ -12591,7 +12608,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->is_first = SLI_TAKE(b, unsigned char, n);
     w->earlier = SLI_TAKE(b, sl_int, n);
   }
-  w->spare = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz + 512);
+  w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
 static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_off entries) {
@@ -12671,17 +12688,10 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   for (k = 0; k < n && w->choice.has_tree; k++) {
     w->counts[k] = 1 + (w->parent[k] != -1);
   }
-  if (!w->choice.has_tree) {
-    if (w->walks) {
-      sli_etree_and_counts(n, &w->rows, w->parent, w->counts, more);
-    } else {
-      sli_etree(n, &w->rows, w->parent, more);
-    }
+  if (!w->choice.has_tree &&
+    !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
-    sli_analysis_reorder(w, order, w->walks);
-  }
-  if (!w->walks) {
-    sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+    sli_analysis_reorder(w, order, 1);
   }
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
@@ -12707,8 +12717,6 @@ static double sli_analysis_lap(sli_analysis *w) {
   return w->clock - before;
 }
 
-#define SLI_WALKS_MOST 12
-
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                 sl_stats *stats) {
   double lap;
@@ -12716,7 +12724,6 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
   for (k = 0; k < w->n; k++) {
     w->scratch[w->perm[k]] = k;
   }
-  w->walks = w->choice.entries > 0 && w->choice.entries <= SLI_WALKS_MOST * (sl_off)w->n;
   sli_pattern_fill(w, stats->symbolic.triangle, team);
   sli_analyze_tree(w, opt, stats);
   lap = sli_analysis_lap(w);

@@ -105,7 +105,6 @@ extern "C" {
 /* analysis: elimination tree, supernodes, structure of L; never sees a value */
 #include "impl/analysis/symbolic_types.h"
 #include "impl/analysis/etree.h"
-#include "impl/analysis/counts.h"
 #include "impl/analysis/supernodes.h"
 #include "impl/analysis/pattern.h"
 #include "impl/analysis/structure.h"

@@ -64,7 +64,7 @@
  *           with METIS are safe only if rand() is, and may then order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
- *           [Liu90] elimination tree; [GNP94] counts; [AG89] relaxed supernodes.
+ *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,

@@ -45,7 +45,6 @@
  *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
  *  [MR85]    Miller, Reif: Parallel tree contraction and its application, 1985.
- *  [GNP94]   Gilbert, Ng, Peyton: An efficient algorithm to compute row and column counts, 1994.
  *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
  *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations,
  *            1983.

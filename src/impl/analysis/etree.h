@@ -1,50 +1,128 @@
-/* etree.h: elimination tree, and renumbering of the columns */
+/* etree.h: elimination tree and column counts, and renumbering of the columns */
 #ifndef SLI_ANALYSIS_ETREE_H
 #define SLI_ANALYSIS_ETREE_H
 
 #include "symbolic_types.h"
 
-/* parent[k] := the first row below the diagonal of column k of L, or -1. ancestor: n of scratch,
- * path-compressed links towards the roots found so far; n at a root. [Liu90] */
-static void sli_etree(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *ancestor) {
-    const sl_int *to = rows->to;
-    sl_int k, p = 0;
-    for (k = 0; k < n; k++) {
-        const sl_int end = rows->begin[k + 1];
-        parent[k] = -1;
-        ancestor[k] = n;
-        for (; p < end; p++) {
-            sl_int i = to[p], next = i < k ? ancestor[i] : k;
-            ancestor[i] = i < k ? k : n;
-            parent[i] = next == n ? k : parent[i];
-            while (next < k) {
-                i = next;
-                next = ancestor[i];
-                ancestor[i] = k;
-                parent[i] = next == n ? k : parent[i];
-            }
+#define SLI_MERGED UINT32_MAX
+
+/* The lists of rows below columns whose parents are still to come: each row once, in any order. The
+ * lists of disjoint subtrees have together no more rows than A has entries. */
+typedef struct sli_merge {
+    sl_int *list;    /* the lists */
+    size_t end;      /* of the last list */
+    uint32_t *from;  /* n: where the list of a column begins, or SLI_MERGED */
+    sl_int *waiting; /* the columns that have a list, in the order of the lists */
+    sl_int count;
+} sli_merge;
+
+/* Removes the gaps between the lists. The list of column `last` may still hold rows up to it. */
+static void sli_merge_compact(sli_merge *m, sl_int last, const sl_int *counts) {
+    sl_int q, kept = 0;
+    size_t to = 0;
+    for (q = 0; q < m->count; q++) {
+        const sl_int c = m->waiting[q];
+        if (m->from[c] != SLI_MERGED) {
+            const size_t length = c == last ? m->end - m->from[c] : (size_t)counts[c] - 1;
+            memmove(m->list + to, m->list + m->from[c], length * sizeof(sl_int));
+            m->from[c] = (uint32_t)to;
+            m->waiting[kept++] = c;
+            to += length;
         }
     }
+    m->count = kept;
+    m->end = to;
 }
 
-/* The same tree, and counts[j] := entries of column j of L, diagonal included: the subtree of each
- * row is walked as a whole. Where columns of L are short, this takes less time than what is nearly
- * linear in the entries of A. mark: n of scratch. [LDL05] */
-static void sli_etree_and_counts(sl_int n, const sli_pattern *rows, sl_int *parent, sl_int *counts,
-                                 sl_int *mark) {
-    sl_int k, i, p = 0;
+/* Appends the rows after k that are not marked with `id`, and marks them. Without a branch, which
+ * nothing would predict. Returns the end of the list. */
+SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_int id, sl_int *mark,
+                                        const sl_int *rows, sl_int count) {
+    sl_int q;
+    for (q = 0; q < count; q++) {
+        const sl_int r = rows[q];
+        list[end] = r;
+        end += (size_t)((r > k) & (mark[r] != id));
+        mark[r] = id;
+    }
+    return end;
+}
+
+/* parent[k] := the first row below the diagonal of column k of L, or -1; counts[k] := the entries
+ * of column k, diagonal included. Returns whether the columns are numbered in a postorder.
+ *
+ * A column has the rows of its column of A and of its children. The list of a child k - 1 becomes
+ * that of k. So in a postorder only entries of A are read, and the lists of the other children; in
+ * any other order it takes the time of writing L at most. list: room for three times the entries
+ * of A and one; scratch: 5n. [Liu90] */
+static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
+                               sl_int *list, sl_int *scratch) {
+    /* mark: the last list with the row; child: the last child so far; sibling: the one before */
+    sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
+    sl_int k, c, id = -1, size = 0, gaps = 0;
+    int is_postorder = 1;
+    sli_merge m = {list, 0, NULL, NULL, 0};
+    m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
+    m.waiting = scratch + 4 * (size_t)n;
+    memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int)); /* -1, also in child */
     for (k = 0; k < n; k++) {
-        parent[k] = -1;
-        counts[k] = 1;
-        mark[k] = k;
-        for (; p < rows->begin[k + 1]; p++) {
-            for (i = rows->to[p]; mark[i] != k; i = parent[i]) {
-                parent[i] = parent[i] == -1 ? k : parent[i];
-                mark[i] = k;
-                counts[i]++;
+        size_t start, end, to, q;
+        sl_int up = n;
+        if (m.end > 2 * (size_t)columns->begin[n]) {
+            sli_merge_compact(&m, k - 1, counts);
+            gaps = 0;
+        }
+        start = end = m.end;
+        c = child[k];
+        if (c != -1 && c == k - 1) { /* its list is the last one and holds k */
+            start = m.from[c];
+            m.from[c] = SLI_MERGED;
+            size--;
+            gaps++;
+            c = sibling[c];
+        } else {
+            id = k;
+            size = 0;
+        }
+        end = sli_merge_rows(list, end, k, id, mark, columns->to + columns->begin[k],
+                             columns->begin[k + 1] - columns->begin[k]);
+        for (; c != -1; c = sibling[c]) {
+            end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1);
+            m.from[c] = SLI_MERGED;
+            gaps++;
+        }
+        size += (sl_int)(end - m.end);
+        counts[k] = size + 1;
+        while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
+            m.count--;
+            gaps--;
+        }
+        c = m.count == 0 ? -1 : m.waiting[m.count - 1];
+        m.end = to = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
+        if (size > 0 && mark[k + 1] == id) {
+            up = k + 1;
+            if (start != to) {
+                memmove(list + to, list + start, (end - start) * sizeof(sl_int));
+            }
+            m.end += end - start;
+        } else {
+            for (q = start; q < end; q++) {
+                const sl_int r = list[q];
+                list[m.end] = r;
+                m.end += r > k;
+                up = r > k ? sli_min(r, up) : up;
             }
         }
+        is_postorder &= gaps == 0 && (up < n || m.count == 0);
+        parent[k] = up == n ? -1 : up;
+        if (up < n) {
+            m.from[k] = (uint32_t)to;
+            m.waiting[m.count++] = k;
+            sibling[k] = child[up];
+            child[up] = k;
+        }
     }
+    return is_postorder;
 }
 
 /* Renumbers the columns: order[k] = the old number of the new column k. Updates old_of, its inverse

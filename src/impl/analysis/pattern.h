@@ -28,7 +28,6 @@ typedef struct sli_analysis {
     const sl_csc *A;
     sli_hash pattern; /* of A */
     sl_int *column;   /* nnz: of each entry of A */
-    int walks;        /* tree and counts need rows only: columns.to is not filled */
     sl_int side;      /* an entry of A is read if side (row - column) >= 0 */
     sli_pattern rows, columns;
     sli_amalgamation amalgamation;
@@ -45,7 +44,7 @@ typedef struct sli_analysis {
     sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
     sli_septree septree;     /* n each: by rows of A */
     size_t ordered;          /* bytes of the block that hold what the ordering fills */
-    sl_int *spare;           /* 2 for each entry: only the ordering uses it */
+    sl_int *spare;           /* 3 for each entry: for the ordering, then lists of rows */
     sl_symbolic *S;          /* what is filled, by runs of supernodes, in descending order */
     sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
@@ -72,9 +71,7 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
             const sl_int i = a + b - k, at = row_at[k]++;
             w->rows.to[at] = i;
             w->rows.from[at] = p;
-            if (!w->walks) {
-                w->columns.to[column_at[i]++] = k;
-            }
+            w->columns.to[column_at[i]++] = k;
         }
     }
 }

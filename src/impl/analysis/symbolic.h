@@ -2,7 +2,6 @@
 #ifndef SLI_ANALYSIS_SYMBOLIC_H
 #define SLI_ANALYSIS_SYMBOLIC_H
 
-#include "counts.h"
 #include "structure.h"
 #include "../matrix/csc_triangle.h"
 
@@ -46,7 +45,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
         w->is_first = SLI_TAKE(b, unsigned char, n);
         w->earlier = SLI_TAKE(b, sl_int, n);
     }
-    w->spare = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz + 512);
+    w->spare = SLI_TAKE(b, sl_int, 3 * (uint64_t)nnz + 512);
 }
 
 /* All arrays. A saved analysis has them in this order (save/format.h). */
@@ -131,17 +130,10 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     for (k = 0; k < n && w->choice.has_tree; k++) {
         w->counts[k] = 1 + (w->parent[k] != -1);
     }
-    if (!w->choice.has_tree) {
-        if (w->walks) {
-            sli_etree_and_counts(n, &w->rows, w->parent, w->counts, more);
-        } else {
-            sli_etree(n, &w->rows, w->parent, more);
-        }
+    if (!w->choice.has_tree &&
+        !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order)) {
         sli_postorder(w->parent, NULL, n, order, child, more);
-        sli_analysis_reorder(w, order, w->walks);
-    }
-    if (!w->walks) {
-        sli_counts(n, &w->columns, w->old_of, w->new_of, w->parent, w->counts, w->scratch);
+        sli_analysis_reorder(w, order, 1);
     }
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
@@ -168,9 +160,6 @@ static double sli_analysis_lap(sli_analysis *w) {
     return w->clock - before;
 }
 
-/* Up to this many entries of L a column, walks find tree and counts in less time. */
-#define SLI_WALKS_MOST 12
-
 /* Finds everything that depends on the order in w->perm. */
 static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *team,
                               sl_stats *stats) {
@@ -179,7 +168,6 @@ static void sli_analyze_order(sli_analysis *w, const sl_options *opt, sli_team *
     for (k = 0; k < w->n; k++) {
         w->scratch[w->perm[k]] = k;
     }
-    w->walks = w->choice.entries > 0 && w->choice.entries <= SLI_WALKS_MOST * (sl_off)w->n;
     sli_pattern_fill(w, stats->symbolic.triangle, team);
     sli_analyze_tree(w, opt, stats);
     lap = sli_analysis_lap(w);
