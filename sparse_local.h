@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 53cbf8aa4587b64c
+ * FNV-1a of the lines after this comment, without the license: 00daff2c0837e583
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20597 bilinear.h  20769 entries.h  21046 block.h  21281 reserve.h  21473 selected.h
  *  21683 selected_query.h  21785 region_choose.h  22012 region.h
  * (change: a factor that follows changes of its matrix)
- *  22260 update.h  22624 path.h  22725 rank.h  23101 edges.h  23255 choose.h  23500 pins_types.h
- *  23579 pins_nulls.h  23762 pins_capacitance.h  24014 pins_balance.h  24193 pins_held.h
- *  24409 pins_choose.h  24466 pins_rebuild.h  24684 pins_matrix.h  24835 pins.h  25104 pins_solve.h
- *  25375 subset.h  25503 restrict_kept.h  25701 restrict_analysis.h  25953 restrict_symbolic.h
- *  26148 restrict.h  26379 edit_match.h  26578 edit_place.h  26827 edit_separate.h
- *  27141 edit_order.h  27296 edit_graph.h  27378 edit_join.h  27654 edit.h  27817 edit_factor.h
+ *  22260 update.h  22628 path.h  22747 rank.h  23125 edges.h  23279 choose.h  23524 pins_types.h
+ *  23603 pins_nulls.h  23786 pins_capacitance.h  24038 pins_balance.h  24217 pins_held.h
+ *  24433 pins_choose.h  24490 pins_rebuild.h  24708 pins_matrix.h  24859 pins.h  25128 pins_solve.h
+ *  25399 subset.h  25527 restrict_kept.h  25725 restrict_analysis.h  25977 restrict_symbolic.h
+ *  26172 restrict.h  26403 edit_match.h  26602 edit_place.h  26851 edit_separate.h
+ *  27165 edit_order.h  27320 edit_graph.h  27402 edit_join.h  27678 edit.h  27841 edit_factor.h
  * (save: factors in files)
- *  28102 format.h  28399 decode.h  28547 check.h  28877 write.h  29182 load.h  29450 load_inverse.h
- *  29780 load_calls.h
+ *  28126 format.h  28423 decode.h  28571 check.h  28901 write.h  29206 load.h  29474 load_inverse.h
+ *  29804 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29979 batch_solve.h  30188 batch_factor.h  30389 batch_diagonal.h
+ *  30003 batch_solve.h  30212 batch_factor.h  30413 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30529 hermitian.h  30691 complex_rows.h
+ *  30553 hermitian.h  30715 complex_rows.h
  * (last: undefine every internal macro)
- *  30859 undef.h
+ *  30883 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31140 front.inl.h  31142 product.inl.h  31653 copy_rows.inl.h  31691 sweeps.inl.h
- *  31693 unit_triangle.inl.h  31730 two_rhs.inl.h  31899 small_supernode.inl.h
- *  32080 single_rhs.inl.h  32316 multi_rhs.inl.h  32335 complex_groups.inl.h
- *  32474 multi_rhs_small.inl.h  32646 multi_rhs_tiles.inl.h  32923 kernel_set.inl.h
- *  32925 complex_small.inl.h  33095 complex_rows.inl.h  33310 inverse_front.inl.h  33595 row.inl.h
- *  33625 change.inl.h  33860 interleave.inl.h  33994 lanes_undef.inl.h  34013 words_undef.inl.h
+ *  31164 front.inl.h  31166 product.inl.h  31677 copy_rows.inl.h  31715 sweeps.inl.h
+ *  31717 unit_triangle.inl.h  31754 two_rhs.inl.h  31923 small_supernode.inl.h
+ *  32104 single_rhs.inl.h  32340 multi_rhs.inl.h  32359 complex_groups.inl.h
+ *  32498 multi_rhs_small.inl.h  32670 multi_rhs_tiles.inl.h  32947 kernel_set.inl.h
+ *  32949 complex_small.inl.h  33119 complex_rows.inl.h  33334 inverse_front.inl.h  33619 row.inl.h
+ *  33649 change.inl.h  33892 interleave.inl.h  34026 lanes_undef.inl.h  34045 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22426,11 +22426,13 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
   const sl_int k = step->column + first - SLI_TILE * step->first_tile;
   const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
-  sl_int j;
+  sl_int j, r;
   if (status == SL_OK) {
     u->F->kernels->change[u->kind - 1](l, columns, at, w);
-    for (j = 0; j < columns; j++) {
-      memset(l + SLI_TILE * j, 0, (size_t)(j + 1) * sizeof *l);
+    for (r = 0; r < columns; r++) {
+      for (j = r; j < columns; j++) {
+        l[SLI_TILE * j + r] = 0.0;
+      }
     }
   }
   return status;
@@ -22588,7 +22590,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
 static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
   const sli_reach *R = &u->R;
   sl_status status = SL_OK;
-  sl_int s, j, k;
+  sl_int s, j, k, r;
   memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
   memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
   sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
@@ -22598,8 +22600,10 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
     for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
       const double *y = u->trial + (ptrdiff_t)u->lanes * (step->base + j);
       const sl_int columns = sli_min(SLI_TILE, sli_step_columns(step) - j);
-      for (k = 0; k < u->lanes * columns; k++) {
-        u->local[SLI_TILE * (k % u->lanes) + k / u->lanes] = y[k];
+      for (k = 0; k < columns; k++, y += u->lanes) {
+        for (r = 0; r < u->lanes; r++) {
+          u->local[SLI_TILE * r + k] = y[r];
+        }
       }
       status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
     }
@@ -22669,10 +22673,27 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
   return found;
 }
 
+static sl_status sli_path_take(sli_update *u, sl_int k, sl_int count, const double *e) {
+  double *D = u->F->D + k, top = u->top;
+  sl_int j;
+  for (j = 0; j < count; j++) {
+    const double d = fabs(D[j]), size = fabs(e[j]);
+    if (!(size >= d && size <= 4.0 * d && size >= DBL_MIN && size <= DBL_MAX)) {
+      break;
+    }
+    top = size > top && size != d ? size : top;
+    D[j] = e[j];
+  }
+  u->top = top;
+  u->most = top > u->most ? top : u->most;
+  u->F->stats.factor.pivot_max = fmax(u->F->stats.factor.pivot_max, top);
+  return j < count ? sli_update_take_all(u, k + j, count - j, e + j, NULL) : SL_OK;
+}
+
 static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   sl_factor *F = u->F;
   const sl_symbolic *S = F->S;
-  sl_int s = S->super_of[sli_key(seed)], i, rest;
+  sl_int s = S->super_of[sli_key(seed)], i, rest, entered, k;
   const sl_int v = sli_value(seed);
   double *w = u->local, *next = u->other, *last;
   sl_status status = SL_OK;
@@ -22692,9 +22713,10 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     one.below = step->below;
     one.w = w;
     F->kernels->change_panel(&one);
-    status = sli_update_take_all(u, step->column + SLI_TILE * one.first_tile,
-                   step->width - SLI_TILE * one.first_tile,
-                   one.e + SLI_TILE * one.first_tile, NULL);
+    entered = SLI_TILE * one.first_tile;
+    k = step->column + entered;
+    status = is_trial ? sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL)
+              : sli_path_take(u, k, step->width - entered, one.e + entered);
     if (!is_trial) {
       rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
       u->entry = fmax(u->entry, F->extents[s].entry);
@@ -22821,10 +22843,12 @@ static void sli_rank_measure(sli_rank *q) {
   q->flops = q->pivots = 0.0;
   q->entries = 0;
   for (k = 0; k < q->count; k = last) {
-    sli_reach R;
+    sli_reach R = q->whole;
     last = sli_rank_pass(q, k);
-    sli_rank_group(q, k, last, group, seeds);
-    sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+    if (last - k < q->count) {
+      sli_rank_group(q, k, last, group, seeds);
+      sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+    }
     q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
     q->pivots += (double)R.columns * (double)(last - k);
     q->entries += R.entries;
@@ -33772,11 +33796,14 @@ SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #undef SLI_CHANGE
 #undef SLI_TILES_KERNEL
 
+#define SLI_BEFORE(k) (k)
+#define SLI_AFTER(k) ((k) + 1)
+
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
                            double *e, double *b, double *w, double *sum,
                            int is_trial) {
-  SLI_ALIGNED(double before[SLI_TILE]);
-  SLI_ALIGNED(double after[SLI_TILE]);
+  SLI_ALIGNED(double z[SLI_TILE]);
+  double g[SLI_TILE + 1];
   sl_int k;
   SLV_DECLARE(x)
   SLV_DECLARE(y)
@@ -33796,15 +33823,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, 
   SLV_LOAD_PART(s, d, columns, 1.0)
   SLV_DIVIDE(q, y, s)
   SLV_MULTIPLY(y, y, q)
-  SLV_STORE(after, y)
+  SLV_STORE(z, y)
+  g[0] = *sum;
+  SLI_UNROLL
   for (k = 0; k < SLI_TILE; k++) {
-    before[k] = *sum;
-    after[k] = *sum -= after[k];
+    g[k + 1] = g[k] - z[k];
   }
-  SLV_LOAD(y, after)
+  *sum = g[SLI_TILE];
+  SLV_GATHER(y, g, SLI_AFTER)
   SLV_DIVIDE(q, q, y)
   SLV_STORE(b, q)
-  SLV_LOAD(q, before)
+  SLV_GATHER(q, g, SLI_BEFORE)
   SLV_DIVIDE(y, y, q)
   SLV_MULTIPLY(s, s, y)
   SLV_STORE(e, s)
@@ -33818,6 +33847,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, 
     SLV_STORE(l, y)
   }
 }
+
+#undef SLI_BEFORE
+#undef SLI_AFTER
 
 SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
   const sl_int width = u->width, first = SLI_TILE * u->first_tile;

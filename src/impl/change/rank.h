@@ -113,10 +113,12 @@ static void sli_rank_measure(sli_rank *q) {
     q->flops = q->pivots = 0.0;
     q->entries = 0;
     for (k = 0; k < q->count; k = last) {
-        sli_reach R;
+        sli_reach R = q->whole;
         last = sli_rank_pass(q, k);
-        sli_rank_group(q, k, last, group, seeds);
-        sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+        if (last - k < q->count) {
+            sli_rank_group(q, k, last, group, seeds);
+            sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+        }
         q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
         q->pivots += (double)R.columns * (double)(last - k);
         q->entries += R.entries;

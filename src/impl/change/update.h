@@ -198,11 +198,14 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     double *at = u->c + 2 * (ptrdiff_t)u->lanes * (first - SLI_TILE * step->first_tile);
     const sl_int k = step->column + first - SLI_TILE * step->first_tile;
     const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
-    sl_int j;
+    sl_int j, r;
     if (status == SL_OK) {
         u->F->kernels->change[u->kind - 1](l, columns, at, w);
-        for (j = 0; j < columns; j++) { /* the kernel has changed the part above them, too */
-            memset(l + SLI_TILE * j, 0, (size_t)(j + 1) * sizeof *l);
+        /* the kernel has changed the part above them, too; memset is slow for a few bytes */
+        for (r = 0; r < columns; r++) {
+            for (j = r; j < columns; j++) {
+                l[SLI_TILE * j + r] = 0.0;
+            }
         }
     }
     return status;
@@ -371,7 +374,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
 static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
     const sli_reach *R = &u->R;
     sl_status status = SL_OK;
-    sl_int s, j, k;
+    sl_int s, j, k, r;
     memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
     memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
     sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
@@ -381,8 +384,10 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
         for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
             const double *y = u->trial + (ptrdiff_t)u->lanes * (step->base + j);
             const sl_int columns = sli_min(SLI_TILE, sli_step_columns(step) - j);
-            for (k = 0; k < u->lanes * columns; k++) {
-                u->local[SLI_TILE * (k % u->lanes) + k / u->lanes] = y[k];
+            for (k = 0; k < columns; k++, y += u->lanes) {
+                for (r = 0; r < u->lanes; r++) {
+                    u->local[SLI_TILE * r + k] = y[r];
+                }
             }
             status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
         }

@@ -154,14 +154,17 @@ SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #undef SLI_CHANGE
 #undef SLI_TILES_KERNEL
 
+#define SLI_BEFORE(k) (k)
+#define SLI_AFTER(k) ((k) + 1)
+
 /* The pivots of one column tile. y is what a forward sweep makes of w, whatever the pivots become;
  * with q = y / d and the sums g of y q, the new pivots are d g(after) / g(before), and
  * b = q / g(after). So there is no chain of divisions. l: diagonal part of the tile. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
                                                      double *e, double *b, double *w, double *sum,
                                                      int is_trial) {
-    SLI_ALIGNED(double before[SLI_TILE]);
-    SLI_ALIGNED(double after[SLI_TILE]);
+    SLI_ALIGNED(double z[SLI_TILE]);
+    double g[SLI_TILE + 1];
     sl_int k;
     SLV_DECLARE(x)
     SLV_DECLARE(y)
@@ -181,15 +184,17 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, 
     SLV_LOAD_PART(s, d, columns, 1.0)
     SLV_DIVIDE(q, y, s)
     SLV_MULTIPLY(y, y, q)
-    SLV_STORE(after, y)
+    SLV_STORE(z, y)
+    g[0] = *sum;
+    SLI_UNROLL
     for (k = 0; k < SLI_TILE; k++) {
-        before[k] = *sum;
-        after[k] = *sum -= after[k];
+        g[k + 1] = g[k] - z[k];
     }
-    SLV_LOAD(y, after)
+    *sum = g[SLI_TILE];
+    SLV_GATHER(y, g, SLI_AFTER) /* in registers: 8 stores are not forwarded to one load */
     SLV_DIVIDE(q, q, y)
     SLV_STORE(b, q)
-    SLV_LOAD(q, before)
+    SLV_GATHER(q, g, SLI_BEFORE)
     SLV_DIVIDE(y, y, q)
     SLV_MULTIPLY(s, s, y)
     SLV_STORE(e, s)
@@ -203,6 +208,9 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, 
         SLV_STORE(l, y)
     }
 }
+
+#undef SLI_BEFORE
+#undef SLI_AFTER
 
 SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
     const sl_int width = u->width, first = SLI_TILE * u->first_tile;
