@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 00daff2c0837e583
+ * FNV-1a of the lines after this comment, without the license: f6d7116b12298cd3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -50,42 +50,42 @@
  *  11599 symbolic_types.h  11636 etree.h  11762 supernodes.h  12002 pattern.h  12089 structure.h
  *  12292 schedule.h  12572 symbolic.h  13032 reach.h
  * (factor: the numbers of L and D)
- *  13303 factor_types.h  13731 storage.h  13869 pivot_search.h  14215 pivoted.h  14284 scatter.h
- *  14442 uplooking.h  14514 null_product.h  14718 null_dense.h  14795 null_basis.h
- *  15115 null_vectors.h  15257 multifrontal.h  15451 gather.h  15499 kept.h  15669 front_tasks.h
- *  16012 null_center.h  16136 nullspace.h  16323 growth.h  16401 factor_setup.h  16727 factor.h
- *  16942 leftlooking.h  17096 factor_query.h  17231 combination.h
+ *  13305 factor_types.h  13733 storage.h  13871 pivot_search.h  14217 pivoted.h  14286 scatter.h
+ *  14444 uplooking.h  14516 null_product.h  14720 null_dense.h  14797 null_basis.h
+ *  15117 null_vectors.h  15259 multifrontal.h  15453 gather.h  15501 kept.h  15671 front_tasks.h
+ *  16014 null_center.h  16138 nullspace.h  16325 growth.h  16403 factor_setup.h  16729 factor.h
+ *  16944 leftlooking.h  17098 factor_query.h  17233 combination.h
  * (solve: full and local solves)
- *  17292 region_types.h  17396 work.h  17496 query.h  17714 singular.h  17971 backward.h
- *  18001 sweep_tasks.h  18332 sweep.h  18540 compile.h  18733 plan.h  18840 local.h  18992 parts.h
- *  19281 refine.h  19460 refine_local.h  19676 rcond.h  19835 defects.h
+ *  17294 region_types.h  17398 work.h  17498 query.h  17716 singular.h  17973 backward.h
+ *  18003 sweep_tasks.h  18334 sweep.h  18542 compile.h  18735 plan.h  18842 local.h  18994 parts.h
+ *  19283 refine.h  19462 refine_local.h  19678 rcond.h  19837 defects.h
  * (inverse: entries of the inverse, regions)
- *  19894 traversal.h  20143 traversal_run.h  20336 row_sets.h  20370 unit_vectors.h
- *  20597 bilinear.h  20769 entries.h  21046 block.h  21281 reserve.h  21473 selected.h
- *  21683 selected_query.h  21785 region_choose.h  22012 region.h
+ *  19896 traversal.h  20145 traversal_run.h  20338 row_sets.h  20372 unit_vectors.h
+ *  20599 bilinear.h  20771 entries.h  21048 block.h  21283 reserve.h  21475 selected.h
+ *  21685 selected_query.h  21787 region_choose.h  22014 region.h
  * (change: a factor that follows changes of its matrix)
- *  22260 update.h  22628 path.h  22747 rank.h  23125 edges.h  23279 choose.h  23524 pins_types.h
- *  23603 pins_nulls.h  23786 pins_capacitance.h  24038 pins_balance.h  24217 pins_held.h
- *  24433 pins_choose.h  24490 pins_rebuild.h  24708 pins_matrix.h  24859 pins.h  25128 pins_solve.h
- *  25399 subset.h  25527 restrict_kept.h  25725 restrict_analysis.h  25977 restrict_symbolic.h
- *  26172 restrict.h  26403 edit_match.h  26602 edit_place.h  26851 edit_separate.h
- *  27165 edit_order.h  27320 edit_graph.h  27402 edit_join.h  27678 edit.h  27841 edit_factor.h
+ *  22262 update.h  22630 path.h  22749 rank.h  23127 edges.h  23281 choose.h  23526 pins_types.h
+ *  23592 pins_nulls.h  23775 pins_capacitance.h  24029 pins_balance.h  24208 pins_held.h
+ *  24424 pins_choose.h  24481 pins_rebuild.h  24699 pins_matrix.h  24850 pins.h  25119 pins_solve.h
+ *  25392 subset.h  25520 restrict_kept.h  25718 restrict_analysis.h  25970 restrict_symbolic.h
+ *  26165 restrict.h  26396 edit_match.h  26595 edit_place.h  26844 edit_separate.h
+ *  27158 edit_order.h  27313 edit_graph.h  27395 edit_join.h  27671 edit.h  27834 edit_factor.h
  * (save: factors in files)
- *  28126 format.h  28423 decode.h  28571 check.h  28901 write.h  29206 load.h  29474 load_inverse.h
- *  29804 load_calls.h
+ *  28119 format.h  28416 decode.h  28564 check.h  28894 write.h  29199 load.h  29467 load_inverse.h
+ *  29797 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30003 batch_solve.h  30212 batch_factor.h  30413 batch_diagonal.h
+ *  29996 batch_solve.h  30205 batch_factor.h  30406 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30553 hermitian.h  30715 complex_rows.h
+ *  30546 hermitian.h  30708 complex_rows.h
  * (last: undefine every internal macro)
- *  30883 undef.h
+ *  30876 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31164 front.inl.h  31166 product.inl.h  31677 copy_rows.inl.h  31715 sweeps.inl.h
- *  31717 unit_triangle.inl.h  31754 two_rhs.inl.h  31923 small_supernode.inl.h
- *  32104 single_rhs.inl.h  32340 multi_rhs.inl.h  32359 complex_groups.inl.h
- *  32498 multi_rhs_small.inl.h  32670 multi_rhs_tiles.inl.h  32947 kernel_set.inl.h
- *  32949 complex_small.inl.h  33119 complex_rows.inl.h  33334 inverse_front.inl.h  33619 row.inl.h
- *  33649 change.inl.h  33892 interleave.inl.h  34026 lanes_undef.inl.h  34045 words_undef.inl.h
+ *  31157 front.inl.h  31159 product.inl.h  31670 copy_rows.inl.h  31708 sweeps.inl.h
+ *  31710 unit_triangle.inl.h  31747 two_rhs.inl.h  31916 small_supernode.inl.h
+ *  32097 single_rhs.inl.h  32333 multi_rhs.inl.h  32352 complex_groups.inl.h
+ *  32491 multi_rhs_small.inl.h  32663 multi_rhs_tiles.inl.h  32940 kernel_set.inl.h
+ *  32942 complex_small.inl.h  33112 complex_rows.inl.h  33327 inverse_front.inl.h  33612 row.inl.h
+ *  33642 change.inl.h  33885 interleave.inl.h  34019 lanes_undef.inl.h  34038 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13251,15 +13251,17 @@ SLI_INLINE sl_int sli_reach_index(const sli_reach *R, sl_int *at, sl_int column)
   return column - R->steps[*at].column + R->steps[*at].base;
 }
 
-static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
-  const sli_step *step;
-  if (R->count == 0) {
-    return -1;
-  }
-  step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
-  return column >= step->column && column < step->column + sli_step_columns(step)
-         ? step->base + column - step->column
+static sl_int sli_reach_step_of(const sli_reach *R, sl_int column) {
+  const sl_int s = R->count == 0 ? -1 : sli_reach_find(R->steps, 0, R->count - 1, column);
+  return s != -1 && column >= R->steps[s].column &&
+           column < R->steps[s].column + sli_step_columns(&R->steps[s])
+         ? s
          : -1;
+}
+
+static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
+  const sl_int s = sli_reach_step_of(R, column);
+  return s == -1 ? -1 : R->steps[s].base + column - R->steps[s].column;
 }
 
 typedef struct sli_intersection {
@@ -23530,6 +23532,7 @@ typedef struct sli_pin {
   double *values;
   sli_reach R;
   double *y;
+  double *u;
   sl_int n_nulls;
   sl_int *nulls;
   double *z;
@@ -23579,20 +23582,6 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
     sum += chains[k];
   }
   return sum;
-}
-
-static void sli_divide(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-  sl_int s, k, r;
-  for (s = 0; s < R->count; s++) {
-    const double *d = F->D + R->steps[s].column;
-    const sl_int columns = sli_step_columns(&R->steps[s]);
-    double *row = y + (ptrdiff_t)R->steps[s].base * lanes;
-    for (k = 0; k < columns; k++, row += lanes) {
-      for (r = 0; r < lanes; r++) {
-        row[r] /= d[k];
-      }
-    }
-  }
 }
 
 SLI_INLINE sl_int sli_held_find(const sl_pins *P, sl_int column) {
@@ -23789,7 +23778,7 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
   const sl_factor *F = P->base;
   const sl_symbolic *S = F->S;
   const sl_status status = sli_pin_find_nulls(P, pin, row);
-  sl_int k;
+  sl_int s, k;
   if (status != SL_OK) {
     return status;
   }
@@ -23804,6 +23793,12 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
     const sl_int at = sli_reach_index_of(&pin->R, F->nulls[pin->nulls[k]]);
     if (at != -1) {
       pin->y[at] = 0.0;
+    }
+  }
+  for (s = 0; s < pin->R.count; s++) {
+    const sli_step *step = &pin->R.steps[s];
+    for (k = step->base; k < step->base + sli_step_columns(step); k++) {
+      pin->u[k] = pin->y[k] / F->D[step->column + k - step->base];
     }
   }
   return SL_OK;
@@ -23846,10 +23841,12 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
       sl_int *copy = SLI_TAKE(&kept, sl_int, count);
       double *x = SLI_TAKE(&kept, double, count);
       double *y = SLI_TAKE(&kept, double, R.columns);
+      double *u = SLI_TAKE(&kept, double, R.columns);
       if (pass == 1) {
         pin->rows = copy;
         pin->values = x;
         pin->y = y;
+        pin->u = u;
       }
     }
     status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
@@ -23877,8 +23874,7 @@ static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x,
   sli_intersection m = sli_intersection_of(&pin->R, R);
   double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   while (sli_intersection_next(&m)) {
-    const double *y = pin->y + m.in_a, *row = x + (ptrdiff_t)lanes * m.in_b;
-    sli_chains_add(chains, y, row, m.count, lanes);
+    sli_chains_add(chains, pin->u + m.in_a, x + (ptrdiff_t)lanes * m.in_b, m.count, lanes);
   }
   sli_chains_sum(chains, lanes, sums);
 }
@@ -23897,18 +23893,16 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
   }
 }
 
-static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin, double *y) {
+static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
   const sl_int k = P->n_pins;
   const size_t ld = (size_t)P->capacity;
   double *row = P->K + (size_t)k * ld, own, d;
   sl_int i;
-  memcpy(y, pin->y, (size_t)pin->R.columns * sizeof *y);
-  sli_divide(P->base, &pin->R, y, 1);
-  sli_pin_dot(pin, &pin->R, y, 1, &own);
+  sli_pin_dot(pin, &pin->R, pin->y, 1, &own);
   own += sli_pin_nulls_dot(pin, pin) / P->delta;
   d = own;
   for (i = 0; i < k; i++) {
-    sli_pin_dot(P->pins[i], &pin->R, y, 1, &row[i]);
+    sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, &row[i]);
     row[i] += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
     row[i] -= sli_dot(P->K + (size_t)i * ld, row, i);
   }
@@ -23989,18 +23983,15 @@ static sl_status sli_pins_grow(sl_pins *P) {
 static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
                  sl_int count, sl_stats *stats) {
   sli_pin *pin = NULL;
-  double *y = NULL;
   sl_status status = sli_pins_grow(P);
   status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
   if (status != SL_OK) {
     return status;
   }
-  y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
-  status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
-  sli_free(&P->allocator, y);
+  status = sli_pins_append(P, pin);
   if (status != SL_OK) {
     sli_pin_free(P, pin);
-    return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
+    return sli_fail_at(stats, status, rows[0], -1, 0.0);
   }
   pin->index = index;
   sli_pins_count_nulls(P, pin, 1);
@@ -24922,7 +24913,7 @@ static void sli_pins_drop(sl_pins *P, sl_int index) {
 
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                     sl_int count, sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
@@ -25018,7 +25009,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
 }
 
 SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   double seconds = 0.0, threshold;
   sl_pins_reason reason;
   sl_status status = SL_OK;
@@ -25066,7 +25057,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats) {
 
 SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int count,
                     sl_stats *stats) {
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_pins_target t;
   sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
   unsigned char *gone = NULL;
@@ -25129,7 +25120,7 @@ SL_API sl_int sl_pins_count(const sl_pins *P) {
 
 typedef struct sli_pins_work {
   unsigned char *memory;
-  double *u;
+  double *largest;
   double *f;
   double *e;
   double *scratch;
@@ -25144,10 +25135,7 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
               sl_int nrhs) {
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
-  w->u = SLI_TAKE(b, double,
-          P->n_pins == 0 ? 0
-                   : (uint64_t)sli_max(q->forward.columns, q->backward.columns) *
-                     (uint64_t)lanes);
+  w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
   if (P->n_held > 0 && !sli_pins_is_whole(q)) {
     const sli_reach *R = &P->held_reach;
@@ -25193,17 +25181,21 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
   }
 }
 
-static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
-              const double *G, size_t ldg, sl_int nrhs) {
+static void sli_pins_spread(const sl_pins *P, const sli_pins_work *w, const double *G, size_t ldg,
+              sl_int nrhs) {
   const sli_reach *R = &P->held_reach;
   const int kind = sli_lanes_kind(nrhs);
   const sl_int lanes = (sl_int)1 << kind;
-  sli_intersection m = sli_intersection_of(R, &q->backward);
-  sl_int k;
   memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
   sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
   sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
   (void)sli_pins_clear(P, R, w->e, lanes, NULL);
+}
+
+static void sli_pins_join(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
+              sl_int lanes) {
+  sli_intersection m = sli_intersection_of(&P->held_reach, &q->backward);
+  sl_int k;
   while (sli_intersection_next(&m)) {
     const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
     double *to = x + (ptrdiff_t)m.in_b * lanes;
@@ -25211,16 +25203,15 @@ static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins
       to[k] += e[k];
     }
   }
-  sli_divide(P->base, R, w->e, lanes);
 }
 
 static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
-              const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
+              const double *y, const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
   sl_int p, r, k;
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
     double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
-    sli_pin_dot(pin, &q->forward, w->u, lanes, sums);
+    sli_pin_dot(pin, &q->forward, y, lanes, sums);
     if (P->n_held > 0 && !sli_pins_is_whole(q)) {
       sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
       for (r = 0; r < lanes; r++) {
@@ -25254,11 +25245,12 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
     const sl_int end = R->steps[s].base + sli_step_columns(&R->steps[s]);
     for (k = R->steps[s].base; k < end; k++) {
       for (r = 0; r < lanes; r++) {
-        most[r] = fmax(most[r], fabs(x[(ptrdiff_t)k * lanes + r]));
+        const double size = fabs(x[(ptrdiff_t)k * lanes + r]);
+        most[r] = size > most[r] ? size : most[r];
       }
     }
     if (R->steps[s].up == -1) {
-      for (; first < end; first++) {
+      for (; first <= s; first++) {
         memcpy(largest + (ptrdiff_t)first * lanes, most, (size_t)lanes * sizeof *most);
       }
       memset(most, 0, sizeof most);
@@ -25275,15 +25267,17 @@ static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
       const sli_pin *pin = P->pins[p];
       const double g = G[(size_t)pin->index + ldg * (size_t)r];
       double sum = -g, size = 0.0;
-      sl_int at = 0;
-      for (k = 0; k < pin->count && at != -1; k++) {
-        at = sli_reach_index_of(R, P->F->S->iperm[pin->rows[k]]);
-        if (at != -1) {
+      sl_int s = 0;
+      for (k = 0; k < pin->count && s != -1; k++) {
+        const sl_int column = P->F->S->iperm[pin->rows[k]];
+        s = sli_reach_step_of(R, column);
+        if (s != -1) {
+          const sl_int at = R->steps[s].base + column - R->steps[s].column;
           sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
-          size += fabs(pin->values[k]) * largest[(ptrdiff_t)at * lanes + r];
+          size += fabs(pin->values[k]) * largest[(ptrdiff_t)s * lanes + r];
         }
       }
-      if (at != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
+      if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
         return 0;
       }
     }
@@ -25316,17 +25310,16 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   if (!sli_pins_clear(P, &q->forward, v.y, lanes, norms)) {
     return SL_ERR_INCONSISTENT;
   }
-  if (P->n_pins > 0) {
-    memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
-    sli_divide(F, &q->forward, w->u, lanes);
+  if (P->n_held > 0 && !is_whole) {
+    sli_pins_spread(P, w, G, ldg, nrhs);
   }
+  sli_pins_load(P, q, w, v.y, G, ldg, lanes, nrhs);
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
   }
   if (P->n_held > 0 && !is_whole) {
-    sli_pins_spread(P, q, w, v.x, G, ldg, nrhs);
+    sli_pins_join(P, q, w, v.x, lanes);
   }
-  sli_pins_load(P, q, w, G, ldg, lanes, nrhs);
   sli_pins_apply(P, w->f, lanes);
   if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
     return SL_ERR_INCONSISTENT;
@@ -25341,9 +25334,9 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   sli_pins_shift(P, q, &w->nulls, v.x, lanes);
   sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
   if (P->n_pins > 0) {
-    sli_pins_largest(&q->backward, v.x, w->u, lanes);
+    sli_pins_largest(&q->backward, v.x, w->largest, lanes);
   }
-  if (!sli_pins_hold(P, &q->backward, v.x, w->u, G, ldg, lanes, nrhs)) {
+  if (!sli_pins_hold(P, &q->backward, v.x, w->largest, G, ldg, lanes, nrhs)) {
     return SL_ERR_INACCURATE;
   }
   sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);

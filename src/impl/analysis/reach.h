@@ -262,16 +262,19 @@ SLI_INLINE sl_int sli_reach_index(const sli_reach *R, sl_int *at, sl_int column)
     return column - R->steps[*at].column + R->steps[*at].base;
 }
 
+/* The step of any column, or -1 if it is not in the reach. */
+static sl_int sli_reach_step_of(const sli_reach *R, sl_int column) {
+    const sl_int s = R->count == 0 ? -1 : sli_reach_find(R->steps, 0, R->count - 1, column);
+    return s != -1 && column >= R->steps[s].column &&
+                   column < R->steps[s].column + sli_step_columns(&R->steps[s])
+               ? s
+               : -1;
+}
+
 /* The index of any column in the compact vector, or -1 if it is not in the reach. */
 static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
-    const sli_step *step;
-    if (R->count == 0) {
-        return -1;
-    }
-    step = &R->steps[sli_reach_find(R->steps, 0, R->count - 1, column)];
-    return column >= step->column && column < step->column + sli_step_columns(step)
-               ? step->base + column - step->column
-               : -1;
+    const sl_int s = sli_reach_step_of(R, column);
+    return s == -1 ? -1 : R->steps[s].base + column - R->steps[s].column;
 }
 
 /* Iterates over the supernodes that two reaches share: sli_intersection_of, then

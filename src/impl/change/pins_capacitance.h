@@ -4,12 +4,12 @@
 
 #include "pins_nulls.h"
 
-/* y := L^-1 P c, and the entries of W. Sets *row where a null vector is not known. */
+/* y := L^-1 P c, u := D^-1 y, and the entries of W. Sets *row where a null vector is not known. */
 static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
     const sl_factor *F = P->base;
     const sl_symbolic *S = F->S;
     const sl_status status = sli_pin_find_nulls(P, pin, row);
-    sl_int k;
+    sl_int s, k;
     if (status != SL_OK) {
         return status;
     }
@@ -24,6 +24,12 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
         const sl_int at = sli_reach_index_of(&pin->R, F->nulls[pin->nulls[k]]);
         if (at != -1) {
             pin->y[at] = 0.0;
+        }
+    }
+    for (s = 0; s < pin->R.count; s++) {
+        const sli_step *step = &pin->R.steps[s];
+        for (k = step->base; k < step->base + sli_step_columns(step); k++) {
+            pin->u[k] = pin->y[k] / F->D[step->column + k - step->base];
         }
     }
     return SL_OK;
@@ -67,10 +73,12 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
             sl_int *copy = SLI_TAKE(&kept, sl_int, count);
             double *x = SLI_TAKE(&kept, double, count);
             double *y = SLI_TAKE(&kept, double, R.columns);
+            double *u = SLI_TAKE(&kept, double, R.columns);
             if (pass == 1) {
                 pin->rows = copy;
                 pin->values = x;
                 pin->y = y;
+                pin->u = u;
             }
         }
         status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
@@ -93,14 +101,13 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
     return row == -1 ? status : sli_fail_at(stats, status, row, -1, 0.0);
 }
 
-/* sums(r) := sum over the shared columns of y(k) x(k, r). x: the vector of a reach. */
+/* sums(r) := sum over the shared columns of u(k) x(k, r). x: the vector of a reach. */
 static void sli_pin_dot(const sli_pin *pin, const sli_reach *R, const double *x, sl_int lanes,
                         double *sums) {
     sli_intersection m = sli_intersection_of(&pin->R, R);
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     while (sli_intersection_next(&m)) {
-        const double *y = pin->y + m.in_a, *row = x + (ptrdiff_t)lanes * m.in_b;
-        sli_chains_add(chains, y, row, m.count, lanes);
+        sli_chains_add(chains, pin->u + m.in_a, x + (ptrdiff_t)lanes * m.in_b, m.count, lanes);
     }
     sli_chains_sum(chains, lanes, sums);
 }
@@ -121,19 +128,17 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
 }
 
 /* Appends the last of P->n_pins + 1 equalities to the factor of K. A pin that depends on the others
- * leaves a pivot of rounding errors. y: R.columns of scratch. */
-static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin, double *y) {
+ * leaves a pivot of rounding errors. */
+static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
     const sl_int k = P->n_pins;
     const size_t ld = (size_t)P->capacity;
     double *row = P->K + (size_t)k * ld, own, d;
     sl_int i;
-    memcpy(y, pin->y, (size_t)pin->R.columns * sizeof *y);
-    sli_divide(P->base, &pin->R, y, 1);
-    sli_pin_dot(pin, &pin->R, y, 1, &own);
+    sli_pin_dot(pin, &pin->R, pin->y, 1, &own);
     own += sli_pin_nulls_dot(pin, pin) / P->delta;
     d = own;
     for (i = 0; i < k; i++) { /* row(i) = l(i) d(i) */
-        sli_pin_dot(P->pins[i], &pin->R, y, 1, &row[i]);
+        sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, &row[i]);
         row[i] += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
         row[i] -= sli_dot(P->K + (size_t)i * ld, row, i);
     }
@@ -218,18 +223,15 @@ static sl_status sli_pins_grow(sl_pins *P) {
 static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
                                sl_int count, sl_stats *stats) {
     sli_pin *pin = NULL;
-    double *y = NULL;
     sl_status status = sli_pins_grow(P);
     status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
     if (status != SL_OK) {
         return status;
     }
-    y = (double *)sli_alloc(&P->allocator, (size_t)pin->R.columns * sizeof *y);
-    status = y == NULL ? SL_ERR_MEMORY : sli_pins_append(P, pin, y);
-    sli_free(&P->allocator, y);
+    status = sli_pins_append(P, pin);
     if (status != SL_OK) {
         sli_pin_free(P, pin);
-        return status == SL_ERR_MEMORY ? status : sli_fail_at(stats, status, rows[0], -1, 0.0);
+        return sli_fail_at(stats, status, rows[0], -1, 0.0);
     }
     pin->index = index;
     sli_pins_count_nulls(P, pin, 1);

@@ -7,9 +7,9 @@
 /* Arrays of a solve. */
 typedef struct sli_pins_work {
     unsigned char *memory; /* of the sweeps */
-    double *u;             /* columns of either reach x lanes: D^-1 y; then the largest |x| */
+    double *largest;       /* steps of the backward reach x lanes: |x| */
     double *f;             /* n_pins x lanes: K f, then f */
-    double *e;             /* held_reach.columns x lanes: L^-1 P A(:, H) g, for local solves */
+    double *e;             /* held_reach.columns x lanes: -L^-1 P A(:, H) g, for local solves */
     double *scratch;       /* of its sweep */
     sli_pins_nulls nulls;
 } sli_pins_work;
@@ -23,10 +23,7 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
                             sl_int nrhs) {
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
     w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
-    w->u = SLI_TAKE(b, double,
-                    P->n_pins == 0 ? 0
-                                   : (uint64_t)sli_max(q->forward.columns, q->backward.columns) *
-                                         (uint64_t)lanes);
+    w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
     w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
     if (P->n_held > 0 && !sli_pins_is_whole(q)) {
         const sli_reach *R = &P->held_reach;
@@ -76,18 +73,23 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
     }
 }
 
-/* e := L^-1 P (-A(:, H) g) in the vector of held_reach; x += e; e := D^-1 e. */
-static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
-                            const double *G, size_t ldg, sl_int nrhs) {
+/* e := L^-1 P (-A(:, H) g) in the vector of held_reach. */
+static void sli_pins_spread(const sl_pins *P, const sli_pins_work *w, const double *G, size_t ldg,
+                            sl_int nrhs) {
     const sli_reach *R = &P->held_reach;
     const int kind = sli_lanes_kind(nrhs);
     const sl_int lanes = (sl_int)1 << kind;
-    sli_intersection m = sli_intersection_of(R, &q->backward);
-    sl_int k;
     memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
     sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
     sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
     (void)sli_pins_clear(P, R, w->e, lanes, NULL);
+}
+
+/* x += e */
+static void sli_pins_join(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
+                          sl_int lanes) {
+    sli_intersection m = sli_intersection_of(&P->held_reach, &q->backward);
+    sl_int k;
     while (sli_intersection_next(&m)) {
         const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
         double *to = x + (ptrdiff_t)m.in_b * lanes;
@@ -95,17 +97,16 @@ static void sli_pins_spread(const sl_pins *P, const sli_query *q, const sli_pins
             to[k] += e[k];
         }
     }
-    sli_divide(P->base, R, w->e, lanes);
 }
 
-/* f := K f = g - C' A^-1 b, where u and e are D^-1 L^-1 P b. */
+/* f := K f = g - C' A^-1 b, where L^-1 P b is the sum of y and e. */
 static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
-                          const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
+                          const double *y, const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
     sl_int p, r, k;
     for (p = 0; p < P->n_pins; p++) {
         const sli_pin *pin = P->pins[p];
         double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
-        sli_pin_dot(pin, &q->forward, w->u, lanes, sums);
+        sli_pin_dot(pin, &q->forward, y, lanes, sums);
         if (P->n_held > 0 && !sli_pins_is_whole(q)) {
             sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
             for (r = 0; r < lanes; r++) {
@@ -134,7 +135,7 @@ static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_w
  * much larger than x. */
 #define SLI_PINS_LOST 1e-8
 
-/* largest := the largest |x| of the tree of each row. */
+/* largest := the largest |x| of the tree of each step. */
 static void sli_pins_largest(const sli_reach *R, const double *x, double *largest, sl_int lanes) {
     double most[SLI_TILE] = {0.0};
     sl_int s, k, r, first = 0;
@@ -142,11 +143,12 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
         const sl_int end = R->steps[s].base + sli_step_columns(&R->steps[s]);
         for (k = R->steps[s].base; k < end; k++) {
             for (r = 0; r < lanes; r++) {
-                most[r] = fmax(most[r], fabs(x[(ptrdiff_t)k * lanes + r]));
+                const double size = fabs(x[(ptrdiff_t)k * lanes + r]);
+                most[r] = size > most[r] ? size : most[r]; /* fmax is a call */
             }
         }
         if (R->steps[s].up == -1) {
-            for (; first < end; first++) {
+            for (; first <= s; first++) {
                 memcpy(largest + (ptrdiff_t)first * lanes, most, (size_t)lanes * sizeof *most);
             }
             memset(most, 0, sizeof most);
@@ -164,15 +166,17 @@ static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
             const sli_pin *pin = P->pins[p];
             const double g = G[(size_t)pin->index + ldg * (size_t)r];
             double sum = -g, size = 0.0;
-            sl_int at = 0;
-            for (k = 0; k < pin->count && at != -1; k++) {
-                at = sli_reach_index_of(R, P->F->S->iperm[pin->rows[k]]);
-                if (at != -1) {
+            sl_int s = 0;
+            for (k = 0; k < pin->count && s != -1; k++) {
+                const sl_int column = P->F->S->iperm[pin->rows[k]];
+                s = sli_reach_step_of(R, column);
+                if (s != -1) {
+                    const sl_int at = R->steps[s].base + column - R->steps[s].column;
                     sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
-                    size += fabs(pin->values[k]) * largest[(ptrdiff_t)at * lanes + r];
+                    size += fabs(pin->values[k]) * largest[(ptrdiff_t)s * lanes + r];
                 }
             }
-            if (at != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
+            if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
                 return 0;
             }
         }
@@ -206,17 +210,16 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     if (!sli_pins_clear(P, &q->forward, v.y, lanes, norms)) {
         return SL_ERR_INCONSISTENT;
     }
-    if (P->n_pins > 0) {
-        memcpy(w->u, v.y, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
-        sli_divide(F, &q->forward, w->u, lanes);
+    if (P->n_held > 0 && !is_whole) {
+        sli_pins_spread(P, w, G, ldg, nrhs);
     }
+    sli_pins_load(P, q, w, v.y, G, ldg, lanes, nrhs);
     if (!q->is_shared) {
         sli_sweep_transfer(q, v.y, v.x, lanes);
     }
     if (P->n_held > 0 && !is_whole) {
-        sli_pins_spread(P, q, w, v.x, G, ldg, nrhs);
+        sli_pins_join(P, q, w, v.x, lanes);
     }
-    sli_pins_load(P, q, w, G, ldg, lanes, nrhs);
     sli_pins_apply(P, w->f, lanes);
     if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
         return SL_ERR_INCONSISTENT;
@@ -231,9 +234,9 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     sli_pins_shift(P, q, &w->nulls, v.x, lanes);
     sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
     if (P->n_pins > 0) {
-        sli_pins_largest(&q->backward, v.x, w->u, lanes);
+        sli_pins_largest(&q->backward, v.x, w->largest, lanes);
     }
-    if (!sli_pins_hold(P, &q->backward, v.x, w->u, G, ldg, lanes, nrhs)) {
+    if (!sli_pins_hold(P, &q->backward, v.x, w->largest, G, ldg, lanes, nrhs)) {
         return SL_ERR_INACCURATE;
     }
     sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);

@@ -33,6 +33,7 @@ typedef struct sli_pin {
     double *values; /* count: its entries */
     sli_reach R;    /* of c */
     double *y;      /* R.columns: L^-1 P c, 0 at null pivots */
+    double *u;      /* R.columns: D^-1 y */
     sl_int n_nulls; /* null pivots in its trees */
     sl_int *nulls;  /* n_nulls: their numbers, ascending; the first array of its own block */
     double *z;      /* n_nulls: z' c of their null vectors, the entries of W */
@@ -85,21 +86,6 @@ static double sli_dot(const double *a, const double *b, sl_int count) {
         sum += chains[k];
     }
     return sum;
-}
-
-/* y := D^-1 y over a reach, and 0 at null pivots, where D is SLI_NULL_PIVOT. */
-static void sli_divide(const sl_factor *F, const sli_reach *R, double *y, sl_int lanes) {
-    sl_int s, k, r;
-    for (s = 0; s < R->count; s++) {
-        const double *d = F->D + R->steps[s].column;
-        const sl_int columns = sli_step_columns(&R->steps[s]);
-        double *row = y + (ptrdiff_t)R->steps[s].base * lanes;
-        for (k = 0; k < columns; k++, row += lanes) {
-            for (r = 0; r < lanes; r++) {
-                row[r] /= d[k];
-            }
-        }
-    }
 }
 
 /* The number of a column among the held ones, or -1. */
