@@ -493,7 +493,7 @@ bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigen
 	@+$(SUB_MAKE) run-bench QUESTION_DEFAULT=eigenpairs $(ARPACK_BENCH)
 
 readme-table: ## prints the measurements of the last bench-peers as Markdown tables
-	@awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
+	@awk -f tools/build/csv.awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
 	$(wildcard build/bench-out/peers_harmonic.csv)
 
 # ---- clusters ----

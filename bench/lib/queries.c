@@ -144,34 +144,36 @@ static bench_query *next_query(bench_queries *q) {
     return one;
 }
 
-void bench_call_plan_create(void *state) {
-    bench_queries *q = state;
-    const bench_query *one = next_query(q);
+static sl_plan *plan_of(const bench_queries *q, const bench_query *one) {
     sl_plan *plan;
     bench_must(
         sl_plan_create(&plan, q->system->S, one->bset, one->nb, one->xset, one->nx, NULL, NULL),
         "plan");
-    sl_plan_free(plan);
+    return plan;
+}
+
+static void solve_on(const sl_plan *plan, const bench_queries *q, const bench_query *one) {
+    bench_must(sl_plan_solve(plan, q->system->F, one->X, (size_t)one->nx, one->B, (size_t)one->nb,
+                             q->nrhs, q->W),
+               "plan solve");
+}
+
+void bench_call_plan_create(void *state) {
+    bench_queries *q = state;
+    sl_plan_free(plan_of(q, next_query(q)));
 }
 
 void bench_call_plan_solve(void *state) {
     bench_queries *q = state;
     const bench_query *one = next_query(q);
-    bench_must(sl_plan_solve(one->plan, q->system->F, one->X, (size_t)one->nx, one->B,
-                             (size_t)one->nb, q->nrhs, q->W),
-               "plan solve");
+    solve_on(one->plan, q, one);
 }
 
 void bench_call_plan_and_solve(void *state) {
     bench_queries *q = state;
     const bench_query *one = next_query(q);
-    sl_plan *plan;
-    bench_must(
-        sl_plan_create(&plan, q->system->S, one->bset, one->nb, one->xset, one->nx, NULL, NULL),
-        "plan");
-    bench_must(sl_plan_solve(plan, q->system->F, one->X, (size_t)one->nx, one->B, (size_t)one->nb,
-                             q->nrhs, q->W),
-               "plan solve");
+    sl_plan *plan = plan_of(q, one);
+    solve_on(plan, q, one);
     sl_plan_free(plan);
 }
 

@@ -7,19 +7,7 @@ cd "$(dirname "$0")/../.." || exit 1
 lib=build/lib
 dir=build/check_shared
 mkdir -p $dir || exit 1
-passed=0 failed=0
-
-# check TEXT COMMAND: COMMAND is one string that succeeds.
-check() {
-    if (eval "$2") >$dir/log 2>&1; then
-        passed=$((passed + 1))
-        echo "ok       $1"
-    else
-        failed=$((failed + 1))
-        echo "FAILED   $1"
-        head -n 20 $dir/log | sed 's/^/    /'
-    fi
-}
+. tests/lib/checks.sh
 
 # Functions that the header declares: sl_NAME( after SL_API, which may be on the line before.
 sed -n '/^#ifndef SPARSE_LOCAL_H/,/^#endif \/\* SPARSE_LOCAL_H/p' sparse_local.h | tr '\n' ' ' |
@@ -61,5 +49,4 @@ check "SL_API may be chosen by the user" \
     $CC -O0 -DSL_NO_SIMD -fPIC -shared -I. $dir/hidden.c -o $dir/hidden.so -lm &&
     [ -z "$(nm -D --defined-only $dir/hidden.so | grep " sl_")" ]'
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+checks_end

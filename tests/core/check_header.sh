@@ -9,7 +9,8 @@ cd "$(dirname "$0")/../.." || exit 1
 dir=build/promises
 rm -rf $dir
 mkdir -p $dir || exit 1
-passed=0 failed=0 skipped=0
+. tests/lib/checks.sh
+skipped=0
 
 cc=${CC:-cc}
 cxx=${CXX:-g++}
@@ -21,24 +22,10 @@ c99="-std=c99 $both -Wstrict-prototypes -Wmissing-prototypes"
 cxx11="-x c++ -std=c++11 $both"
 libs=-lm
 
-# promise TEXT COMMAND: the promise holds if the command succeeds. COMMAND is one string; it may be
-# a list.
-promise() {
-    if (eval "$2") >$dir/log 2>&1; then
-        passed=$((passed + 1))
-        echo "ok       $1"
-    else
-        failed=$((failed + 1))
-        echo "FAILED   $1"
-        echo "    $2" | sed 's/^/    /'
-        head -n 40 $dir/log | sed 's/^/    /'
-    fi
-}
-
-# promise_of COMPILER TEXT COMMAND: the same, skipped if the compiler is not installed.
+# promise_of COMPILER TEXT COMMAND: check TEXT COMMAND, skipped if the compiler is not installed.
 promise_of() {
     if command -v "$1" >/dev/null 2>&1; then
-        promise "$2" "$3"
+        check "$2" "$3"
     else
         skipped=$((skipped + 1))
         echo "skipped  $2: $1 is not installed"
@@ -48,7 +35,7 @@ promise_of() {
 # thorough TEXT COMMAND: a promise that is checked only if PROMISES=all.
 thorough() {
     if [ "$PROMISES" = all ]; then
-        promise "$1" "$2"
+        check "$1" "$2"
     else
         skipped=$((skipped + 1))
         echo "skipped  $1: make check-promises"
@@ -207,7 +194,7 @@ none() {
 
 # The objects of the bodies that several promises use.
 bodies=$dir/bodies.o
-promise "the bodies compile alone" "$cc $c99 -fno-pie -c $dir/bodies.c -o $bodies"
+check "the bodies compile alone" "$cc $c99 -fno-pie -c $dir/bodies.c -o $bodies"
 thorough "plain cc -O2 file.c -lm: no -march, no -std, no other library" \
     "$cc -O2 -I. $dir/one.c -o $dir/one $libs && $dir/one"
 for compiler in gcc clang; do
@@ -217,13 +204,13 @@ for compiler in gcc clang; do
         "$compiler $c99 -std=c11 -fsyntax-only $dir/one.c &&
          $compiler $c99 -std=c17 -fsyntax-only $dir/one.c"
 done
-promise "two source files, one with the bodies" \
+check "two source files, one with the bodies" \
     "$cc $c99 -no-pie -fno-pie $dir/user.c $bodies -o $dir/two $libs && $dir/two"
-promise "included again and again in one file" \
+check "included again and again in one file" \
     "$cc $c99 $light $dir/twice.c -o $dir/twice $libs && $dir/twice"
-promise "SL_STATIC in two files linked together" \
+check "SL_STATIC in two files linked together" \
     "$cc $c99 $light $dir/static_a.c $dir/static_b.c -o $dir/static $libs && $dir/static"
-promise "SL_NO_METIS overrides SL_METIS and needs no METIS" \
+check "SL_NO_METIS overrides SL_METIS and needs no METIS" \
     "$cc $c99 $light -DSL_METIS -DSL_NO_METIS $dir/one.c -o $dir/no_metis -lm && $dir/no_metis"
 thorough "SL_METIS adds METIS" \
     "$cc $c99 -DSL_METIS $dir/one.c -o $dir/metis -lmetis -lm && $dir/metis"
@@ -240,7 +227,7 @@ promise_of tcc "tcc: a compiler without the extensions of gcc and clang" \
     "tcc -Wall -Werror -I. $dir/one.c -o $dir/one_tcc $libs && $dir/one_tcc &&
      tcc -I. $dir/static_a.c $dir/static_b.c -o $dir/static_tcc $libs && $dir/static_tcc"
 
-promise "-ffast-math refuses the bodies, not the declarations" \
+check "-ffast-math refuses the bodies, not the declarations" \
     "$cc -O1 -I. -ffast-math -fsyntax-only $dir/user.c &&
      $cc -Ofast -I. -fsyntax-only $dir/user.c &&
      for flag in -ffast-math -Ofast -ffinite-math-only; do
@@ -296,9 +283,9 @@ for compiler in gcc clang; do
          refused 'names another version' \
              $compiler -fsyntax-only -DSL_HEADER='\"other_version.h\"' $dir/renamed.c"
 done
-promise "each kernel template is in the header once" \
+check "each kernel template is in the header once" \
     "grep -o '^/\\* src/[^ ]*:' sparse_local.h | sort | uniq -d | none"
-promise "make header-flat: a header that is pasted into a source file" \
+check "make header-flat: a header that is pasted into a source file" \
     "make --no-print-directory header-flat &&
      { echo '#define SPARSE_LOCAL_IMPLEMENTATION'; cat build/sparse_local_flat.h
        sed '/\"sparse_local.h\"/d' $dir/user.h
@@ -308,14 +295,14 @@ promise "make header-flat: a header that is pasted into a source file" \
 
 # ---- instruction sets ----
 
-promise "SL_NO_SIMD: only the kernels in plain C; options.isa refuses all others" \
+check "SL_NO_SIMD: only the kernels in plain C; options.isa refuses all others" \
     "$cc -I. $dir/isa_numbers.c -o $dir/isa_numbers && eval \$($dir/isa_numbers) &&
      $cc $c99 -DSL_NO_SIMD -c $dir/bodies.c -o $dir/no_simd.o &&
      nm $dir/no_simd.o | grep -E '_(avx2|avx512|neon)' | none &&
      $cc -I. $dir/user.c $dir/no_simd.o -o $dir/no_simd $libs && $dir/no_simd &&
      $cc -I. $dir/isa.c $dir/no_simd.o -o $dir/isa $libs &&
      $dir/isa \$scalar \$avx2 \$avx512 \$neon"
-promise "SL_NO_AVX512: leaves out only AVX-512" \
+check "SL_NO_AVX512: leaves out only AVX-512" \
     "$cc -I. $dir/isa_numbers.c -o $dir/isa_numbers && eval \$($dir/isa_numbers) &&
      $cc $c99 -DSL_NO_AVX512 -c $dir/bodies.c -o $dir/no_avx512.o &&
      nm $dir/no_avx512.o | grep '_avx512' | none &&
@@ -344,10 +331,10 @@ promise_of $cxx "$cxx: C++17 and C++20" \
 
 # Without optimization gcc keeps the unused functions of <cpuid.h>: __get_cpuid and the like.
 # Statics inside a function need no prefix; gcc appends .N to their names.
-promise "the bodies define sl_ symbols, their helpers sli_ ones, and nothing else" \
+check "the bodies define sl_ symbols, their helpers sli_ ones, and nothing else" \
     "nm --defined-only $bodies | grep -v ' t __get_cpuid' |
          awk '\$2 ~ /[A-Z]/ && \$3 !~ /^sl_/ || \$3 !~ /^(sli?_|\\.)|\\.[0-9]+\$/' | none"
-promise "no mutable globals" \
+check "no mutable globals" \
     "nm --defined-only $bodies | awk '\$2 ~ /[BbDdCcSsGg]/' | none"
 
 # Macros that the header defines and does not undefine. -dD keeps #define and #undef; the line
@@ -358,11 +345,11 @@ ours && $1 == "#define" { name = $2; sub(/\(.*/, "", name); left[name] = 1 }
 $1 == "#undef" { delete left[$2] }
 END { for (name in left) if (name !~ allowed) print "left behind: " name }
 AWK
-promise "the declarations define only SL_ macros" \
+check "the declarations define only SL_ macros" \
     "$cc -std=c99 -I. -E -dD $dir/user.c |
          awk -v allowed='^(SL_|SPARSE_LOCAL_H\$)' -f $dir/macros.awk | none"
 for variant in SL_METIS SL_NO_AVX512 SL_NO_SIMD; do # SL_METIS: with everything
-    promise "the bodies undefine all SLI_, SLV_ and SLW_ macros ($variant)" \
+    check "the bodies undefine all SLI_, SLV_ and SLW_ macros ($variant)" \
         "$cc -std=c99 -I. -D$variant -E -dD $dir/bodies.c |
          awk -v allowed='^(SL_|SPARSE_LOCAL_)' -f $dir/macros.awk | none"
 done
@@ -378,7 +365,7 @@ if [ -f README.md ]; then
     for block in $dir/readme_*.c; do
         grep -q 'int main' "$block" 2>/dev/null || continue
         name=$(basename "$block" .c)
-        promise "README.md: $name compiles and runs" \
+        check "README.md: $name compiles and runs" \
             "$cc $c99 $light $block -o $dir/$name $libs && (cd $dir && ./$name)"
     done
 fi

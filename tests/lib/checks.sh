@@ -1,7 +1,7 @@
 # checks.sh: what the scripts of checks share: a folder that is removed, counts of checks
 #
-# A script sources it, defines details, which prints more on a failed check, and ends in
-# checks_end.
+# A script sources it and ends in checks_end. It defines details, which prints more on a failed
+# check, if it calls record, and sets $dir or calls checks_folder if it calls check.
 
 passed=0 failed=0
 
@@ -20,6 +20,19 @@ record() {
         failed=$((failed + 1))
         echo "FAILED   $2"
         details | sed 's/^/    /'
+    fi
+}
+
+# check TEXT COMMAND: counts a check, which failed if the command fails. COMMAND is one string; it
+# may be a list.
+check() {
+    if (eval "$2") >"$dir/log" 2>&1; then
+        passed=$((passed + 1))
+        echo "ok       $1"
+    else
+        failed=$((failed + 1))
+        echo "FAILED   $1"
+        { echo "$2"; head -n 40 "$dir/log"; } | sed 's/^/    /'
     fi
 }
 

@@ -297,28 +297,23 @@ no_temporary "targets"
 # The shell may have been started with SIGPIPE ignored, which it cannot undo.
 sh -c 'kill -PIPE $$' 2>/dev/null
 [ $? -eq 141 ] && broken=141 quiet='' || broken=1 quiet=$lost
-# The program begins when the reader is gone.
-{
-    while [ ! -e "$dir/gone" ]; do sleep 0.05; done
-    "$program" pairs sphere:2 --count 5 2>"$dir/err"
-    echo $? >"$dir/status"
-} | {
-    exec <&-
-    : >"$dir/gone"
+# unread COMMAND: after COMMAND the program begins, when its reader is gone.
+unread() {
+    rm -f "$dir/gone"
+    {
+        eval "$1"
+        while [ ! -e "$dir/gone" ]; do sleep 0.05; done
+        "$program" pairs sphere:2 --count 5 2>"$dir/err"
+        echo $? >"$dir/status"
+    } | {
+        exec <&-
+        : >"$dir/gone"
+    }
+    status=$(cat "$dir/status")
 }
-status=$(cat "$dir/status")
+unread :
 expect "$broken" "$quiet" "a reader that is gone"
-rm "$dir/gone"
-{
-    trap '' PIPE
-    while [ ! -e "$dir/gone" ]; do sleep 0.05; done
-    "$program" pairs sphere:2 --count 5 2>"$dir/err"
-    echo $? >"$dir/status"
-} | {
-    exec <&-
-    : >"$dir/gone"
-}
-status=$(cat "$dir/status")
+unread "trap '' PIPE"
 expect 1 "$lost" "a reader that is gone, SIGPIPE ignored"
 
 # interrupted SIGNAL: the program is killed while it has a file open.

@@ -77,7 +77,8 @@ rename patches_by_mesh.svg figure4.svg
 rename patches_by_patch.svg figure5.svg
 rename scaling.svg figure6_left.svg
 rename amortize.svg figure6_right.svg
-awk -f "$(dirname "$0")/paper_table.awk" "$folder"/patches.csv "$folder"/multi_rhs.csv \
+build=$(dirname "$0")
+awk -f "$build/csv.awk" -f "$build/paper_table.awk" "$folder"/patches.csv "$folder"/multi_rhs.csv \
     "$folder"/eigenpairs_errors.csv "$folder"/adf_53k.txt "$folder"/histogram.txt \
     >"$folder/paper.md" && cat "$folder/paper.md"
 echo "figures are in $folder"

@@ -1,7 +1,7 @@
 # paper_table.awk: a Markdown table of the results of [HDA17] and of this library (make figures)
 #
-#     awk -f tools/build/paper_table.awk patches.csv multi_rhs.csv eigenpairs_errors.csv \
-#         adf_53k.txt histogram.txt
+#     awk -f tools/build/csv.awk -f tools/build/paper_table.awk patches.csv multi_rhs.csv \
+#         eigenpairs_errors.csv adf_53k.txt histogram.txt
 #
 # The CSV files are written by the bench, the TXT files are the output of sparse-local adf and
 # sparse-local pairs. Of the meshes in patches.csv the largest is shown. The paper measured on a
@@ -74,19 +74,4 @@ function patch_row(size, paper_refactor, paper_cg,    here, refactor, cg) {
         "/ local solve | %d ms / %d ms / Figure 5 ", size, largest, paper_refactor, paper_cg
     printf "| %s / %s / %s ms: %.0f and %.0f times the local solve |\n", digits(refactor), \
         digits(cg), digits(here), refactor / here, cg / here
-}
-
-# Three significant digits.
-function digits(x) { return sprintf(x < 9.995 ? "%.2f" : x < 99.95 ? "%.1f" : "%.0f", x) }
-
-# Splits a line of a CSV file, with texts in double quotes, into field[1..n_fields].
-function split_csv(line, parts, n, k, whole) {
-    n = split(line, parts, "\"")
-    whole = ""
-    for (k = 1; k <= n; k++) {
-        if (k % 2 == 0) gsub(",", "\001", parts[k])
-        whole = whole parts[k]
-    }
-    n_fields = split(whole, field, ",")
-    for (k = 1; k <= n_fields; k++) gsub("\001", ",", field[k])
 }

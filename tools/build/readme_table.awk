@@ -1,6 +1,7 @@
 # readme_table.awk: the results of `make bench-peers` as Markdown tables (make readme-table)
 #
-#     awk -f tools/build/readme_table.awk peers.machine.txt peers.csv [peers_harmonic.csv ...]
+#     awk -f tools/build/csv.awk -f tools/build/readme_table.awk peers.machine.txt peers.csv \
+#         [peers_harmonic.csv ...]
 #
 # The files are in build/bench-out. There is a table per CSV file, with a column per system and a
 # row per step. A cell has three numbers:
@@ -154,19 +155,4 @@ function time_text(s) {
     return digits(s) " s"
 }
 
-# Three significant digits.
-function digits(x) { return sprintf(x < 9.995 ? "%.2f" : x < 99.95 ? "%.1f" : "%.0f", x) }
-
 function number(n) { return n < 1e6 ? int(n / 1e3 + 0.5) "k" : sprintf("%.1fM", n / 1e6) }
-
-# Splits a line of a CSV file, with texts in double quotes, into field[1..n_fields].
-function split_csv(line, parts, n, k, whole) {
-    n = split(line, parts, "\"")
-    whole = ""
-    for (k = 1; k <= n; k++) {
-        if (k % 2 == 0) gsub(",", "\001", parts[k])
-        whole = whole parts[k]
-    }
-    n_fields = split(whole, field, ",")
-    for (k = 1; k <= n_fields; k++) gsub("\001", ",", field[k])
-}
