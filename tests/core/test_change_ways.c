@@ -137,9 +137,7 @@ static void two_make(two_t *t, double a, double b, double c, double growth_limit
     t->x[0] = a;
     t->x[1] = b;
     t->x[2] = c;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&t->S, &t->A, &opt, NULL));
-    opt = options_none();
+    t->S = analyze_natural(&t->A, SL_RELAXATION_DEFAULT);
     opt.growth_limit = growth_limit;
     SL_CHECK(sl_factor_create(&t->F, t->S, &t->A, &opt, NULL));
 }
@@ -199,14 +197,9 @@ static void small_pivot(sl_int row, double delta) {
     double x[11] = {1, 1, 1, 1, 1, 4, 1e-3, 1e-3, 4, 0.5, 1e20}, out[5];
     const double b[5] = {1, 2, 3, 4, 5};
     const sl_csc A = {5, 5, p, i, x};
-    sl_options opt = options_none();
-    sl_symbolic *S;
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_NONE);
     sl_factor *F;
-    sl_stats stats;
-    opt.ordering = SL_ORDERING_NATURAL;
-    opt.relaxation = SL_RELAXATION_NONE;
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, &stats));
-    assert_int_equal(stats.symbolic.supernodes, 3);
+    assert_int_equal(sl_symbolic_view(S).n_supers, 3);
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
     SL_CHECK(sl_factor_update_entries(F, &row, &row, &delta, 1, NULL, NULL));
     x[p[row]] += delta;

@@ -113,10 +113,7 @@ static void singular_empty_and_invalid_inputs(void **state) {
     gen_reals(b, 100, 1);
     for (int64_t k = 0, done = 0; !done; k++) {
         counter_t counter = counter_make();
-        sl_options opt = options_counted(&counter);
-        sl_work *W = NULL;
-        SL_CHECK(sl_work_create(&W, &opt));
-        counter.fail_at = (int64_t)counter.calls + k;
+        sl_work *W = work_failing(&counter, k);
         sl_status status = sl_factor_rcond(y.F, &y.M.view, &estimate, W);
         done = status == SL_OK;
         assert_true(done || (status == SL_ERR_MEMORY && estimate == -1.0));

@@ -225,13 +225,11 @@ static void matrices_with_no_and_with_several_null_vectors(void **state) {
         const sl_int p[4] = {0, 3, 5, 6}, i[6] = {0, 1, 2, 1, 2, 2};
         const double a[6] = {1, 2, 3, 4, 6, 9}, good[3] = {2, 4, 6}, bad[3] = {2, 4, 7};
         const sl_csc A = {3, 3, p, i, a};
-        sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         sl_stats stats;
         double defects[2];
         memset(&stats, 0, sizeof stats);
-        opt.ordering = SL_ORDERING_NATURAL;
-        SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
         SL_CHECK(sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), &stats));
         assert_int_equal(stats.factor.null, 2);
         SL_CHECK(sl_factor_solve(F, x, 3, good, 3, 1, NULL));

@@ -220,14 +220,11 @@ static void singular_matrices_are_refused(void **state) {
     for (size_t k = 0; k < sizeof singular / sizeof singular[0]; k++) {
         sl_matrix *M = read_or_skip(singular[k].name);
         sl_csc A = sl_matrix_view(M);
-        sl_options opt = options_none();
-        sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         sl_stats stats;
         memset(&stats, 0, sizeof stats);
         assert_int_equal(solved_or_refused(&A, SL_ORDERING_ND), SL_ERR_PIVOT);
-        opt.ordering = SL_ORDERING_NATURAL;
-        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, NULL, &stats));
         assert_int_equal(stats.error.row, singular[k].row);
         sl_symbolic_free(S);

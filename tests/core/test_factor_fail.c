@@ -143,10 +143,8 @@ static void null_tolerance_decides_what_is_null(void **state) {
     double x[3] = {1, 1, 1};
     sl_csc A = {2, 2, p, i, x};
     sl_options opt = options_none();
-    sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     x[2] = 1.0 + 4.0 * DBL_EPSILON;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, FOR_FACTOR(&opt), NULL)); /* 64 eps */
     opt.null_tolerance = -1.0;
@@ -218,9 +216,7 @@ static void an_overflow_in_elimination_is_reported(void **state) {
     const double x[3] = {1, 1e300, 1};
     sl_csc A = {2, 2, p, i, x};
     sl_options opt = options_none();
-    sl_symbolic *S = NULL;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     for (int k = 0; k < variants.count; k++) {
         sl_factor *F = NULL;
         sl_stats stats;
@@ -242,9 +238,7 @@ static void an_overflow_of_magnitudes_is_no_null_pivot(void **state) {
     const double x[5] = {1, 1e154, -1, 1e154, 1e308};
     sl_csc A = {3, 3, p, i, x};
     sl_options opt = options_none();
-    sl_symbolic *S = NULL;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, FOR_ANALYSIS(&opt), NULL));
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     for (int k = 0; k < variants.count; k++) {
         sl_factor *F = NULL;
         options_set_variant(&opt, &variants, k);

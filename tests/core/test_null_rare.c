@@ -78,16 +78,12 @@ static void paths_without_an_anchor(void **state) {
     add_edge(&t, 1, 2, 0.0);
     add_edge(&t, 2, 3, 0.0);
     gen_matrix_t M = matrix_of(&t, 0);
-    sl_options natural = options_none();
-    sl_symbolic *S;
     double B[4 * NRHS] = {0}, X[4 * NRHS], x[4];
     for (int r = 0; r < NRHS; r++) {
         B[4 * r] = r + 1.0;
         B[4 * r + 1] = -B[4 * r];
     }
-    natural.ordering = SL_ORDERING_NATURAL;
-    natural.relaxation = SL_RELAXATION_NONE;
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &natural, NULL));
+    sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_NONE);
     for (int way = 0; way < 3; way++) {
         sl_options opt = skipping();
         sl_factor *F;
@@ -146,13 +142,10 @@ static void weights_that_cancel_against_the_null_vector(void **state) {
     const double x[5] = {1e-6, -1e-6, 2e-6, -1e-3, 1.0}, z[3] = {1000, 1000, 1};
     const sl_csc A = {3, 3, p, i, x};
     double mass[3] = {1, -1, 1e-13};
-    sl_options opt = options_none();
-    sl_symbolic *S;
+    sl_options opt = skipping();
     sl_factor *F;
     sl_stats stats;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    opt = skipping();
+    sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     opt.null_vector = z;
     opt.mass = mass;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &A, &opt, &stats));
@@ -259,13 +252,10 @@ static void pivots_that_overflow(void **state) {
     const sl_csc A = {2, 2, p, i, x};
     variant_list_t variants = variants_present();
     for (int k = 0; k < variants.count; k++) {
-        sl_options opt = options_none();
-        sl_symbolic *S;
+        sl_options opt = skipping();
         sl_factor *F = (sl_factor *)(void *)&A;
         sl_stats stats;
-        opt.ordering = SL_ORDERING_NATURAL;
-        SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-        opt = skipping();
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
         options_set_variant(&opt, &variants, k);
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_create(&F, S, &A, &opt, &stats));
         assert_null(F);
@@ -286,12 +276,9 @@ static void a_regular_component_is_not_suspected(void **state) {
         add_edge(&t, 2, 3, 1.0);
         add_edge(&t, 3, 4, 0.003 * k);
         gen_matrix_t M = matrix_of(&t, 0);
-        sl_options opt = options_none();
-        sl_symbolic *S;
         sl_factor *F;
         sl_stats stats;
-        opt.ordering = SL_ORDERING_NATURAL;
-        SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+        sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_DEFAULT);
         SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, S, &M.view, NULL, &stats));
         assert_in_range(stats.error.row, 2, 4);
         rounded += stats.error.value != 0.0;
@@ -316,11 +303,8 @@ static void rounding_of_many_rows_is_not_suspected(void **state) {
         }
     }
     gen_matrix_t M = matrix_of(&t, 0);
-    sl_options opt = options_none();
-    sl_symbolic *S;
     sl_factor *F;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+    sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_DEFAULT);
     SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
     const double *D = sl_factor_view(F).D;
     assert_true(D[1] > 0.5e-16 && D[1] < 2e-16);

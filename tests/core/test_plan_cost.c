@@ -305,8 +305,7 @@ static factored_t chain_make(chain_t kind, sl_int n) {
     }
     gen_dominate(&t, 1, &seed);
     y.M = gen_store(&t, gen_style(0), 1);
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, FOR_ANALYSIS(&opt), NULL));
+    y.S = analyze_natural(&y.M.view, SL_RELAXATION_DEFAULT);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
     gen_list_free(&t);
     return y;

@@ -242,10 +242,7 @@ static void bad_arguments_and_failed_allocations_change_nothing(void **state) {
     assert_true(stats.refine.steps == 0 && stats.refine.backward_error == 0.0);
     for (int64_t k = 0, done = 0; !done; k++) {
         counter_t counter = counter_make();
-        sl_options opt = options_counted(&counter);
-        sl_work *W = NULL;
-        SL_CHECK(sl_work_create(&W, &opt));
-        counter.fail_at = (int64_t)counter.calls + k;
+        sl_work *W = work_failing(&counter, k);
         sl_status status = sl_factor_refine(y.F, A, X, 100, B, 100, 3, 2, W, NULL);
         done = status == SL_OK;
         if (!done) {

@@ -259,10 +259,7 @@ static void failed_allocations_change_nothing(void **state) {
     memcpy(X, keep, nx * R * sizeof *X);
     for (int64_t k = 0, done = 0; !done; k++) {
         counter_t counter = counter_make();
-        sl_options opt = options_counted(&counter);
-        sl_work *W = NULL;
-        SL_CHECK(sl_work_create(&W, &opt));
-        counter.fail_at = (int64_t)counter.calls + k;
+        sl_work *W = work_failing(&counter, k);
         sl_status status = sl_plan_solve_refined(f->P, f->F, X, nx, f->B, nb, R, 5, W, NULL);
         done = status == SL_OK;
         if (!done) {

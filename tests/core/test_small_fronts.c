@@ -11,7 +11,6 @@ static factored_t front_make(sl_int w, sl_int below, const sl_options *opt) {
     const sl_int n = w + below + 1;
     gen_list_t t = gen_list(n);
     uint64_t seed = 7;
-    sl_options analysis = options_none();
     for (sl_int j = 0; j < n; j++) {
         gen_add(&t, j, j, 2.0 * MOST);
         for (sl_int i = j + 1; i < n; i++) {
@@ -21,9 +20,7 @@ static factored_t front_make(sl_int w, sl_int below, const sl_options *opt) {
         }
     }
     y.M = gen_store(&t, gen_style(0), 1);
-    analysis.ordering = SL_ORDERING_NATURAL;
-    analysis.relaxation = SL_RELAXATION_NONE;
-    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &analysis, NULL));
+    y.S = analyze_natural(&y.M.view, SL_RELAXATION_NONE);
     assert_int_equal(sl_symbolic_view(y.S).super_first[1], w);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, opt, NULL));
     gen_list_free(&t);
@@ -128,12 +125,9 @@ static void a_chain_of_fronts_has_one_worker(void **state) {
     }
     gen_matrix_t M = gen_store(&t, gen_style(0), 1);
     sl_options opt = options_none();
-    sl_symbolic *S;
     sl_factor *F;
     int calls = 0;
-    opt.ordering = SL_ORDERING_NATURAL;
-    SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-    opt = options_none();
+    sl_symbolic *S = analyze_natural(&M.view, SL_RELAXATION_DEFAULT);
     opt.method = SL_METHOD_SUPERNODAL;
     opt.threads.count = 2;
     opt.threads.run = run_backwards;

@@ -125,15 +125,11 @@ static void update_matrices_with_gaps_are_assembled(void **state) {
     (void)state;
     static const sl_int widths[5] = {1, 7, 8, 65, 259}, strides[4] = {1, 2, 5, 9};
     isa_list_t isas = isas_present();
-    sl_options opt = options_none();
-    opt.ordering = SL_ORDERING_NATURAL;
-    opt.relaxation = SL_RELAXATION_NONE;
     for (int which = 0; which < 5; which++) {
         for (int gap = 0; gap < 4; gap++) {
             for (sl_int m = 20; m < 100; m += 33) {
                 gen_matrix_t M = two_cliques(widths[which], m, m, strides[gap]);
-                factored_t y = {M, NULL, NULL};
-                SL_CHECK(sl_symbolic_create(&y.S, &M.view, &opt, NULL));
+                factored_t y = {M, analyze_natural(&M.view, SL_RELAXATION_NONE), NULL};
                 sl_factor *reference = factor_with(&y, SL_METHOD_UP_LOOKING, SL_ISA_AUTO);
                 for (int k = 0; k < isas.count; k++) {
                     sl_factor *F = factor_with(&y, SL_METHOD_SUPERNODAL, isas.isa[k]);

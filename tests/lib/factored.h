@@ -48,12 +48,9 @@ static inline void assert_same_bits(const sl_factor *F, const sl_factor *G) {
 
 /* The status of the factorization of A in natural order. */
 static inline sl_status factor_natural(const sl_csc *A, sl_options opt, sl_stats *stats) {
-    sl_options natural = options_none();
-    sl_symbolic *S = NULL;
+    sl_symbolic *S = analyze_natural(A, SL_RELAXATION_DEFAULT);
     sl_factor *F = NULL;
-    natural.ordering = SL_ORDERING_NATURAL;
     memset(stats, 0, sizeof *stats);
-    SL_CHECK(sl_symbolic_create(&S, A, &natural, NULL));
     const sl_status status = sl_factor_create(&F, S, A, &opt, stats);
     assert_true((F != NULL) == (status == SL_OK));
     sl_factor_free(F);

@@ -113,6 +113,16 @@ static inline sl_options options_counted(counter_t *c) {
     return opt;
 }
 
+/* An empty workspace whose allocations are counted. Of the allocations from now on, number k
+ * fails. */
+static inline sl_work *work_failing(counter_t *c, int64_t k) {
+    const sl_options opt = options_counted(c);
+    sl_work *W = NULL;
+    SL_CHECK(sl_work_create(&W, &opt));
+    c->fail_at = (int64_t)c->calls + k;
+    return W;
+}
+
 #define COUNTER_CLEAN(c) \
     do { \
         assert_int_equal((c)->live_blocks, 0); \
@@ -205,6 +215,16 @@ static inline int ordering_is_present(sl_ordering ordering) {
 #endif
 }
 
+/* The analysis of A in natural order. */
+static inline sl_symbolic *analyze_natural(const sl_csc *A, sl_relaxation relaxation) {
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    opt.ordering = SL_ORDERING_NATURAL;
+    opt.relaxation = relaxation;
+    SL_CHECK(sl_symbolic_create(&S, A, &opt, NULL));
+    return S;
+}
+
 /* ---- instruction sets ---- */
 
 static inline const char *isa_name(sl_isa isa) {
@@ -217,12 +237,10 @@ static inline int isa_is_present(sl_isa isa) {
     static const double x[1] = {2.0};
     const sl_csc one = {1, 1, p, i, x};
     sl_options opt = options_none();
-    sl_symbolic *S = NULL;
+    sl_symbolic *S = analyze_natural(&one, SL_RELAXATION_DEFAULT);
     sl_factor *F = NULL;
-    opt.ordering = SL_ORDERING_NATURAL;
     opt.isa = isa;
-    SL_CHECK(sl_symbolic_create(&S, &one, FOR_ANALYSIS(&opt), NULL));
-    sl_status status = sl_factor_create(&F, S, &one, FOR_FACTOR(&opt), NULL);
+    sl_status status = sl_factor_create(&F, S, &one, &opt, NULL);
     assert_true(status == SL_OK || status == SL_ERR_UNSUPPORTED);
     assert_true((F != NULL) == (status == SL_OK));
     sl_factor_free(F);
