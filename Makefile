@@ -58,7 +58,7 @@ CORE_TESTS := $(wildcard tests/core/test_*.c)
 TOOL_TESTS := $(wildcard tests/tools/test_*.c)
 TESTS := $(CORE_TESTS) $(TOOL_TESTS)
 FUZZERS := $(wildcard tests/fuzz/fuzz_*.c)
-SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads inverse_threads reserve_inverse)
+SMALL_TASK_TESTS := $(patsubst %,tests/core/test_%.c,threads threads_solve inverse_threads reserve_inverse)
 # Tests that compile the bodies with their own faults, or are linked with small tasks.
 OWN_BODIES := $(shell grep -l 'define SPARSE_LOCAL_IMPLEMENTATION' $(TESTS) /dev/null) $(SMALL_TASK_TESTS)
 BENCH_SOURCES := $(wildcard bench/lib/*.c bench/questions/*.c)
@@ -320,8 +320,8 @@ deps_musl = musl-gcc=musl-tools
 
 # All core tests run on i386 and aarch64, where kernels of their own run. Elsewhere a few: the orders, and what depends on the
 # size and order of bytes, as saved factors do; and all replays of the fuzzers.
-PLATFORM_TESTS = $(patsubst %,tests/core/test_%.c,order_hashes factor identity csc_write matrix_market refine restrict storage \
-	save save_file save_lies save_damage saved_set saved_set_damage) \
+PLATFORM_TESTS = $(patsubst %,tests/core/test_%.c,order_hashes factor identity csc_write matrix_market matrix_market_file refine \
+	restrict storage storage_use save save_use save_file save_lies save_damage saved_set saved_set_damage) \
 	tests/tools/test_mesh_ply.c
 full_i386 = $(CORE_TESTS) tests/tools/test_mesh_ply.c
 full_aarch64 = $(CORE_TESTS)
@@ -372,7 +372,7 @@ sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-b
 	@+$(SUB_MAKE) run-tests B=build/sanitize SMALL_TASK_TESTS= OPT='-O1 -g -fno-var-tracking -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='$(PROGRAM_CHECKS)' PROGRAM=build/sanitize/sparse-local
 
-THREADED = test_threads test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
+THREADED = test_threads test_threads_solve test_ordering_threads test_batch test_batch_factor test_batch_inverse test_inverse_threads test_change_threads
 
 races: deps sparse_local.h ## the tests of threads, watched for data races
 	@+$(SUB_MAKE) run-tests B=build/races OPT='-O1 -g -fno-var-tracking -fsanitize=thread' REPLAYS= \

@@ -263,4 +263,30 @@ static inline const char *check_factor(const sl_factor *F, const sl_csc *A) {
         } \
     } while (0)
 
+/* Both analyses have the same arrays. */
+static inline void assert_same_arrays(const sl_symbolic *S, const sl_symbolic *T) {
+    sl_symbolic_arrays s = sl_symbolic_view(S), t = sl_symbolic_view(T);
+    assert_int_equal(s.n, t.n);
+    assert_int_equal(s.n_supers, t.n_supers);
+    assert_int_equal(s.n_nodes, t.n_nodes);
+#define SAME(array, count) \
+    if ((count) > 0) assert_memory_equal(s.array, t.array, (size_t)(count) * sizeof *s.array)
+    SAME(perm, s.n);
+    SAME(iperm, s.n);
+    SAME(parent, s.n);
+    SAME(counts, s.n);
+    SAME(super_first, s.n_supers + 1);
+    SAME(super_of, s.n);
+    SAME(super_parent, s.n_supers);
+    SAME(rows_begin, s.n_supers + 1);
+    SAME(rows, s.rows_begin[s.n_supers]);
+    SAME(panel_begin, s.n_supers + 1);
+    assert_true((s.pairs == NULL) == (t.pairs == NULL));
+    SAME(pairs, s.pairs != NULL ? s.n : 0);
+    SAME(node_of, s.n_nodes > 0 ? s.n : 0);
+    SAME(node_parent, s.n_nodes);
+    SAME(node_level, s.n_nodes);
+#undef SAME
+}
+
 #endif
