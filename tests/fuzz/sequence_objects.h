@@ -3,7 +3,7 @@
 #ifndef SL_FUZZ_SEQUENCE_OBJECTS_H
 #define SL_FUZZ_SEQUENCE_OBJECTS_H
 
-#include "sequence_pool.h"
+#include "sequence_model.h"
 
 /* Rounding of sums of up to MOST products, the largest of magnitude `size`. */
 static void check_close(double x, double y, double size) {
