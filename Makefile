@@ -108,10 +108,10 @@ check-header: build/amalgamate ## is sparse_local.h what src/ makes?
 	@build/amalgamate --check src/sparse_local.in.h sparse_local.h LICENSE
 	@echo 'check-header: sparse_local.h is what src/ makes'
 
-build/amalgamate: tools/build/amalgamate.c
+build/amalgamate: $(wildcard tools/build/*.[ch])
 	@mkdir -p $(@D)
 	$(call say,CC  )
-	$(Q)cc -std=c99 -O2 $(WARN) -o $@ $<
+	$(Q)cc -std=c99 -O2 $(WARN) -o $@ $(filter %.c,$^)
 
 layers: ## do all includes go downward, and do the names of src/ have their prefixes?
 	@awk -f tools/build/layers.awk $(SRC) $(wildcard tools/*/*.[ch] tests/*/*.[ch] bench/*/*.[ch] bench/*/*.cpp)
