@@ -1,0 +1,114 @@
+"""Exceptions: singular, indefinite, malformed and empty input."""
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+import sparse_local as sl
+from systems import grid, right_hand_sides
+
+
+def test_singular_and_indefinite():
+    A = grid(6, 0.0)
+    with pytest.raises(sl.PivotError) as caught:
+        sl.Factor(A)
+    assert 0 <= caught.value.row < 36 and "row" in str(caught.value)
+    F = sl.Factor(A, null_pivots="skip")
+    with pytest.raises(sl.InconsistentError):
+        F.solve(np.ones(36))
+    b = right_hand_sides(36)
+    b -= b.mean()
+    assert np.allclose(A @ F.solve(b), b)
+    x = sl.Factor(A, null_pivots="skip", mass=np.ones(36)).solve(np.arange(36.0))
+    assert abs(x.sum()) < 1e-13 * abs(x).sum()
+    indefinite = grid(4).tolil()
+    indefinite[6, 6] = -50
+    F = sl.Factor(indefinite)
+    assert F.stats["factor"]["negative"] == 1 and F.logdet()[0] == -1
+
+
+def test_several_null_vectors():
+    L = grid(5, 0.0)
+    A = sp.block_diag([L, 3 * L], format="csc")  # two components with a constant each
+    Z = np.zeros((50, 2))
+    Z[:25, 0], Z[25:, 1], Z[25:, 0] = 1, 2, 1
+    b = A @ np.arange(50.0)
+    for vectors in (Z, np.asfortranarray(Z), Z[::-1]):
+        F = sl.Factor(A, null_pivots="skip", null_vector=vectors)
+        assert F.stats["factor"]["null"] == 2
+        assert np.allclose(A @ F.solve(b), b)
+    b[3] += 1
+    with pytest.raises(sl.InconsistentError):
+        F.solve(b)
+    m = 1.0 + np.arange(50) % 3
+    x = sl.Factor(A, null_pivots="skip", null_vector=Z, mass=m).solve(b)  # each has a mean of 0
+    assert np.allclose(Z.T @ (m * x), 0)
+    c = b[:25].sum() / m[:25].sum()
+    assert np.allclose(A @ x, np.where(np.arange(50) < 25, b - c * m, b))
+    for wrong in (np.ones((50, 33)), np.ones((49, 2)), np.ones((50, 2, 2))):
+        with pytest.raises(sl.ArgumentError):
+            sl.Factor(A, null_pivots="skip", null_vector=wrong)
+
+
+def test_malformed_matrices(A):
+    with pytest.raises(sl.ArgumentError):
+        sl.Factor(A[:, :10])
+    with pytest.raises(TypeError):
+        sl.Factor(np.eye(3))
+    with pytest.raises(TypeError):
+        sl.Factor(A.astype(complex))
+    for damage in ("indices", "indptr", "short"):
+        B = A.copy()
+        if damage == "indices":
+            B.indices[5] = 400
+        elif damage == "indptr":
+            B.indptr[5] = B.indptr[4] - 1
+        else:
+            B.data = B.data[:-1]
+        with pytest.raises(sl.PatternError):
+            sl.Factor(B)
+    B = A.copy()
+    B.data[3] = np.inf
+    with pytest.raises(sl.NotFiniteError) as caught:
+        sl.Factor(B)
+    assert (caught.value.row, caught.value.column) == (0, 1)
+
+
+def test_a_matrix_that_is_not_symmetric_is_noticed(A, F):
+    B = A.tolil()
+    B[3, 2] += 1e-3
+    with pytest.raises(sl.PatternError, match="triangles differ"):
+        sl.Factor(B.tocsc())
+    with pytest.raises(sl.PatternError):
+        F.refactor(B.tocsc())
+    B[0, 399] = 1
+    with pytest.raises(sl.PatternError):
+        sl.Factor(B.tocsc())
+
+
+def test_wrong_right_hand_sides_and_sets(F):
+    for shape in ((399,), (401, 2), (2, 400), (400, 1, 1), ()):
+        with pytest.raises(sl.ArgumentError):
+            F.solve(np.zeros(shape))
+    with pytest.raises(sl.ArgumentError):
+        F.local([400], [1.0], [0])
+    with pytest.raises(sl.ArgumentError):
+        F.local([-1], [1.0], [0])
+    with pytest.raises(sl.ArgumentError):
+        F.local([1, 2], [1.0], [0])
+    with pytest.raises(sl.TooLargeError):
+        F.local([2**40], [1.0], [0])
+    with pytest.raises(TypeError):
+        F.local([1.5], [1.0], [0])
+    with pytest.raises(TypeError):
+        F.local(np.ones(400, dtype=bool), np.ones(400), [0])
+    with pytest.raises(sl.ArgumentError):
+        F.diagonal([[1, 2]])
+    with pytest.raises(sl.ArgumentError):
+        F.plan([0], [400])
+    assert isinstance(sl.ArgumentError("x"), ValueError)
+
+
+def test_no_rows():
+    F = sl.Factor(sp.csc_matrix((0, 0)))
+    assert F.solve(np.zeros(0)).size == 0 and F.diagonal().size == 0
+    assert F.solve(np.zeros((0, 3))).shape == (0, 3) and F.perm.size == 0

@@ -1,0 +1,69 @@
+"""The structs of the package against those that a C compiler sees."""
+import ctypes
+import os
+import re
+import subprocess
+
+import pytest
+
+from sparse_local import _library
+
+
+HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
+
+
+@pytest.mark.skipif(not os.path.exists(HEADER), reason="no header beside the package")
+@pytest.mark.parametrize("name", ["Options", "Stats", "Csc", "Csc64", "SavedSet", "SymbolicArrays"])
+def test_structs_are_those_of_the_header(tmp_path, name):
+    """Every member of the C struct, in order, at the same offset, and nothing after the last."""
+    struct = {"Options": "sl_options", "Stats": "sl_stats", "Csc": "sl_csc", "Csc64": "sl_csc64",
+              "SavedSet": "sl_saved_set", "SymbolicArrays": "sl_symbolic_arrays"}[name]
+    ours = dict(leaves(getattr(_library, name)))
+    with open(os.path.join(HEADER, "sparse_local.h")) as file:
+        theirs = c_members(file.read(), struct)
+    paths = ["size_of_all"] + theirs
+    lines = ["%s" % ("sizeof(%s)" % struct if path == "size_of_all" else
+                     "offsetof(%s, %s)" % (struct, path)) for path in paths]
+    source = tmp_path / "offsets.c"
+    source.write_text('#include <stddef.h>\n#include <stdio.h>\n#include "sparse_local.h"\n'
+                      "int main(void) {\n%s    return 0;\n}\n" %
+                      "".join('    printf("%%zu\\n", %s);\n' % line for line in lines))
+    subprocess.check_call(["cc", "-I", HEADER, "-o", str(tmp_path / "offsets"), str(source)])
+    numbers = subprocess.check_output([str(tmp_path / "offsets")], text=True).split()
+    assert int(numbers[0]) == ctypes.sizeof(getattr(_library, name))
+    assert [int(text) for text in numbers[1:]] == list(ours.values())
+
+
+def leaves(struct, prefix="", start=0):
+    """The members of a ctypes struct that are not structs, with their offsets."""
+    for name, kind in struct._fields_:
+        offset = start + getattr(struct, name).offset
+        if issubclass(kind, ctypes.Structure):
+            yield from leaves(kind, prefix + name + ".", offset)
+        else:
+            yield prefix + name, offset
+
+
+def c_members(text, struct):
+    """The members of a C struct as paths, in order; members of type sl_... info are opened."""
+    text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+    body = re.search(r"typedef struct %s \{(.*?)\} %s;" % (struct, struct), text, re.S).group(1)
+    paths = []
+    for line in body.split(";"):
+        if "(*" in line:
+            paths.append(re.search(r"\(\*(\w+)\)", line).group(1))
+            continue
+        match = re.match(r"\s*(?:const |unsigned )*(\w+)(.*)", line, re.S)
+        if not match:
+            continue
+        for declared in match.group(2).replace("const", "").split(","):
+            name = re.search(r"\w+", declared)
+            if not name:
+                continue
+            name = name.group(0)
+            inner = "typedef struct %s {" % match.group(1)
+            if inner in text and "*" not in declared:
+                paths += [name + "." + path for path in c_members(text, match.group(1))]
+            else:
+                paths.append(name)
+    return paths
