@@ -75,7 +75,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: deps-locales all help judge header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
+.PHONY: deps-locales all help judge map header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
 	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
 	figures bench-eigenpairs deps-arpack format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
 	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm test-exchange deps-mpi cluster test-cluster
@@ -115,6 +115,9 @@ build/amalgamate: $(wildcard tools/build/*.[ch])
 
 layers: ## do all includes go downward, and do the names of src/ have their prefixes?
 	@awk -f tools/build/layers.awk $(SRC) $(wildcard tools/*/*.[ch] tests/*/*.[ch] bench/*/*.[ch] bench/*/*.cpp)
+
+map: ## what is in each file of src, tests, tools and bench, by its first line
+	@tools/build/map.sh
 
 style: ## are all lines short enough, and is the wording of the public headers plain?
 	@tools/build/check_style.sh
