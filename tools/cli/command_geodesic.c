@@ -6,12 +6,11 @@
 
 #include "app.h"
 #include "command.h"
+#include "geodesic.h"
 #include "heat_system.h"
 #include "heat_factors.h"
 #include "laplacian_choice.h"
-#include "path_check.h"
 #include "solve_accuracy.h"
-#include "tools/geometry/distance_accuracy.h"
 #include "tools/geometry/heat_distance.h"
 #include "tools/geometry/laplacian.h"
 
@@ -59,22 +58,6 @@ static const options_manual manual = {
  * save nothing, it has no boundary and its creation is almost free. */
 enum { REGION_PAYS = 70 };
 
-typedef struct geodesic_command {
-    /* options */
-    const char *from, *exact, *laplacian;
-    const char *heat_file, *poisson_file;     /* NULL: the factors are computed */
-    double radius, margin, time, scaled_time; /* radius, time, scaled_time: 0 if not given */
-    sl_int solves;
-    bool cut, region, each, voronoi, raw;
-    app_output output;
-    /* computed from them */
-    mesh m;
-    intrinsic surface; /* all zero: the mesh as it is */
-    heat_solver s;
-    sl_int *sources, n_sources;
-    heat_options heat;
-} geodesic_command;
-
 static render_mark *marks_of(const geodesic_command *cmd) {
     render_mark *marks = app_alloc((size_t)cmd->n_sources, sizeof *marks);
     const rgb red = {0xd5, 0x2b, 0x1e};
@@ -86,8 +69,7 @@ static render_mark *marks_of(const geodesic_command *cmd) {
     return marks;
 }
 
-/* Writes the mesh with the field and draws it with the sources marked. */
-static void write_field(const geodesic_command *cmd, const mesh_field *field, const rgb *colors,
+void geodesic_write_field(const geodesic_command *cmd, const mesh_field *field, const rgb *colors,
                         const render_style *how) {
     mesh_extra extra;
     render_style style = *how;
@@ -100,261 +82,6 @@ static void write_field(const geodesic_command *cmd, const mesh_field *field, co
     style.n_marks = cmd->n_sources;
     app_write(&cmd->output, &cmd->m, &extra, &style);
     free(marks);
-}
-
-static void write_distances(const geodesic_command *cmd, const heat_field *f) {
-    size_t n = (size_t)cmd->m.n_vertices;
-    if (cmd->output.csv != NULL) {
-        FILE *csv = app_create(cmd->output.csv);
-        fprintf(csv, "vertex,distance,path,heat\n");
-        for (sl_int k = 0; k < f->n; k++) {
-            fprintf(csv, "%d,%.17g,%.17g,%.17g\n", (int)f->vertices[k], f->distance[k], f->path[k],
-                    f->heat[k]);
-        }
-        app_close(csv);
-    }
-    if (cmd->output.out == NULL && cmd->output.png == NULL) {
-        return;
-    }
-    double *distance = app_alloc(n, sizeof *distance);
-    for (size_t v = 0; v < n; v++) {
-        distance[v] = NAN;
-    }
-    for (sl_int k = 0; k < f->n; k++) {
-        distance[f->vertices[k]] = f->distance[k];
-    }
-    const mesh_field field = {"distance", distance};
-    char title[80];
-    (void)snprintf(title, sizeof title, "distance\nfrom %d%s\nt = %.3g\n(units of\nthe mesh)",
-                   (int)cmd->sources[0], cmd->n_sources > 1 ? "+" : "", cmd->s.t);
-    const render_style style = {.scalar = distance, .legend = title, .isolines = 20};
-    write_field(cmd, &field, NULL, &style);
-    free(distance);
-}
-
-/* Prepares the ball around the sources with its plans, with --region in regions, and prints a
- * summary. */
-static void prepare_patch(geodesic_command *cmd, heat_patch *patch) {
-    sl_stats stats;
-    double began = app_now();
-    app_must(heat_patch_create(patch, &cmd->s, cmd->sources, cmd->n_sources,
-                               heat_options_patch_radius(&cmd->heat), cmd->region),
-             "plans around the sources", NULL);
-    double seconds = app_now() - began;
-    if (cmd->region) {
-        app_print_region("region (L)", &patch->poisson.stats, patch->poisson.stats.region.seconds);
-        sl_region_stats(patch->heat_region, &stats);
-        app_print_region("region (M)", &stats, stats.region.seconds);
-    }
-    printf("prepared   %d vertices around the sources: plans%s in %.3f ms\n", (int)patch->b.n,
-           cmd->region ? " and both regions" : "", 1e3 * seconds);
-}
-
-/* The radius within which the heat method returns distances. Where these are compared with paths,
- * all of the patch: a distance may fall below --radius by that. */
-static double wanted_radius(const geodesic_command *cmd) {
-    return cmd->raw ? cmd->heat.radius : 0;
-}
-
-/* Seconds, the best of as many repetitions as fit into 0.2 s, at least two: the first runs with
- * cold caches. */
-static double best_distance(heat_field *f, const geodesic_command *cmd, heat_patch *patch) {
-    double began = app_now(), seconds = INFINITY;
-    memset(f, 0, sizeof *f);
-    for (int k = 0; k < 2 || (k < 20 && app_now() - began < 0.2); k++) {
-        heat_field_free(f);
-        double begin = app_now();
-        app_must(heat_patch_distance(f, patch, cmd->sources, cmd->n_sources, wanted_radius(cmd),
-                                     cmd->heat.solves),
-                 "distances", NULL);
-        seconds = fmin(seconds, app_now() - begin);
-    }
-    return seconds;
-}
-
-static void distances(geodesic_command *cmd) {
-    heat_field f;
-    heat_patch patch;
-    sl_stats all;
-    prepare_patch(cmd, &patch);
-    double seconds = best_distance(&f, cmd, &patch), farthest = 0;
-    heat_patch_free(&patch);
-    sl_symbolic_stats(cmd->s.S, &all);
-    if (!cmd->raw) {
-        path_check check;
-        app_stage("comparing with paths");
-        path_check_open(&check, &cmd->m);
-        path_check_distances(&check, &f, cmd->sources, cmd->n_sources, cmd->heat.radius,
-                             heat_options_patch_radius(&cmd->heat));
-        app_progress_end();
-        path_check_report(&check);
-        path_check_close(&check);
-    }
-    for (sl_int k = 0; k < f.n; k++) {
-        farthest = fmax(farthest, f.distance[k]);
-    }
-    printf("distances  of %d vertices, up to %.6g, in %.3f ms\n", (int)f.n, farthest,
-           1e3 * seconds);
-    printf("touched    %d vertices; %.3g of %.3g entries of each factor, %d solves for the "
-           "distance\n",
-           (int)f.n_patch, (double)f.heat_stats.plan.x_entries, (double)all.symbolic.nnz_panels,
-           f.solves);
-    app_print_reads("heat", &f.heat_stats);
-    app_print_reads("distance", &f.poisson_stats);
-    if (f.negative > 0) {
-        app_warn("negative heat at %d vertices: the heat method is wrong there, a larger "
-                 "--scaled-time may help",
-                 (int)f.negative);
-    }
-    if (f.faces_without_gradient > 0) {
-        printf("no heat    at %d faces: too far away for this time, or degenerate\n",
-               (int)f.faces_without_gradient);
-    }
-    if (cmd->n_sources <= 100) { /* costs vertices x sources */
-        distance_print_bounds(&cmd->m, cmd->sources, cmd->n_sources, &f);
-    }
-    if (cmd->exact != NULL) {
-        distance_print_accuracy(&cmd->m, cmd->sources, cmd->n_sources, &f,
-                                strcmp(cmd->exact, "sphere") == 0);
-    }
-    write_distances(cmd, &f);
-    heat_field_free(&f);
-}
-
-/* Distances from each source separately, with the plans of one ball around all of them. */
-static void distances_of_each(geodesic_command *cmd) {
-    heat_patch patch;
-    path_check check;
-    FILE *csv = cmd->output.csv != NULL ? app_create(cmd->output.csv) : NULL;
-    double seconds = 0;
-    sl_off found = 0;
-    sl_int negative = 0; /* sources with negative heat somewhere */
-    prepare_patch(cmd, &patch);
-    if (csv != NULL) {
-        fprintf(csv, "source,vertex,distance\n");
-    }
-    if (!cmd->raw) {
-        path_check_open(&check, &cmd->m);
-    }
-    for (sl_int i = 0; i < cmd->n_sources; i++) {
-        heat_field f;
-        double began = app_now();
-        app_must(heat_patch_distance(&f, &patch, cmd->sources + i, 1, wanted_radius(cmd),
-                                     cmd->heat.solves),
-                 "distances", NULL);
-        seconds += app_now() - began;
-        negative += f.negative > 0;
-        if (!cmd->raw) {
-            path_check_distances(&check, &f, cmd->sources + i, 1, cmd->heat.radius,
-                                 heat_options_patch_radius(&cmd->heat));
-        }
-        found += f.n;
-        if (i == 0) {
-            app_print_reads("heat", &f.heat_stats);
-            app_print_reads("distance", &f.poisson_stats);
-        }
-        for (sl_int k = 0; k < f.n && csv != NULL; k++) {
-            fprintf(csv, "%d,%d,%.17g\n", (int)cmd->sources[i], (int)f.vertices[k], f.distance[k]);
-        }
-        heat_field_free(&f);
-        app_progress("sources", (double)(i + 1) / (double)cmd->n_sources);
-    }
-    app_progress_end();
-    heat_patch_free(&patch);
-    printf("distances  %lld, from each of %d sources, in %.3f ms: %.3f ms per source\n",
-           (long long)found, (int)cmd->n_sources, 1e3 * seconds,
-           1e3 * seconds / (double)cmd->n_sources);
-    if (!cmd->raw) {
-        path_check_report(&check);
-        path_check_close(&check);
-    }
-    if (negative > 0) {
-        app_warn("negative heat from %d of %d sources: the heat method is wrong there, a larger "
-                 "--scaled-time may help",
-                 (int)negative, (int)cmd->n_sources);
-    }
-    if (csv != NULL) {
-        app_close(csv);
-    }
-}
-
-/* Distinct colors: hues in steps of the golden ratio, three levels of brightness. */
-static rgb cell_color(sl_int k) {
-    double hue = fmod(0.1 + 0.61803398875 * (double)k, 1), level = k % 3 == 0   ? 0.95
-                                                                   : k % 3 == 1 ? 0.8
-                                                                                : 0.65;
-    double channel[3];
-    for (int c = 0; c < 3; c++) {
-        double x = fabs(fmod(6 * hue + (c == 0 ? 0 : c == 1 ? 4 : 2), 6) - 3) - 1;
-        channel[c] = 255 * level * (0.45 + 0.55 * fmax(0, fmin(1, x)));
-    }
-    rgb color = {(unsigned char)channel[0], (unsigned char)channel[1], (unsigned char)channel[2]};
-    return color;
-}
-
-static void write_cells(const geodesic_command *cmd, const sl_int *cell) {
-    size_t n = (size_t)cmd->m.n_vertices;
-    if (cmd->output.csv != NULL) {
-        FILE *csv = app_create(cmd->output.csv);
-        fprintf(csv, "vertex,site\n");
-        for (size_t v = 0; v < n; v++) {
-            fprintf(csv, "%d,%d\n", (int)v, cell[v] < 0 ? -1 : (int)cmd->sources[cell[v]]);
-        }
-        app_close(csv);
-    }
-    double *site = app_alloc(n, sizeof *site);
-    rgb *colors = app_alloc(n, sizeof *colors);
-    const rgb none = {0xd8, 0xd8, 0xd8};
-    for (size_t v = 0; v < n; v++) {
-        site[v] = cell[v] < 0 ? -1 : (double)cmd->sources[cell[v]];
-        colors[v] = cell[v] < 0 ? none : cell_color(cell[v]);
-    }
-    const mesh_field field = {"site", site};
-    const render_style style = {.vertex_color = colors, .nearest = true};
-    write_field(cmd, &field, colors, &style);
-    free(colors);
-    free(site);
-}
-
-static void show_progress(double fraction) {
-    app_progress("cells", fraction);
-}
-
-static void cells(geodesic_command *cmd) {
-    size_t n = (size_t)cmd->m.n_vertices;
-    sl_int *cell = app_alloc(n, sizeof *cell),
-           *sizes = app_alloc((size_t)cmd->n_sources + 1, sizeof *sizes);
-    double *largest_heat = app_alloc(n, sizeof *largest_heat), began = app_now();
-    sl_off touched;
-    app_must(heat_cells(cell, largest_heat, &cmd->s, cmd->sources, cmd->n_sources, cmd->heat.radius,
-                        &touched, show_progress),
-             "cells", NULL);
-    app_progress_end();
-    double seconds = app_now() - began;
-    if (!cmd->raw) {
-        path_check check;
-        path_check_open(&check, &cmd->m);
-        path_check_cells(&check, cell, cmd->sources, cmd->n_sources, cmd->heat.radius);
-        path_check_close(&check);
-    }
-    for (size_t v = 0; v < n; v++) {
-        sizes[cell[v] < 0 ? cmd->n_sources : cell[v]]++;
-    }
-    sl_int smallest = cmd->n_sources > 0 ? sizes[0] : 0, largest = 0;
-    for (sl_int k = 0; k < cmd->n_sources; k++) {
-        smallest = sizes[k] < smallest ? sizes[k] : smallest;
-        largest = sizes[k] > largest ? sizes[k] : largest;
-    }
-    printf("cells      of %d sites, %d to %d vertices each, in %.3f ms; %lld values of heat\n",
-           (int)cmd->n_sources, (int)smallest, (int)largest, 1e3 * seconds, (long long)touched);
-    if (sizes[cmd->n_sources] > 0) {
-        printf("no site    for %d vertices: outside the radius, or too far away for this time\n",
-               (int)sizes[cmd->n_sources]);
-    }
-    write_cells(cmd, cell);
-    free(largest_heat);
-    free(sizes);
-    free(cell);
 }
 
 /* The vertices of --from without repetitions. */
@@ -481,11 +208,11 @@ int command_geodesic(int argc, char **argv) {
     open_command(&cmd, operand);
     cmd.region = cmd.region || (cmd.each && cmd.radius > 0 && cmd.n_sources >= REGION_PAYS);
     if (cmd.voronoi) {
-        cells(&cmd);
+        geodesic_cells(&cmd);
     } else if (cmd.each) {
-        distances_of_each(&cmd);
+        geodesic_distances_of_each(&cmd);
     } else {
-        distances(&cmd);
+        geodesic_distances(&cmd);
     }
     free(cmd.sources);
     heat_solver_free(&cmd.s);
