@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f6d7116b12298cd3
+ * FNV-1a of the lines after this comment, without the license: 42eed66f1ae6f694
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -388,7 +388,7 @@ typedef enum sl_change_reason {
 /** How pins hold rows. */
 typedef enum sl_pins_method {
     SL_PINS_CAPACITANCE = 0, /* all by a small dense matrix on top of the factor */
-    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, what came later on top of it */
+    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, later ones on top of it */
 } sl_pins_method;
 
 /** Why pins hold rows in their way. */

@@ -152,7 +152,7 @@ typedef enum sl_change_reason {
 /** How pins hold rows. */
 typedef enum sl_pins_method {
     SL_PINS_CAPACITANCE = 0, /* all by a small dense matrix on top of the factor */
-    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, what came later on top of it */
+    SL_PINS_ELIMINATION      /* pins in a factor with identity rows, later ones on top of it */
 } sl_pins_method;
 
 /** Why pins hold rows in their way. */
