@@ -13,8 +13,9 @@ sparse_local.h contains the method and the contracts of all calls.
 from ._errors import (ArgumentError, Error, InaccurateError, InconsistentError, NotFiniteError,
                       OutOfMemoryError, PatternError, PivotError, StateError, TooLargeError,
                       UnsupportedError)
-from ._factor import Factor, Plan, Region
+from ._factor import Factor
 from ._library import library_path, version
+from ._plan import Plan, Region
 from ._saved_set import Selected, load_set, save_set
 
 __version__ = version()

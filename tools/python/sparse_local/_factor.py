@@ -1,4 +1,4 @@
-"""Factor, Plan and Region: factorization, full and local solves, entries of the inverse."""
+"""Factor: factorization, full and local solves, entries of the inverse, files."""
 import ctypes
 import os
 import threading
@@ -8,13 +8,13 @@ import numpy as np
 from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib, new_options
+from ._plan import Plan, Region, choice, part_bits
 
 _ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4,
               "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
 _STORAGES = {"double": 0, "float": 1}
 CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
-_PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
 
 
 class Factor:
@@ -212,7 +212,7 @@ class Factor:
 
     def _part(self, call, parts, B):
         dense = arrays.Dense(np.asfortranarray(B), self.n, self.n)
-        check(call(self._factor.pointer, _parts(parts), *dense.arguments(), self._work()))
+        check(call(self._factor.pointer, part_bits(parts), *dense.arguments(), self._work()))
         return dense.X
 
     def sample(self, count=None, rng=None):
@@ -339,103 +339,6 @@ class Factor:
                                                                      info["symbolic"]["nnz_l"])
 
 
-class Region:
-    """Rows inside which local solves cost the same whatever the size of the matrix.
-
-    After factor.refactor call update(); until then plans in the region raise StateError. Use it by
-    factor.plan(bset, xset, region=R), with both sets inside the region.
-    """
-
-    def __init__(self, factor, rows):
-        keep, address, count = arrays.rows(rows)
-        pointer, stats = ctypes.c_void_p(), Stats()
-        check(lib.sl_region_create(ctypes.byref(pointer), factor._factor.pointer, address, count,
-                                   None, None, ctypes.byref(stats)), stats)
-        self._own(factor, pointer.value)
-
-    def _own(self, factor, pointer):
-        self._factor = factor
-        self._region = Handle("region", pointer, factor._factor, factor._symbolic)
-
-    def update(self):
-        """Computes the region again from the present numbers of the factor."""
-        check(lib.sl_region_refactor(self._region.pointer, self._factor._factor.pointer, None,
-                                     self._factor._work()))
-
-    @property
-    def stats(self):
-        """Rows, boundary and bytes, by their C names."""
-        stats = Stats()
-        lib.sl_region_stats(self._region.pointer, ctypes.byref(stats))
-        return as_dict(stats.region)
-
-
-class Plan:
-    """A prepared local solve: b on bset, x wanted on xset. Made by Factor.plan."""
-
-    def __init__(self, factor, bset, xset, region=None):
-        keep_b, b_rows, nb = arrays.rows(bset)
-        keep_x, x_rows, nx = arrays.rows(xset)
-        options = new_options()
-        if region is not None:
-            options.region = region._region.pointer
-        pointer, stats = ctypes.c_void_p(), Stats()
-        check(lib.sl_plan_create(ctypes.byref(pointer), factor._symbolic.pointer, b_rows, nb,
-                                 x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats)
-        self._factor = factor
-        self._plan = Handle("plan", pointer.value, factor._symbolic, region)
-        self.nb = factor.n if bset is None else nb
-        self.nx = factor.n if xset is None else nx
-
-    def solve(self, B):
-        """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
-        dense = arrays.Dense(B, self.nb, self.nx)
-        call = lib.sl_plan_solve_interleaved if dense.is_interleaved else lib.sl_plan_solve
-        factor = self._factor
-        check(call(self._plan.pointer, factor._factor.pointer, *dense.arguments(), factor._work()))
-        return dense.X
-
-    def solve_part(self, parts, B):
-        """Half of the solve: 'P L' forward, 'LT PT' backward, either with 'D' or 'sqrtD'.
-
-        Forward, B has nb rows and the result one for each of columns('L'). Backward, B has one row
-        for each of columns('LT') and the result nx rows.
-        """
-        bits = _parts(parts)
-        is_forward = bits & _PARTS["P"]
-        info = self.stats
-        dense = arrays.Dense(np.asfortranarray(B), self.nb if is_forward else info["x_columns"],
-                             info["b_columns"] if is_forward else self.nx)
-        factor = self._factor
-        check(lib.sl_plan_solve_part(self._plan.pointer, factor._factor.pointer, bits,
-                                     *dense.arguments(), factor._work()))
-        return dense.X
-
-    def columns(self, part):
-        """The columns of L, ascending, that the forward ('L') or backward ('LT') sweep visits."""
-        info = self.stats
-        out = np.empty(info["b_columns"] if part == "L" else info["x_columns"], dtype=np.int32)
-        count = ctypes.c_int32()
-        check(lib.sl_plan_columns(self._plan.pointer, choice(_PARTS, part, "part"),
-                                  arrays.address(out), out.size, ctypes.byref(count)))
-        return out
-
-    @property
-    def stats(self):
-        """Columns and entries of L that a solve visits, by their C names."""
-        stats = Stats()
-        lib.sl_plan_stats(self._plan.pointer, ctypes.byref(stats))
-        return as_dict(stats.plan)
-
-
-def _parts(parts):
-    """The bits of parts: a string of names, or the names."""
-    bits = 0
-    for name in parts.split() if isinstance(parts, str) else parts:
-        bits |= choice(_PARTS, name, "a part")
-    return bits
-
-
 def encoded(path):
     """A path as the bytes that the library opens."""
     name = os.fsencode(path)
@@ -446,10 +349,3 @@ def encoded(path):
 
 def _unpickle(data, triangle):
     return Factor.from_bytes(data, triangle=triangle)
-
-
-def choice(names, name, what):
-    if name not in names:
-        raise ArgumentError("%s is one of %s, not %r" % (what, ", ".join(names), name))
-    return names[name]
-

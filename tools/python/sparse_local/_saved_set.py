@@ -6,8 +6,9 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._errors import ArgumentError
-from ._factor import CHECKS, Factor, Region, choice, encoded
+from ._factor import CHECKS, Factor, encoded
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib
+from ._plan import Region, choice
 
 
 class Selected:
