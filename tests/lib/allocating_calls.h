@@ -191,29 +191,17 @@ static sl_status use_growing(fixture_t *f, sl_work *W) {
     return status != SL_OK ? status : use_full(f, W);
 }
 
-static sl_status full_solve(fixture_t *f, const sl_options *opt) {
-    return in_work(f, opt, use_full);
-}
+#define IN_WORK(name, use) \
+    static sl_status name(fixture_t *f, const sl_options *opt) { \
+        return in_work(f, opt, use); \
+    }
 
-static sl_status plan_solve(fixture_t *f, const sl_options *opt) {
-    return in_work(f, opt, use_plan);
-}
-
-static sl_status local_solve(fixture_t *f, const sl_options *opt) {
-    return in_work(f, opt, use_local);
-}
-
-static sl_status reserve_factor(fixture_t *f, const sl_options *opt) {
-    return in_work(f, opt, use_reserve_factor);
-}
-
-static sl_status reserve_plan(fixture_t *f, const sl_options *opt) {
-    return in_work(f, opt, use_reserve_plan);
-}
-
-static sl_status growing(fixture_t *f, const sl_options *opt) {
-    return in_work(f, opt, use_growing);
-}
+IN_WORK(full_solve, use_full)
+IN_WORK(plan_solve, use_plan)
+IN_WORK(local_solve, use_local)
+IN_WORK(reserve_factor, use_reserve_factor)
+IN_WORK(reserve_plan, use_reserve_plan)
+IN_WORK(growing, use_growing)
 
 /* W == NULL: the scratch of one call comes from the allocator of the factor. */
 static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {

@@ -99,6 +99,15 @@ static inline char *files_get(const char *path, size_t *length) {
     return bytes;
 }
 
+/* Lines of a text. */
+static inline int files_lines(const char *text) {
+    int lines = 0;
+    for (const char *at = text; *at != '\0'; at++) {
+        lines += *at == '\n';
+    }
+    return lines;
+}
+
 /* Next number of a fixed pseudo-random sequence, used to damage bytes. */
 static inline uint64_t files_random(uint64_t *state) {
     *state = *state * 6364136223846793005u + 1442695040888963407u;

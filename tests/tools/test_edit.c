@@ -150,7 +150,7 @@ static void pins_and_springs_come_and_go(void **state) {
 static void tables_and_plots_are_written(void **state) {
     (void)state;
     char words[1300];
-    int status, rows = 0;
+    int status;
     size_t length;
     (void)snprintf(words, sizeof words,
                    "edit hills:15x15 --edits 40 --every 15 --kinds weight,patch,pin,flip --patch 9 "
@@ -163,10 +163,7 @@ static void tables_and_plots_are_written(void **state) {
     assert_true(number_after(output, "drift at most ") > 0);
     free(output);
     char *text = files_get(files_path("e.csv"), &length);
-    for (const char *at = text; *at != '\0'; at++) {
-        rows += *at == '\n';
-    }
-    assert_int_equal(rows, 1 + 40 + 3);
+    assert_int_equal(files_lines(text), 1 + 40 + 3);
     assert_non_null(strstr(text, "\n40,check,"));
     free(text);
     text = files_get(files_path("e.svg"), &length);
@@ -178,7 +175,7 @@ static void tables_and_plots_are_written(void **state) {
 static void mesh_edits_are_reported(void **state) {
     (void)state;
     char words[1300];
-    int status, rows = 0;
+    int status;
     size_t length;
     (void)snprintf(words, sizeof words,
                    "edit hills:40x40 --edits 30 --every 10 --kinds flip,split,collapse,remesh "
@@ -190,10 +187,7 @@ static void mesh_edits_are_reported(void **state) {
     assert_true(number_after(output, "entries of L at most ") > 0.9);
     free(output);
     char *text = files_get(files_path("m.csv"), &length);
-    for (const char *at = text; *at != '\0'; at++) {
-        rows += *at == '\n';
-    }
-    assert_int_equal(rows, 1 + 30 + 3);
+    assert_int_equal(files_lines(text), 1 + 30 + 3);
     assert_non_null(strstr(text, ",kept,"));
     free(text);
     text = files_get(files_path("m.svg"), &length);
