@@ -371,7 +371,7 @@ platform-table: ## prints the results of the platform targets as a Markdown tabl
 	@cat build/platforms/*.txt
 
 # With SL_VERIFY tasks are small in any case.
-sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behaviour sanitizers, and SL_VERIFY
+sanitize: deps deps-png sparse_local.h ## the tests with address and undefined-behavior sanitizers, and SL_VERIFY
 	@+$(SUB_MAKE) run-tests B=build/sanitize SMALL_TASK_TESTS= OPT='-O1 -g -fno-var-tracking -fno-omit-frame-pointer -DSL_VERIFY \
 	-fsanitize=address,undefined -fno-sanitize-recover=all' ALSO='$(PROGRAM_CHECKS)' PROGRAM=build/sanitize/sparse-local
 

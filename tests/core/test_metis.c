@@ -65,7 +65,7 @@ static void metis_options_are_handed_on(void **state) {
     gen_matrix_free(&M);
 }
 
-/* Analyses a grid, expects a status, and returns how many bytes were printed to stdout and
+/* Analyzes a grid, expects a status, and returns how many bytes were printed to stdout and
  * stderr. */
 static long bytes_printed(const sl_int *metis, sl_status wanted) {
     gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 2);

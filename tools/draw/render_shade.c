@@ -70,7 +70,7 @@ static void largest_normals(const render_shade *s, double *largest) {
  * mean: there all normals are turned to one side. Light does not depend on the side. */
 static bool vertex_normals(render_shade *s) {
     const size_t n = (size_t)s->m->n_vertices;
-    const double cancelled = 0.05;
+    const double canceled = 0.05;
     double *size = (double *)calloc(n + 1, sizeof *size);
     double *aligned = (double *)calloc(3 * n + 1, sizeof *aligned);
     double *largest = (double *)calloc(3 * n + 1, sizeof *largest);
@@ -84,7 +84,7 @@ static bool vertex_normals(render_shade *s) {
     }
     for (size_t v = 0; v < n && ok; v++) {
         double *sum = s->normal + 3 * v;
-        if (dot(sum, sum) <= cancelled * cancelled * size[v] * size[v]) {
+        if (dot(sum, sum) <= canceled * canceled * size[v] * size[v]) {
             memcpy(sum, aligned + 3 * v, 3 * sizeof *sum);
         }
         normalize(sum);
