@@ -116,7 +116,7 @@ build/amalgamate: $(wildcard tools/build/*.[ch])
 layers: ## do all includes go downward, and do the names of src/ have their prefixes?
 	@awk -f tools/build/layers.awk $(SRC) $(wildcard tools/*/*.[ch] tests/*/*.[ch] bench/*/*.[ch] bench/*/*.cpp)
 
-map: ## what is in each file of src, tests, tools and bench, by its first line
+map: ## what is in each file of src, tests, tools and bench, by its first comment
 	@tools/build/map.sh
 
 style: ## are all lines short enough, and is the wording of the public headers plain?

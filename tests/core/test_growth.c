@@ -1,4 +1,4 @@
-/* test_growth.c: pivot growth, its limit, and the signals that a caller reads before trusting x */
+/* test_growth.c: pivot growth: its value for every method and way to analyze, and its limit */
 #include "tests/lib/factored.h"
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/analyzed_system.h"

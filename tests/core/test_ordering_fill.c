@@ -1,4 +1,4 @@
-/* test_ordering_fill.c: fill and path weight of the default ordering: METIS's, and with points */
+/* test_ordering_fill.c: entries of L and of its paths, against METIS, and with points */
 #include "tests/lib/ordering_meshes.h"
 
 #define SIZES 3
