@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 42eed66f1ae6f694
+ * FNV-1a of the lines after this comment, without the license: e8f30a883b3593df
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -30,62 +30,62 @@
  *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3154 base.h   3448 status.h   3509 options.h   3567 alloc.h   3730 hash.h   3860 file_map.h
- *   3957 sort.h   4021 parallel.h
+ *   3154 base.h   3450 status.h   3511 options.h   3570 alloc.h   3733 hash.h   3863 file_map.h
+ *   3960 sort.h   4024 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4217 panel.h   4242 step.h   4320 pivot_rule.h   4394 front.h   4455 pairs.h
- *   4662 inverse_front.h   4734 table.h   4783 simd.h   4878 simd_scalar_single.h
- *   4922 simd_scalar.h   5048 simd_avx2_single.h   5100 simd_avx2.h   5326 simd_avx512_single.h
- *   5380 simd_avx512.h   5545 simd_neon_single.h   5585 simd_neon.h   5805 dispatch.h
+ *   4220 panel.h   4245 step.h   4324 pivot_rule.h   4398 front.h   4459 pairs.h
+ *   4666 inverse_front.h   4738 table.h   4787 simd.h   4882 simd_scalar_single.h
+ *   4926 simd_scalar.h   5052 simd_avx2_single.h   5104 simd_avx2.h   5330 simd_avx512_single.h
+ *   5384 simd_avx512.h   5549 simd_neon_single.h   5589 simd_neon.h   5809 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5898 csc.h   6041 csc_build.h   6175 csc64.h   6246 csc_triangle.h   6311 csc_products.h
- *   6428 permute.h   6494 sum.h   6576 output_file.h   6785 matrix_market.h
+ *   5902 csc.h   6045 csc_build.h   6179 csc64.h   6250 csc_triangle.h   6315 csc_products.h
+ *   6432 permute.h   6498 sum.h   6580 output_file.h   6789 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7231 graph.h   7349 contract.h   7603 coarsen.h   7766 labels.h   7987 subgraph.h   8181 heap.h
- *   8243 bisect.h   8449 separator.h   8711 mindeg.h   8894 dissect.h   9220 tree_cost.h
- *   9272 levelset.h   9378 geometric.h   9553 cells.h   9733 septree.h   9809 metis.h
- *   9958 metis_refined.h  10072 nd.h  10272 compress.h  10393 levels.h  10446 border.h
- *  10499 forest.h  10586 peel.h  10786 quotient.h  11203 graph_kind.h  11274 order.h
+ *   7235 graph.h   7353 contract.h   7607 coarsen.h   7770 labels.h   7991 subgraph.h   8185 heap.h
+ *   8247 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissect.h   9224 tree_cost.h
+ *   9276 levelset.h   9382 geometric.h   9557 cells.h   9737 septree.h   9813 metis.h
+ *   9962 metis_refined.h  10076 nd.h  10276 compress.h  10397 levels.h  10450 border.h
+ *  10503 forest.h  10590 peel.h  10790 quotient.h  11207 graph_kind.h  11278 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11599 symbolic_types.h  11636 etree.h  11762 supernodes.h  12002 pattern.h  12089 structure.h
- *  12292 schedule.h  12572 symbolic.h  13032 reach.h
+ *  11603 symbolic_types.h  11640 etree.h  11766 supernodes.h  12006 pattern.h  12093 structure.h
+ *  12296 schedule.h  12576 symbolic.h  13036 reach.h
  * (factor: the numbers of L and D)
- *  13305 factor_types.h  13733 storage.h  13871 pivot_search.h  14217 pivoted.h  14286 scatter.h
- *  14444 uplooking.h  14516 null_product.h  14720 null_dense.h  14797 null_basis.h
- *  15117 null_vectors.h  15259 multifrontal.h  15453 gather.h  15501 kept.h  15671 front_tasks.h
- *  16014 null_center.h  16138 nullspace.h  16325 growth.h  16403 factor_setup.h  16729 factor.h
- *  16944 leftlooking.h  17098 factor_query.h  17233 combination.h
+ *  13309 factor_types.h  13737 storage.h  13875 pivot_search.h  14221 pivoted.h  14290 scatter.h
+ *  14448 uplooking.h  14520 null_product.h  14724 null_dense.h  14801 null_basis.h
+ *  15121 null_vectors.h  15263 multifrontal.h  15457 gather.h  15505 kept.h  15675 front_tasks.h
+ *  16018 null_center.h  16142 nullspace.h  16329 growth.h  16407 factor_setup.h  16733 factor.h
+ *  16948 leftlooking.h  17102 factor_query.h  17237 combination.h
  * (solve: full and local solves)
- *  17294 region_types.h  17398 work.h  17498 query.h  17716 singular.h  17973 backward.h
- *  18003 sweep_tasks.h  18334 sweep.h  18542 compile.h  18735 plan.h  18842 local.h  18994 parts.h
- *  19283 refine.h  19462 refine_local.h  19678 rcond.h  19837 defects.h
+ *  17298 region_types.h  17402 work.h  17502 query.h  17720 singular.h  17977 backward.h
+ *  18007 sweep_tasks.h  18338 sweep.h  18546 compile.h  18739 plan.h  18846 local.h  18998 parts.h
+ *  19287 refine.h  19466 refine_local.h  19682 rcond.h  19841 defects.h
  * (inverse: entries of the inverse, regions)
- *  19896 traversal.h  20145 traversal_run.h  20338 row_sets.h  20372 unit_vectors.h
- *  20599 bilinear.h  20771 entries.h  21048 block.h  21283 reserve.h  21475 selected.h
- *  21685 selected_query.h  21787 region_choose.h  22014 region.h
+ *  19900 traversal.h  20149 traversal_run.h  20342 row_sets.h  20376 unit_vectors.h
+ *  20603 bilinear.h  20775 entries.h  21052 block.h  21287 reserve.h  21479 selected.h
+ *  21689 selected_query.h  21791 region_choose.h  22018 region.h
  * (change: a factor that follows changes of its matrix)
- *  22262 update.h  22630 path.h  22749 rank.h  23127 edges.h  23281 choose.h  23526 pins_types.h
- *  23592 pins_nulls.h  23775 pins_capacitance.h  24029 pins_balance.h  24208 pins_held.h
- *  24424 pins_choose.h  24481 pins_rebuild.h  24699 pins_matrix.h  24850 pins.h  25119 pins_solve.h
- *  25392 subset.h  25520 restrict_kept.h  25718 restrict_analysis.h  25970 restrict_symbolic.h
- *  26165 restrict.h  26396 edit_match.h  26595 edit_place.h  26844 edit_separate.h
- *  27158 edit_order.h  27313 edit_graph.h  27395 edit_join.h  27671 edit.h  27834 edit_factor.h
+ *  22266 update.h  22634 path.h  22753 rank.h  23131 edges.h  23285 choose.h  23530 pins_types.h
+ *  23596 pins_nulls.h  23779 pins_capacitance.h  24033 pins_balance.h  24212 pins_held.h
+ *  24428 pins_choose.h  24485 pins_rebuild.h  24703 pins_matrix.h  24854 pins.h  25123 pins_solve.h
+ *  25396 subset.h  25524 restrict_kept.h  25722 restrict_analysis.h  25974 restrict_symbolic.h
+ *  26169 restrict.h  26400 edit_match.h  26599 edit_place.h  26848 edit_separate.h
+ *  27162 edit_order.h  27317 edit_graph.h  27399 edit_join.h  27675 edit.h  27838 edit_factor.h
  * (save: factors in files)
- *  28119 format.h  28416 decode.h  28564 check.h  28894 write.h  29199 load.h  29467 load_inverse.h
- *  29797 load_calls.h
+ *  28123 format.h  28420 decode.h  28568 check.h  28898 write.h  29203 load.h  29471 load_inverse.h
+ *  29801 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  29996 batch_solve.h  30205 batch_factor.h  30406 batch_diagonal.h
+ *  30000 batch_solve.h  30209 batch_factor.h  30410 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30546 hermitian.h  30708 complex_rows.h
+ *  30550 hermitian.h  30712 complex_rows.h
  * (last: undefine every internal macro)
- *  30876 undef.h
+ *  30880 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31157 front.inl.h  31159 product.inl.h  31670 copy_rows.inl.h  31708 sweeps.inl.h
- *  31710 unit_triangle.inl.h  31747 two_rhs.inl.h  31916 small_supernode.inl.h
- *  32097 single_rhs.inl.h  32333 multi_rhs.inl.h  32352 complex_groups.inl.h
- *  32491 multi_rhs_small.inl.h  32663 multi_rhs_tiles.inl.h  32940 kernel_set.inl.h
- *  32942 complex_small.inl.h  33112 complex_rows.inl.h  33327 inverse_front.inl.h  33612 row.inl.h
- *  33642 change.inl.h  33885 interleave.inl.h  34019 lanes_undef.inl.h  34038 words_undef.inl.h
+ *  31163 front.inl.h  31165 product.inl.h  31676 copy_rows.inl.h  31714 sweeps.inl.h
+ *  31716 unit_triangle.inl.h  31753 two_rhs.inl.h  31922 small_supernode.inl.h
+ *  32103 single_rhs.inl.h  32339 multi_rhs.inl.h  32358 complex_groups.inl.h
+ *  32497 multi_rhs_small.inl.h  32669 multi_rhs_tiles.inl.h  32946 kernel_set.inl.h
+ *  32948 complex_small.inl.h  33118 complex_rows.inl.h  33333 inverse_front.inl.h  33618 row.inl.h
+ *  33648 change.inl.h  33891 interleave.inl.h  34025 lanes_undef.inl.h  34044 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3281,6 +3281,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 #define SLI_PREFETCH(p, bytes) \
   __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
+#define SLI_KEEP_CALL __asm__ __volatile__("")
 #define SLI_UNROLL _Pragma("GCC unroll 8")
 #else
 #define SLI_INLINE static inline
@@ -3299,6 +3300,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_PREFETCH(p, bytes) ((void)0)
 #endif
 #define SLI_UNROLL
+#define SLI_KEEP_CALL ((void)0)
 #endif
 #if defined(SLI_GNU)
 #define SLI_FNMA1(a, b, c) __builtin_fma(-(a), b, c)
@@ -3496,8 +3498,8 @@ SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
   }
 }
 
-SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column,
-                 double value) {
+SLI_NOINLINE static sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row,
+                      sl_int column, double value) {
   if (stats != NULL) {
     stats->error.row = row;
     stats->error.column = column;
@@ -3543,11 +3545,8 @@ static int sli_options_set(const sl_options *opt) {
 }
 #endif
 
-SLI_NOINLINE static int sli_options_are_valid(const sl_options *opt, int reads) {
+SLI_NOINLINE static int sli_options_hold(const sl_options *opt, int reads) {
   size_t k;
-  if (opt == NULL) {
-    return 1;
-  }
   for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
     if (opt->reserved[k] != NULL) {
       return 0;
@@ -3562,6 +3561,10 @@ SLI_NOINLINE static int sli_options_are_valid(const sl_options *opt, int reads) 
 #endif
   return (opt->size == 0 || opt->size == sizeof *opt) && opt->threads.count >= 0 &&
        (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
+}
+
+SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
+  return opt == NULL || sli_options_hold(opt, reads);
 }
 
 /* src/impl/base/alloc.h: the allocator: 64-byte aligned blocks, cut into arrays with overflow checks */
@@ -3609,7 +3612,7 @@ SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
   return a;
 }
 
-SLI_INLINE sl_options sli_options_with(const sl_allocator *a) {
+SLI_NOINLINE static sl_options sli_options_with(const sl_allocator *a) {
   sl_options opt;
   memset(&opt, 0, sizeof opt);
   opt.allocator = *a;
@@ -4302,11 +4305,12 @@ SLI_INLINE int sli_steps_exceed_cache(sl_int count, const sli_step *s, sl_int nr
        (size_t)s[count - 1].base * (size_t)nrhs * sizeof(double) > SLI_FETCHED_BYTES;
 }
 
-SLI_ALWAYS_INLINE void sli_step_prefetch(const sli_step *s, const sl_int *rows, const double *x,
-                     sl_int nrhs) {
+SLI_NOINLINE static void sli_step_prefetch(const sli_step *s, const sl_int *rows, const double *x,
+                       sl_int nrhs) {
   const sl_int columns = sli_min(sli_step_columns(s), SLI_ROWS_FETCHED);
   const sl_int below = sli_min(s->below, SLI_ROWS_FETCHED);
   sl_int k, r;
+  SLI_KEEP_CALL;
   for (k = 0; k < columns * nrhs; k += 8) {
     SLI_PREFETCH(x + (ptrdiff_t)s->base * nrhs + k, 0);
   }
@@ -4346,7 +4350,7 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
   return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
 }
 
-SLI_INLINE float sli_to_float(double d) {
+SLI_NOINLINE static float sli_to_float(double d) {
   return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
 }
 
@@ -4512,7 +4516,7 @@ SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
   return l * l * D->p + 2.0 * fabs(l * m) * D->q + m * m * D->r;
 }
 
-SLI_INLINE int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
+SLI_NOINLINE static int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
                 double tolerance) {
   const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
   const double most = fabs(f) > fabs(g) ? fabs(f) : fabs(g);
@@ -6940,7 +6944,7 @@ static int sli_token_double(const sli_reader *r, const char **at, const char *st
   return rest != number && *rest == '\0';
 }
 
-static int sli_token_is(const char *token, const char *word) {
+SLI_NOINLINE static int sli_token_is(const char *token, const char *word) {
   for (; *token != '\0' && *word != '\0'; token++, word++) {
     const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
     if (c != *word) {
@@ -17404,12 +17408,8 @@ struct sl_work {
   size_t size;
 };
 
-static sl_status sli_work_grow(sl_work *W, size_t bytes) {
-  void *block;
-  if (bytes <= W->size) {
-    return SL_OK;
-  }
-  block = sli_alloc(&W->allocator, bytes);
+SLI_NOINLINE static sl_status sli_work_enlarge(sl_work *W, size_t bytes) {
+  void *block = sli_alloc(&W->allocator, bytes);
   if (block == NULL) {
     return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : SL_ERR_MEMORY;
   }
@@ -17417,6 +17417,10 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
   W->block = block;
   W->size = bytes;
   return SL_OK;
+}
+
+SLI_INLINE sl_status sli_work_grow(sl_work *W, size_t bytes) {
+  return bytes <= W->size ? SL_OK : sli_work_enlarge(W, bytes);
 }
 
 static sl_work sli_work_own(const sl_allocator *a) {
@@ -28214,7 +28218,7 @@ SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
   return sli_round_up(sizeof f->header + f->header.sections * sizeof(sli_section));
 }
 
-static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
+SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
               uint64_t count, uint64_t used) {
   const uint32_t k = f->header.sections++;
   f->table[k].id = id;
@@ -28224,7 +28228,7 @@ static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *
   f->used[k] = used * word;
 }
 
-static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+SLI_NOINLINE static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
   const sli_saved_analysis *a = &f->analysis;
   const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
            entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
@@ -28354,7 +28358,7 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
   }
 }
 
-static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
+SLI_NOINLINE static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
                  int has_factor) {
   f->header.sections = 0;
   sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
@@ -30889,6 +30893,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_NOINLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
+#undef SLI_KEEP_CALL
 #undef SLI_ALIGNED
 #undef SLI_PREFETCH
 #undef SLI_SPIN
@@ -30980,6 +30985,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLV_PIVOT
 #undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
+#undef SLV_SWEEP_SMALL
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
 #undef SLV_READ

@@ -52,7 +52,7 @@ SLI_INLINE sl_allocator sli_allocator(const sl_options *opt) {
 }
 
 /* Default options with the allocator a. */
-SLI_INLINE sl_options sli_options_with(const sl_allocator *a) {
+SLI_NOINLINE static sl_options sli_options_with(const sl_allocator *a) {
     sl_options opt;
     memset(&opt, 0, sizeof opt);
     opt.allocator = *a;

@@ -142,6 +142,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
  * address has no effect. */
 #define SLI_PREFETCH(p, bytes) \
     __builtin_prefetch((const void *)((uintptr_t)(p) + (uintptr_t)(bytes)))
+#define SLI_KEEP_CALL __asm__ __volatile__("")
 /* unrolls the loop that follows, of at most 8 iterations */
 #define SLI_UNROLL _Pragma("GCC unroll 8")
 #else
@@ -161,6 +162,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_PREFETCH(p, bytes) ((void)0)
 #endif
 #define SLI_UNROLL
+#define SLI_KEEP_CALL ((void)0)
 #endif
 /* c - a b in one rounding, in a function compiled for that instruction */
 #if defined(SLI_GNU)

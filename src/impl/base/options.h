@@ -45,11 +45,8 @@ static int sli_options_set(const sl_options *opt) {
 /* Checks the size of the struct, that no option unknown to this library is set, the completeness of
  * the allocator, and the number of threads. reads: the groups that the call reads. An option that
  * is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
-SLI_NOINLINE static int sli_options_are_valid(const sl_options *opt, int reads) {
+SLI_NOINLINE static int sli_options_hold(const sl_options *opt, int reads) {
     size_t k;
-    if (opt == NULL) {
-        return 1;
-    }
     for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
         if (opt->reserved[k] != NULL) {
             return 0;
@@ -64,6 +61,10 @@ SLI_NOINLINE static int sli_options_are_valid(const sl_options *opt, int reads) 
 #endif
     return (opt->size == 0 || opt->size == sizeof *opt) && opt->threads.count >= 0 &&
            (opt->allocator.allocate == NULL) == (opt->allocator.release == NULL);
+}
+
+SLI_INLINE int sli_options_are_valid(const sl_options *opt, int reads) {
+    return opt == NULL || sli_options_hold(opt, reads);
 }
 
 #endif

@@ -56,8 +56,8 @@ SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
 }
 
 /* Reports the entry at fault in stats; returns the status. */
-SLI_INLINE sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row, sl_int column,
-                                 double value) {
+SLI_NOINLINE static sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row,
+                                          sl_int column, double value) {
     if (stats != NULL) {
         stats->error.row = row;
         stats->error.column = column;

@@ -14,6 +14,7 @@
 #undef SLI_NOINLINE
 #undef SLI_TARGET
 #undef SLI_UNROLL
+#undef SLI_KEEP_CALL
 #undef SLI_ALIGNED
 #undef SLI_PREFETCH
 #undef SLI_SPIN
@@ -105,6 +106,7 @@
 #undef SLV_PIVOT
 #undef SLV_PACK_PAIRS
 #undef SLV_SWEEP
+#undef SLV_SWEEP_SMALL
 #undef SLW_SWEEP
 #undef SLW_SWEEP_HALF
 #undef SLV_READ

@@ -77,7 +77,7 @@ SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
 
 /* A pair is null if its block, scaled by the sums of the magnitudes m that a and b were computed
  * from, has an eigenvalue within rounding of 0: |det| <= tolerance * (largest entry). */
-SLI_INLINE int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
+SLI_NOINLINE static int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
                                 double tolerance) {
     const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
     const double most = fabs(f) > fabs(g) ? fabs(f) : fabs(g);

@@ -42,7 +42,7 @@ SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
 }
 
 /* d in float. SLI_NULL_PIVOT becomes FLT_MAX. */
-SLI_INLINE float sli_to_float(double d) {
+SLI_NOINLINE static float sli_to_float(double d) {
     return d > (double)FLT_MAX ? FLT_MAX : d < -(double)FLT_MAX ? -FLT_MAX : (float)d;
 }
 

@@ -94,12 +94,13 @@ SLI_INLINE int sli_steps_exceed_cache(sl_int count, const sli_step *s, sl_int nr
            (size_t)s[count - 1].base * (size_t)nrhs * sizeof(double) > SLI_FETCHED_BYTES;
 }
 
-/* rows: of the step. Always inline: gcc drops the call of a function that does nothing else. */
-SLI_ALWAYS_INLINE void sli_step_prefetch(const sli_step *s, const sl_int *rows, const double *x,
-                                         sl_int nrhs) {
+/* rows: of the step */
+SLI_NOINLINE static void sli_step_prefetch(const sli_step *s, const sl_int *rows, const double *x,
+                                           sl_int nrhs) {
     const sl_int columns = sli_min(sli_step_columns(s), SLI_ROWS_FETCHED);
     const sl_int below = sli_min(s->below, SLI_ROWS_FETCHED);
     sl_int k, r;
+    SLI_KEEP_CALL; /* gcc drops the call of a function that does nothing but this */
     for (k = 0; k < columns * nrhs; k += 8) {
         SLI_PREFETCH(x + (ptrdiff_t)s->base * nrhs + k, 0);
     }

@@ -178,7 +178,7 @@ static int sli_token_double(const sli_reader *r, const char **at, const char *st
 }
 
 /* Is the token this lower-case word, in upper or lower case? */
-static int sli_token_is(const char *token, const char *word) {
+SLI_NOINLINE static int sli_token_is(const char *token, const char *word) {
     for (; *token != '\0' && *word != '\0'; token++, word++) {
         const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
         if (c != *word) {

@@ -115,7 +115,7 @@ SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
 }
 
 /* Appends a section of `count` words, of which `used` have contents. */
-static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
+SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
                           uint64_t count, uint64_t used) {
     const uint32_t k = f->header.sections++;
     f->table[k].id = id;
@@ -125,7 +125,7 @@ static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *
     f->used[k] = used * word;
 }
 
-static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
+SLI_NOINLINE static void sli_saved_add_analysis(sli_saved *f, const sl_symbolic *S) {
     const sli_saved_analysis *a = &f->analysis;
     const uint64_t n = (uint64_t)a->n, supers = (uint64_t)a->supers, rows = (uint64_t)a->rows,
                    entries = (uint64_t)a->entries, nodes = (uint64_t)a->nodes;
@@ -262,7 +262,7 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
 
 /* Appends the sections of an analysis and a factor to the empty table, from their numbers and,
  * where they are known, their arrays. */
-static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
+SLI_NOINLINE static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
                                int has_factor) {
     f->header.sections = 0;
     sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,

@@ -12,13 +12,8 @@ struct sl_work {
     size_t size;
 };
 
-/* Grows W to at least `bytes`, SIZE_MAX if sizes overflowed. Growing discards the contents. */
-static sl_status sli_work_grow(sl_work *W, size_t bytes) {
-    void *block;
-    if (bytes <= W->size) {
-        return SL_OK;
-    }
-    block = sli_alloc(&W->allocator, bytes);
+SLI_NOINLINE static sl_status sli_work_enlarge(sl_work *W, size_t bytes) {
+    void *block = sli_alloc(&W->allocator, bytes);
     if (block == NULL) {
         return bytes == SIZE_MAX ? SL_ERR_TOO_LARGE : SL_ERR_MEMORY;
     }
@@ -26,6 +21,11 @@ static sl_status sli_work_grow(sl_work *W, size_t bytes) {
     W->block = block;
     W->size = bytes;
     return SL_OK;
+}
+
+/* Grows W to at least `bytes`, SIZE_MAX if sizes overflowed. Growing discards the contents. */
+SLI_INLINE sl_status sli_work_grow(sl_work *W, size_t bytes) {
+    return bytes <= W->size ? SL_OK : sli_work_enlarge(W, bytes);
 }
 
 /* An empty workspace for one call. The caller releases its block. */
