@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e8f30a883b3593df
+ * FNV-1a of the lines after this comment, without the license: 060211814d8ea687
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,58 +34,58 @@
  *   3960 sort.h   4024 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4220 panel.h   4245 step.h   4324 pivot_rule.h   4398 front.h   4459 pairs.h
- *   4666 inverse_front.h   4738 table.h   4787 simd.h   4882 simd_scalar_single.h
- *   4926 simd_scalar.h   5052 simd_avx2_single.h   5104 simd_avx2.h   5330 simd_avx512_single.h
- *   5384 simd_avx512.h   5549 simd_neon_single.h   5589 simd_neon.h   5809 dispatch.h
+ *   4666 inverse_front.h   4738 table.h   4787 simd.h   4883 simd_scalar_single.h
+ *   4927 simd_scalar.h   5053 simd_avx2_single.h   5105 simd_avx2.h   5331 simd_avx512_single.h
+ *   5385 simd_avx512.h   5551 simd_neon_single.h   5591 simd_neon.h   5811 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5902 csc.h   6045 csc_build.h   6179 csc64.h   6250 csc_triangle.h   6315 csc_products.h
- *   6432 permute.h   6498 sum.h   6580 output_file.h   6789 matrix_market.h
+ *   5904 csc.h   6047 csc_build.h   6181 csc64.h   6252 csc_triangle.h   6317 csc_products.h
+ *   6434 permute.h   6500 sum.h   6582 output_file.h   6791 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7235 graph.h   7353 contract.h   7607 coarsen.h   7770 labels.h   7991 subgraph.h   8185 heap.h
- *   8247 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissect.h   9224 tree_cost.h
- *   9276 levelset.h   9382 geometric.h   9557 cells.h   9737 septree.h   9813 metis.h
- *   9962 metis_refined.h  10076 nd.h  10276 compress.h  10397 levels.h  10450 border.h
- *  10503 forest.h  10590 peel.h  10790 quotient.h  11207 graph_kind.h  11278 order.h
+ *   7237 graph.h   7355 contract.h   7609 coarsen.h   7772 labels.h   7993 subgraph.h   8187 heap.h
+ *   8249 bisect.h   8455 separator.h   8717 mindeg.h   8900 dissect.h   9226 tree_cost.h
+ *   9278 levelset.h   9384 geometric.h   9559 cells.h   9739 septree.h   9815 metis.h
+ *   9964 metis_refined.h  10078 nd.h  10278 compress.h  10399 levels.h  10452 border.h
+ *  10505 forest.h  10592 peel.h  10792 quotient.h  11209 graph_kind.h  11280 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11603 symbolic_types.h  11640 etree.h  11766 supernodes.h  12006 pattern.h  12093 structure.h
- *  12296 schedule.h  12576 symbolic.h  13036 reach.h
+ *  11605 symbolic_types.h  11642 etree.h  11768 supernodes.h  12008 pattern.h  12095 structure.h
+ *  12298 schedule.h  12578 symbolic.h  13038 reach.h
  * (factor: the numbers of L and D)
- *  13309 factor_types.h  13737 storage.h  13875 pivot_search.h  14221 pivoted.h  14290 scatter.h
- *  14448 uplooking.h  14520 null_product.h  14724 null_dense.h  14801 null_basis.h
- *  15121 null_vectors.h  15263 multifrontal.h  15457 gather.h  15505 kept.h  15675 front_tasks.h
- *  16018 null_center.h  16142 nullspace.h  16329 growth.h  16407 factor_setup.h  16733 factor.h
- *  16948 leftlooking.h  17102 factor_query.h  17237 combination.h
+ *  13311 factor_types.h  13739 storage.h  13877 pivot_search.h  14223 pivoted.h  14292 scatter.h
+ *  14450 uplooking.h  14522 null_product.h  14726 null_dense.h  14803 null_basis.h
+ *  15123 null_vectors.h  15265 multifrontal.h  15459 gather.h  15507 kept.h  15677 front_tasks.h
+ *  16020 null_center.h  16144 nullspace.h  16331 growth.h  16409 factor_setup.h  16735 factor.h
+ *  16950 leftlooking.h  17104 factor_query.h  17239 combination.h
  * (solve: full and local solves)
- *  17298 region_types.h  17402 work.h  17502 query.h  17720 singular.h  17977 backward.h
- *  18007 sweep_tasks.h  18338 sweep.h  18546 compile.h  18739 plan.h  18846 local.h  18998 parts.h
- *  19287 refine.h  19466 refine_local.h  19682 rcond.h  19841 defects.h
+ *  17300 region_types.h  17404 work.h  17504 query.h  17722 singular.h  17979 backward.h
+ *  18009 sweep_tasks.h  18340 sweep.h  18548 compile.h  18741 plan.h  18848 local.h  19000 parts.h
+ *  19289 refine.h  19468 refine_local.h  19684 rcond.h  19843 defects.h
  * (inverse: entries of the inverse, regions)
- *  19900 traversal.h  20149 traversal_run.h  20342 row_sets.h  20376 unit_vectors.h
- *  20603 bilinear.h  20775 entries.h  21052 block.h  21287 reserve.h  21479 selected.h
- *  21689 selected_query.h  21791 region_choose.h  22018 region.h
+ *  19902 traversal.h  20151 traversal_run.h  20344 row_sets.h  20378 unit_vectors.h
+ *  20605 bilinear.h  20777 entries.h  21054 block.h  21289 reserve.h  21481 selected.h
+ *  21691 selected_query.h  21793 region_choose.h  22020 region.h
  * (change: a factor that follows changes of its matrix)
- *  22266 update.h  22634 path.h  22753 rank.h  23131 edges.h  23285 choose.h  23530 pins_types.h
- *  23596 pins_nulls.h  23779 pins_capacitance.h  24033 pins_balance.h  24212 pins_held.h
- *  24428 pins_choose.h  24485 pins_rebuild.h  24703 pins_matrix.h  24854 pins.h  25123 pins_solve.h
- *  25396 subset.h  25524 restrict_kept.h  25722 restrict_analysis.h  25974 restrict_symbolic.h
- *  26169 restrict.h  26400 edit_match.h  26599 edit_place.h  26848 edit_separate.h
- *  27162 edit_order.h  27317 edit_graph.h  27399 edit_join.h  27675 edit.h  27838 edit_factor.h
+ *  22268 update.h  22636 path.h  22755 rank.h  23133 edges.h  23287 choose.h  23532 pins_types.h
+ *  23598 pins_nulls.h  23781 pins_capacitance.h  24035 pins_balance.h  24214 pins_held.h
+ *  24430 pins_choose.h  24487 pins_rebuild.h  24705 pins_matrix.h  24856 pins.h  25125 pins_solve.h
+ *  25398 subset.h  25526 restrict_kept.h  25724 restrict_analysis.h  25976 restrict_symbolic.h
+ *  26171 restrict.h  26402 edit_match.h  26601 edit_place.h  26850 edit_separate.h
+ *  27164 edit_order.h  27319 edit_graph.h  27401 edit_join.h  27677 edit.h  27840 edit_factor.h
  * (save: factors in files)
- *  28123 format.h  28420 decode.h  28568 check.h  28898 write.h  29203 load.h  29471 load_inverse.h
- *  29801 load_calls.h
+ *  28125 format.h  28422 decode.h  28570 check.h  28900 write.h  29205 load.h  29473 load_inverse.h
+ *  29803 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30000 batch_solve.h  30209 batch_factor.h  30410 batch_diagonal.h
+ *  30002 batch_solve.h  30211 batch_factor.h  30412 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30550 hermitian.h  30712 complex_rows.h
+ *  30552 hermitian.h  30714 complex_rows.h
  * (last: undefine every internal macro)
- *  30880 undef.h
+ *  30882 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31163 front.inl.h  31165 product.inl.h  31676 copy_rows.inl.h  31714 sweeps.inl.h
- *  31716 unit_triangle.inl.h  31753 two_rhs.inl.h  31922 small_supernode.inl.h
- *  32103 single_rhs.inl.h  32339 multi_rhs.inl.h  32358 complex_groups.inl.h
- *  32497 multi_rhs_small.inl.h  32669 multi_rhs_tiles.inl.h  32946 kernel_set.inl.h
- *  32948 complex_small.inl.h  33118 complex_rows.inl.h  33333 inverse_front.inl.h  33618 row.inl.h
- *  33648 change.inl.h  33891 interleave.inl.h  34025 lanes_undef.inl.h  34044 words_undef.inl.h
+ *  31165 front.inl.h  31167 product.inl.h  31678 copy_rows.inl.h  31716 sweeps.inl.h
+ *  31718 unit_triangle.inl.h  31755 two_rhs.inl.h  31929 small_supernode.inl.h
+ *  32131 single_rhs.inl.h  32371 multi_rhs.inl.h  32390 complex_groups.inl.h
+ *  32529 multi_rhs_small.inl.h  32701 multi_rhs_tiles.inl.h  32978 kernel_set.inl.h
+ *  32980 complex_small.inl.h  33170 complex_rows.inl.h  33385 inverse_front.inl.h  33670 row.inl.h
+ *  33700 change.inl.h  33943 interleave.inl.h  34077 lanes_undef.inl.h  34096 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4869,6 +4869,7 @@ typedef struct sli_kernels {
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
+#define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)
@@ -5389,6 +5390,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_NAME(f) sli_##f##_avx512
 #define SLV_NAME_4(f) sli_##f##4_avx2
 #define SLV_NAME_2(f) sli_##f##2_avx2
+#define SLV_NAME_SMALL(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
@@ -31919,6 +31921,11 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_DOT
 /* end of two_rhs.inl.h */
 #endif
+#if !defined(SLV_NAME_SMALL)
+#define SLV_NAME_SMALL SLV_NAME
+#define SLV_OWN_SMALL
+#endif
+#if defined(SLV_OWN_SMALL)
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
 
 #if defined(SLV_PAIR)
@@ -32066,16 +32073,36 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(forward_small)(sl_int w, sl_int below, const sl_int *rows,
-                            const SLV_VALUE *l, double *xs, double *x,
-                            double *buf) {
-  SLI_BY_WIDTH(SLI_FORWARD);
+SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_step *end,
+                               const sl_int **next_rows,
+                               const SLV_VALUE *L, double *x,
+                               double *buf) {
+  const sl_int *rows = *next_rows;
+  for (; s < end && s->width <= SLI_TILE; s++) {
+    const sl_int w = s->width, below = s->below;
+    const SLV_VALUE *l = L + s->panel;
+    double *xs = x + s->base;
+    SLI_BY_WIDTH(SLI_FORWARD);
+    rows += below;
+  }
+  *next_rows = rows;
+  return s;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, const sl_int *rows,
-                             const SLV_VALUE *l, const double *d,
-                             double *xs, const double *x) {
-  SLI_BY_WIDTH(SLI_BACKWARD);
+SLV_FUNCTION static const sli_step *
+SLV_SWEEP(backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+              const SLV_VALUE *L, const double *D, double *x) {
+  const sl_int *rows = *rows_end;
+  for (; s > begin && s[-1].width <= SLI_TILE; s--) {
+    const sl_int w = s[-1].width, below = s[-1].below;
+    const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
+    const double *d = D + s[-1].column;
+    double *xs = x + s[-1].base;
+    rows -= below;
+    SLI_BY_WIDTH(SLI_BACKWARD);
+  }
+  *rows_end = rows;
+  return s;
 }
 
 #undef SLI_DECLARE
@@ -32100,6 +32127,7 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, c
 #undef SLI_CLEAR_WIDE
 #undef SLI_CLEAR
 /* end of small_supernode.inl.h */
+#endif
 /* src/impl/kernels/single_rhs.inl.h: sweeps for one right-hand side, vectorized over the 8 rows of a tile */
 
 SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_int t0,
@@ -32147,14 +32175,14 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
 SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                       const void *values, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
-  for (; count > 0; count--, s++) {
+  const sli_step *end = s + count;
+  while (s < end) {
     const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
     double *xs = x + s->base;
     sl_int i;
     if (w <= SLI_TILE) {
-      SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
-      rows += s->below;
+      s = SLV_SWEEP_SMALL(forward_small)(s, end, &rows, L, x, buf);
       continue;
     }
     memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
@@ -32167,6 +32195,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, con
       x[rows[i]] += buf[w + i];
     }
     rows += s->below;
+    s++;
   }
 }
 
@@ -32255,19 +32284,22 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
                        const double *D, double *x, double *buf) {
   const SLV_VALUE *L = (const SLV_VALUE *)values;
   const int by_two = count <= SLI_FEW_STEPS;
-  for (s += count; count > 0; count--) {
+  const sli_step *begin = s;
+  s += count;
+  while (s > begin) {
     const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
     const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
     const double *d = D + s->column - first;
     double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
-    const sl_int *rows = rows_end -= s->below;
+    const sl_int *rows;
     sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
     SLV_DECLARE(v)
     SLV_SUM_DECLARE(a)
     if (w <= SLI_TILE) {
-      SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
+      s = SLV_SWEEP_SMALL(backward_small)(s + 1, begin, &rows_end, L, D, x);
       continue;
     }
+    rows = rows_end -= s->below;
     SLV_SUM_ZERO(a)
     for (j = first; j < w; j++) {
       SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)
@@ -32965,6 +32997,7 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
     SLI_XT(0, 2) \
   }
 
+#if defined(SLV_OWN_SMALL)
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -33087,18 +33120,37 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
 #define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_forward_small)(sl_int w, sl_int below,
-                               const sl_int *rows, const double *l,
-                               double *xs, double *x, double *buf) {
-  SLI_EACH_WIDTH(SLI_FORWARD);
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl_int **next_rows,
+                const double *L, double *x, double *buf) {
+  const sl_int *rows = *next_rows;
+  for (; s < end && s->width <= SLI_TILE; s++) {
+    const sl_int w = s->width, below = s->below;
+    const double *l = L + s->panel / 2;
+    double *xs = x + s->base;
+    SLI_EACH_WIDTH(SLI_FORWARD);
+    rows += below;
+  }
+  *next_rows = rows;
+  return s;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int below,
-                                const sl_int *rows, const double *l,
-                                const double *d, double *xs,
-                                const double *x) {
-  SLI_EACH_WIDTH(SLI_BACKWARD);
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+                 const double *L, const double *D, double *x) {
+  const sl_int *rows = *rows_end;
+  for (; s > begin && s[-1].width <= SLI_TILE; s--) {
+    const sl_int w = s[-1].width, below = s[-1].below;
+    const double *l = L + (s[-1].panel + sli_panel_size(w, below)) / 2;
+    const double *d = D + s[-1].column;
+    double *xs = x + s[-1].base;
+    rows -= below;
+    SLI_EACH_WIDTH(SLI_BACKWARD);
+  }
+  *rows_end = rows;
+  return s;
 }
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE
@@ -33294,14 +33346,14 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
                            const sl_int *rows, const void *values,
                            double *x, double *buf) {
   const double *L = (const double *)values;
-  for (; count > 0; count--, s++) {
+  const sli_step *end = s + count;
+  while (s < end) {
     if (SLI_SMALL && s->width <= SLI_TILE) {
-      SLV_NAME(complex_forward_small)
-      (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
+      s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
     } else {
       SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
+      rows += (s++)->below;
     }
-    rows += s->below;
   }
 }
 
@@ -33309,13 +33361,13 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
                           const sl_int *rows, const void *values,
                           const double *D, double *x, double *buf) {
   const double *L = (const double *)values;
-  for (s += count; count > 0; count--) {
-    rows -= (--s)->below;
-    if (SLI_SMALL && s->width <= SLI_TILE) {
-      const double *end = L + (s->panel + sli_panel_size(s->width, s->below)) / 2;
-      SLV_NAME(complex_backward_small)
-      (s->width, s->below, rows, end, D + s->column, x + s->base, x);
+  const sli_step *begin = s;
+  s += count;
+  while (s > begin) {
+    if (SLI_SMALL && s[-1].width <= SLI_TILE) {
+      s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
     } else {
+      rows -= (--s)->below;
       SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
     }
   }
@@ -34051,6 +34103,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_NAME
 #undef SLV_NAME_4
 #undef SLV_NAME_2
+#undef SLV_NAME_SMALL
+#undef SLV_OWN_SMALL
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE

@@ -187,14 +187,14 @@ SLV_FUNCTION static void SLV_NAME(complex_forward)(sl_int count, const sli_step 
                                                    const sl_int *rows, const void *values,
                                                    double *x, double *buf) {
     const double *L = (const double *)values;
-    for (; count > 0; count--, s++) {
+    const sli_step *end = s + count;
+    while (s < end) {
         if (SLI_SMALL && s->width <= SLI_TILE) {
-            SLV_NAME(complex_forward_small)
-            (s->width, s->below, rows, L + s->panel / 2, x + s->base, x, buf);
+            s = SLV_NAME_SMALL(complex_forward_small)(s, end, &rows, L, x, buf);
         } else {
             SLV_NAME(complex_forward_step)(s, rows, L, x, buf);
+            rows += (s++)->below;
         }
-        rows += s->below;
     }
 }
 
@@ -202,13 +202,13 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
                                                     const sl_int *rows, const void *values,
                                                     const double *D, double *x, double *buf) {
     const double *L = (const double *)values;
-    for (s += count; count > 0; count--) {
-        rows -= (--s)->below;
-        if (SLI_SMALL && s->width <= SLI_TILE) {
-            const double *end = L + (s->panel + sli_panel_size(s->width, s->below)) / 2;
-            SLV_NAME(complex_backward_small)
-            (s->width, s->below, rows, end, D + s->column, x + s->base, x);
+    const sli_step *begin = s;
+    s += count;
+    while (s > begin) {
+        if (SLI_SMALL && s[-1].width <= SLI_TILE) {
+            s = SLV_NAME_SMALL(complex_backward_small)(s, begin, &rows, L, D, x);
         } else {
+            rows -= (--s)->below;
             SLV_NAME(complex_backward_step)(s, rows, L, D, x, buf);
         }
     }

@@ -23,6 +23,7 @@
         SLI_XT(0, 2) \
     }
 
+#if defined(SLV_OWN_SMALL)
 #define SLI_DECLARE(k, y) SLV_DECLARE(y##k)
 #define SLI_SUM_DECLARE(k, a) SLV_SUM_DECLARE(a##k)
 #define SLI_SUM_ZERO(k, a) SLV_SUM_ZERO(a##k)
@@ -149,18 +150,38 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_in
 #define SLI_FORWARD(k) SLV_NAME(complex_small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_NAME(complex_small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_forward_small)(sl_int w, sl_int below,
-                                                             const sl_int *rows, const double *l,
-                                                             double *xs, double *x, double *buf) {
-    SLI_EACH_WIDTH(SLI_FORWARD);
+/* Runs of such supernodes, as in small_supernode.inl.h. */
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_NAME(complex_forward_small)(const sli_step *s, const sli_step *end, const sl_int **next_rows,
+                                const double *L, double *x, double *buf) {
+    const sl_int *rows = *next_rows;
+    for (; s < end && s->width <= SLI_TILE; s++) {
+        const sl_int w = s->width, below = s->below;
+        const double *l = L + s->panel / 2;
+        double *xs = x + s->base;
+        SLI_EACH_WIDTH(SLI_FORWARD);
+        rows += below;
+    }
+    *next_rows = rows;
+    return s;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(complex_backward_small)(sl_int w, sl_int below,
-                                                              const sl_int *rows, const double *l,
-                                                              const double *d, double *xs,
-                                                              const double *x) {
-    SLI_EACH_WIDTH(SLI_BACKWARD);
+SLV_FUNCTION SLI_INLINE const sli_step *
+SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+                                 const double *L, const double *D, double *x) {
+    const sl_int *rows = *rows_end;
+    for (; s > begin && s[-1].width <= SLI_TILE; s--) {
+        const sl_int w = s[-1].width, below = s[-1].below;
+        const double *l = L + (s[-1].panel + sli_panel_size(w, below)) / 2;
+        const double *d = D + s[-1].column;
+        double *xs = x + s[-1].base;
+        rows -= below;
+        SLI_EACH_WIDTH(SLI_BACKWARD);
+    }
+    *rows_end = rows;
+    return s;
 }
+#endif
 
 #undef SLI_DECLARE
 #undef SLI_SUM_DECLARE

@@ -13,6 +13,8 @@
  *  SLV_NAME(f)            name of function f in this instruction set
  *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
  *  SLV_NAME_2(f)          the same of a complex sweep for 2 right-hand sides
+ *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
+ *                         columns, if that of another instruction set is used
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a
@@ -176,6 +178,7 @@
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
+#define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
 #define SLW_SWEEP_HALF(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_HALF, f)
 #define SLV_READ(l) SLI_BY_TYPE(SLV_READ_, SLV_SINGLE)(l)

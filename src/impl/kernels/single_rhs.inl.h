@@ -49,14 +49,14 @@ SLV_FUNCTION SLI_INLINE void SLV_SWEEP(panel_forward)(const SLV_VALUE *tile, sl_
 SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, const sl_int *rows,
                                             const void *values, double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
-    for (; count > 0; count--, s++) {
+    const sli_step *end = s + count;
+    while (s < end) {
         const sl_int w = s->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const SLV_VALUE *tile = L + s->panel + sli_tile_offset(w, s->first_tile);
         double *xs = x + s->base;
         sl_int i;
         if (w <= SLI_TILE) {
-            SLV_SWEEP(forward_small)(w, s->below, rows, tile, xs, x, buf);
-            rows += s->below;
+            s = SLV_SWEEP_SMALL(forward_small)(s, end, &rows, L, x, buf);
             continue;
         }
         memcpy(buf + first, xs, (size_t)(w - first) * sizeof(double));
@@ -69,6 +69,7 @@ SLV_FUNCTION static void SLV_SWEEP(forward)(sl_int count, const sli_step *s, con
             x[rows[i]] += buf[w + i];
         }
         rows += s->below;
+        s++;
     }
 }
 
@@ -168,19 +169,22 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
                                              const double *D, double *x, double *buf) {
     const SLV_VALUE *L = (const SLV_VALUE *)values;
     const int by_two = count <= SLI_FEW_STEPS;
-    for (s += count; count > 0; count--) {
+    const sli_step *begin = s;
+    s += count;
+    while (s > begin) {
         const sl_int w = (--s)->width, height = w + s->below, first = SLI_TILE * s->first_tile;
         const SLV_VALUE *tile = L + s->panel + sli_panel_size(w, s->below);
         const double *d = D + s->column - first;
         double *xs = x + s->base - first, *sums = buf + 2 * SLI_TILE;
-        const sl_int *rows = rows_end -= s->below;
+        const sl_int *rows;
         sl_int row = SLI_TILE * (sli_tiles(height) - 1), j;
         SLV_DECLARE(v)
         SLV_SUM_DECLARE(a)
         if (w <= SLI_TILE) {
-            SLV_SWEEP(backward_small)(w, s->below, rows, tile, d, xs, x);
+            s = SLV_SWEEP_SMALL(backward_small)(s + 1, begin, &rows_end, L, D, x);
             continue;
         }
+        rows = rows_end -= s->below;
         SLV_SUM_ZERO(a)
         for (j = first; j < w; j++) {
             SLV_SUM_STORE(sums + SLI_TILE * (ptrdiff_t)j, a)

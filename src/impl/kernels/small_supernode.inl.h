@@ -158,16 +158,41 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_SWEEP(small_backward)(const sl_int w, sl
 #define SLI_FORWARD(k) SLV_SWEEP(small_forward)(k, below, rows, l, xs, x, buf)
 #define SLI_BACKWARD(k) SLV_SWEEP(small_backward)(k, below, rows, l, d, xs, x)
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(forward_small)(sl_int w, sl_int below, const sl_int *rows,
-                                                      const SLV_VALUE *l, double *xs, double *x,
-                                                      double *buf) {
-    SLI_BY_WIDTH(SLI_FORWARD);
+/* A run of such supernodes from step s on, up to one that is wider or to `end`. Returns the step
+ * after the run and moves next_rows on. A function for runs, because a call for each supernode took
+ * 3 % of the time of a solve. */
+SLV_FUNCTION static const sli_step *SLV_SWEEP(forward_small)(const sli_step *s, const sli_step *end,
+                                                             const sl_int **next_rows,
+                                                             const SLV_VALUE *L, double *x,
+                                                             double *buf) {
+    const sl_int *rows = *next_rows;
+    for (; s < end && s->width <= SLI_TILE; s++) {
+        const sl_int w = s->width, below = s->below;
+        const SLV_VALUE *l = L + s->panel;
+        double *xs = x + s->base;
+        SLI_BY_WIDTH(SLI_FORWARD);
+        rows += below;
+    }
+    *next_rows = rows;
+    return s;
 }
 
-SLV_FUNCTION SLI_INLINE void SLV_SWEEP(backward_small)(sl_int w, sl_int below, const sl_int *rows,
-                                                       const SLV_VALUE *l, const double *d,
-                                                       double *xs, const double *x) {
-    SLI_BY_WIDTH(SLI_BACKWARD);
+/* The same before step s, from `begin` on, in descending order. Returns the first step of the run.
+ */
+SLV_FUNCTION static const sli_step *
+SLV_SWEEP(backward_small)(const sli_step *s, const sli_step *begin, const sl_int **rows_end,
+                          const SLV_VALUE *L, const double *D, double *x) {
+    const sl_int *rows = *rows_end;
+    for (; s > begin && s[-1].width <= SLI_TILE; s--) {
+        const sl_int w = s[-1].width, below = s[-1].below;
+        const SLV_VALUE *l = L + s[-1].panel + sli_panel_size(w, below);
+        const double *d = D + s[-1].column;
+        double *xs = x + s[-1].base;
+        rows -= below;
+        SLI_BY_WIDTH(SLI_BACKWARD);
+    }
+    *rows_end = rows;
+    return s;
 }
 
 #undef SLI_DECLARE

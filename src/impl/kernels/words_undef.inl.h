@@ -8,6 +8,8 @@
 #undef SLV_NAME
 #undef SLV_NAME_4
 #undef SLV_NAME_2
+#undef SLV_NAME_SMALL
+#undef SLV_OWN_SMALL
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
