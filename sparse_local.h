@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 060211814d8ea687
+ * FNV-1a of the lines after this comment, without the license: 16dd184fae858cde
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,51 +41,51 @@
  *   5904 csc.h   6047 csc_build.h   6181 csc64.h   6252 csc_triangle.h   6317 csc_products.h
  *   6434 permute.h   6500 sum.h   6582 output_file.h   6791 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7237 graph.h   7355 contract.h   7609 coarsen.h   7772 labels.h   7993 subgraph.h   8187 heap.h
- *   8249 bisect.h   8455 separator.h   8717 mindeg.h   8900 dissect.h   9226 tree_cost.h
- *   9278 levelset.h   9384 geometric.h   9559 cells.h   9739 septree.h   9815 metis.h
- *   9964 metis_refined.h  10078 nd.h  10278 compress.h  10399 levels.h  10452 border.h
- *  10505 forest.h  10592 peel.h  10792 quotient.h  11209 graph_kind.h  11280 order.h
+ *   7237 graph.h   7354 contract.h   7608 coarsen.h   7771 labels.h   7992 subgraph.h   8186 heap.h
+ *   8248 bisect.h   8454 separator.h   8716 mindeg.h   8899 dissect.h   9225 tree_cost.h
+ *   9277 levelset.h   9383 geometric.h   9558 cells.h   9738 septree.h   9814 metis.h
+ *   9963 metis_refined.h  10077 nd.h  10277 compress.h  10398 levels.h  10451 border.h
+ *  10504 forest.h  10591 peel.h  10791 quotient.h  11208 graph_kind.h  11279 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11605 symbolic_types.h  11642 etree.h  11768 supernodes.h  12008 pattern.h  12095 structure.h
- *  12298 schedule.h  12578 symbolic.h  13038 reach.h
+ *  11604 symbolic_types.h  11641 etree.h  11770 supernodes.h  12010 pattern.h  12084 structure.h
+ *  12336 schedule.h  12616 symbolic.h  13074 reach.h
  * (factor: the numbers of L and D)
- *  13311 factor_types.h  13739 storage.h  13877 pivot_search.h  14223 pivoted.h  14292 scatter.h
- *  14450 uplooking.h  14522 null_product.h  14726 null_dense.h  14803 null_basis.h
- *  15123 null_vectors.h  15265 multifrontal.h  15459 gather.h  15507 kept.h  15677 front_tasks.h
- *  16020 null_center.h  16144 nullspace.h  16331 growth.h  16409 factor_setup.h  16735 factor.h
- *  16950 leftlooking.h  17104 factor_query.h  17239 combination.h
+ *  13347 factor_types.h  13775 storage.h  13913 pivot_search.h  14259 pivoted.h  14328 scatter.h
+ *  14486 uplooking.h  14558 null_product.h  14762 null_dense.h  14839 null_basis.h
+ *  15159 null_vectors.h  15301 multifrontal.h  15495 gather.h  15543 kept.h  15713 front_tasks.h
+ *  16056 null_center.h  16180 nullspace.h  16367 growth.h  16445 factor_setup.h  16771 factor.h
+ *  16986 leftlooking.h  17140 factor_query.h  17275 combination.h
  * (solve: full and local solves)
- *  17300 region_types.h  17404 work.h  17504 query.h  17722 singular.h  17979 backward.h
- *  18009 sweep_tasks.h  18340 sweep.h  18548 compile.h  18741 plan.h  18848 local.h  19000 parts.h
- *  19289 refine.h  19468 refine_local.h  19684 rcond.h  19843 defects.h
+ *  17336 region_types.h  17440 work.h  17540 query.h  17758 singular.h  18015 backward.h
+ *  18045 sweep_tasks.h  18376 sweep.h  18584 compile.h  18777 plan.h  18884 local.h  19036 parts.h
+ *  19325 refine.h  19504 refine_local.h  19720 rcond.h  19879 defects.h
  * (inverse: entries of the inverse, regions)
- *  19902 traversal.h  20151 traversal_run.h  20344 row_sets.h  20378 unit_vectors.h
- *  20605 bilinear.h  20777 entries.h  21054 block.h  21289 reserve.h  21481 selected.h
- *  21691 selected_query.h  21793 region_choose.h  22020 region.h
+ *  19938 traversal.h  20187 traversal_run.h  20380 row_sets.h  20414 unit_vectors.h
+ *  20641 bilinear.h  20813 entries.h  21090 block.h  21325 reserve.h  21517 selected.h
+ *  21727 selected_query.h  21829 region_choose.h  22056 region.h
  * (change: a factor that follows changes of its matrix)
- *  22268 update.h  22636 path.h  22755 rank.h  23133 edges.h  23287 choose.h  23532 pins_types.h
- *  23598 pins_nulls.h  23781 pins_capacitance.h  24035 pins_balance.h  24214 pins_held.h
- *  24430 pins_choose.h  24487 pins_rebuild.h  24705 pins_matrix.h  24856 pins.h  25125 pins_solve.h
- *  25398 subset.h  25526 restrict_kept.h  25724 restrict_analysis.h  25976 restrict_symbolic.h
- *  26171 restrict.h  26402 edit_match.h  26601 edit_place.h  26850 edit_separate.h
- *  27164 edit_order.h  27319 edit_graph.h  27401 edit_join.h  27677 edit.h  27840 edit_factor.h
+ *  22304 update.h  22672 path.h  22791 rank.h  23169 edges.h  23323 choose.h  23568 pins_types.h
+ *  23634 pins_nulls.h  23817 pins_capacitance.h  24071 pins_balance.h  24250 pins_held.h
+ *  24466 pins_choose.h  24523 pins_rebuild.h  24741 pins_matrix.h  24892 pins.h  25161 pins_solve.h
+ *  25434 subset.h  25562 restrict_kept.h  25760 restrict_analysis.h  26001 restrict_symbolic.h
+ *  26196 restrict.h  26427 edit_match.h  26626 edit_place.h  26875 edit_separate.h
+ *  27189 edit_order.h  27344 edit_graph.h  27426 edit_join.h  27702 edit.h  27865 edit_factor.h
  * (save: factors in files)
- *  28125 format.h  28422 decode.h  28570 check.h  28900 write.h  29205 load.h  29473 load_inverse.h
- *  29803 load_calls.h
+ *  28150 format.h  28447 decode.h  28595 check.h  28925 write.h  29230 load.h  29498 load_inverse.h
+ *  29828 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30002 batch_solve.h  30211 batch_factor.h  30412 batch_diagonal.h
+ *  30027 batch_solve.h  30236 batch_factor.h  30437 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30552 hermitian.h  30714 complex_rows.h
+ *  30577 hermitian.h  30739 complex_rows.h
  * (last: undefine every internal macro)
- *  30882 undef.h
+ *  30907 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31165 front.inl.h  31167 product.inl.h  31678 copy_rows.inl.h  31716 sweeps.inl.h
- *  31718 unit_triangle.inl.h  31755 two_rhs.inl.h  31929 small_supernode.inl.h
- *  32131 single_rhs.inl.h  32371 multi_rhs.inl.h  32390 complex_groups.inl.h
- *  32529 multi_rhs_small.inl.h  32701 multi_rhs_tiles.inl.h  32978 kernel_set.inl.h
- *  32980 complex_small.inl.h  33170 complex_rows.inl.h  33385 inverse_front.inl.h  33670 row.inl.h
- *  33700 change.inl.h  33943 interleave.inl.h  34077 lanes_undef.inl.h  34096 words_undef.inl.h
+ *  31191 front.inl.h  31193 product.inl.h  31704 copy_rows.inl.h  31742 sweeps.inl.h
+ *  31744 unit_triangle.inl.h  31781 two_rhs.inl.h  31955 small_supernode.inl.h
+ *  32157 single_rhs.inl.h  32397 multi_rhs.inl.h  32416 complex_groups.inl.h
+ *  32555 multi_rhs_small.inl.h  32727 multi_rhs_tiles.inl.h  33004 kernel_set.inl.h
+ *  33006 complex_small.inl.h  33196 complex_rows.inl.h  33411 inverse_front.inl.h  33696 row.inl.h
+ *  33726 change.inl.h  33969 interleave.inl.h  34103 lanes_undef.inl.h  34122 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7238,8 +7238,7 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
 
 typedef struct sli_pattern {
   sl_int *begin;
-  sl_int *to;
-  sl_int *from;
+  sl_int *entry;
 } sli_pattern;
 
 typedef struct sli_graph {
@@ -11669,10 +11668,10 @@ static void sli_merge_compact(sli_merge *m, sl_int last, const sl_int *counts) {
 }
 
 SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_int id, sl_int *mark,
-                    const sl_int *rows, sl_int count) {
-  sl_int q;
-  for (q = 0; q < count; q++) {
-    const sl_int r = rows[q];
+                    const sl_int *rows, sl_int count, size_t stride) {
+  const sl_int *last = rows + (size_t)count * stride;
+  for (; rows < last; rows += stride) {
+    const sl_int r = *rows;
     list[end] = r;
     end += (size_t)((r > k) & (mark[r] != id));
     mark[r] = id;
@@ -11681,10 +11680,10 @@ SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_i
 }
 
 static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
-                 sl_int *list, sl_int *scratch) {
+                 sl_int *list, sl_int *scratch, int keeps_order) {
   sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
   sl_int k, c, id = -1, size = 0, gaps = 0;
-  int is_postorder = 1;
+  int is_in_order = 1;
   sli_merge m = {list, 0, NULL, NULL, 0};
   m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
   m.waiting = scratch + 4 * (size_t)n;
@@ -11708,10 +11707,11 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
       id = k;
       size = 0;
     }
-    end = sli_merge_rows(list, end, k, id, mark, columns->to + columns->begin[k],
-               columns->begin[k + 1] - columns->begin[k]);
+    end = sli_merge_rows(list, end, k, id, mark,
+               columns->entry + 2 * (size_t)columns->begin[k],
+               columns->begin[k + 1] - columns->begin[k], 2);
     for (; c != -1; c = sibling[c]) {
-      end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1);
+      end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1, 1);
       m.from[c] = SLI_MERGED;
       gaps++;
     }
@@ -11737,7 +11737,9 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
         up = r > k ? sli_min(r, up) : up;
       }
     }
-    is_postorder &= gaps == 0 && (up < n || m.count == 0);
+    is_in_order &= keeps_order ? id != k || child[k] == -1 || sibling[child[k]] != -1 ||
+                     counts[child[k]] != counts[k] + 1
+                   : gaps == 0 && (up < n || m.count == 0);
     parent[k] = up == n ? -1 : up;
     if (up < n) {
       m.from[k] = (uint32_t)to;
@@ -11746,7 +11748,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
       child[up] = k;
     }
   }
-  return is_postorder;
+  return is_in_order;
 }
 
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
@@ -12005,17 +12007,7 @@ static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
   return 1;
 }
 
-/* src/impl/analysis/pattern.h: the scratch of the analysis; both triangles of P A P', by ranges of entries */
-
-typedef struct sli_growing {
-  sl_off base;
-  sl_off panel;
-  sl_off to;
-  sl_int width;
-  sl_int local;
-  sl_int mark;
-  sl_int parent;
-} sli_growing;
+/* src/impl/analysis/pattern.h: the scratch of the analysis; the lower triangle of P A P', by ranges of entries */
 
 #define SLI_ANALYSIS_RUNS 64
 
@@ -12027,7 +12019,7 @@ typedef struct sli_analysis {
   sli_hash pattern;
   sl_int *column;
   sl_int side;
-  sli_pattern rows, columns;
+  sli_pattern columns;
   sli_amalgamation amalgamation;
   sl_int *perm;
   sli_order_choice choice;
@@ -12035,7 +12027,7 @@ typedef struct sli_analysis {
   sl_int *parent, *counts, *super_of;
   sl_int *scratch;
   uint64_t *list;
-  sli_growing *growing;
+  sl_int *room;
   const unsigned char *pairs;
   unsigned char *is_first;
   sl_int *earlier;
@@ -12043,31 +12035,30 @@ typedef struct sli_analysis {
   size_t ordered;
   sl_int *spare;
   sl_symbolic *S;
+  int has_rows;
   sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
+
+#define SLI_ANALYSIS_ROOM(n) (2 * (uint64_t)(n) + 16)
 
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
   const sl_int ranges = sli_max(w->workers, 1);
   const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
-  sl_int *row_at = (sl_int *)(void *)w->growing + 2 * (size_t)r * (size_t)w->n;
-  sl_int *column_at = row_at + w->n, p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
+  sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
+  sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
   if (!is_counted) {
-    memset(row_at, 0, 2 * (size_t)w->n * sizeof(sl_int));
+    memset(at, 0, (size_t)w->n * sizeof(sl_int));
   }
   for (; p < end && !is_counted; p++) {
-    const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_max(a, b);
-    const int is_read = side * (row[p] - column[p]) >= 0;
-    row_at[k] += is_read;
-    column_at[a + b - k] += is_read;
+    at[sli_min(iperm[row[p]], iperm[column[p]])] += side * (row[p] - column[p]) >= 0;
   }
   for (; p < end; p++) {
     if (side * (row[p] - column[p]) >= 0) {
-      const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_max(a, b);
-      const sl_int i = a + b - k, at = row_at[k]++;
-      w->rows.to[at] = i;
-      w->rows.from[at] = p;
-      w->columns.to[column_at[i]++] = k;
+      const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
+      sl_int *entry = w->columns.entry + 2 * (size_t)at[k]++;
+      entry[0] = a + b - k;
+      entry[1] = p;
     }
   }
 }
@@ -12084,11 +12075,9 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
 
 static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
   const sl_int ranges = sli_max(w->workers, 1);
-  sl_int *at = (sl_int *)(void *)w->growing;
   w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
   sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
-  sli_pattern_starts(&w->rows, w->n, at, ranges, 2 * (size_t)w->n);
-  sli_pattern_starts(&w->columns, w->n, at + w->n, ranges, 2 * (size_t)w->n);
+  sli_pattern_starts(&w->columns, w->n, w->room, ranges, SLI_ANALYSIS_ROOM(w->n));
   sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
 }
 
@@ -12107,56 +12096,115 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
   S->scatter_begin[S->n_supers] = total;
 }
 
-SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *queue,
-                  sl_int length) {
-  const int is_new = g[s].mark != k;
-  g[s].mark = k;
-  g[s].local += is_new;
-  queue[length] = s;
-  return length + is_new;
+SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r,
+                       sl_int end) {
+  const uint32_t at = (uint32_t)r / 64;
+  const uint64_t before = bits[at], bit = (uint64_t)(r >= end) << ((uint32_t)r % 64);
+  word[count] = (uint64_t)at << 32;
+  bits[at] = before | bit;
+  return count + ((before == 0) & (r >= end));
 }
 
-static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *queue) {
+static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
   const sl_symbolic *S = w->S;
-  const sl_int *super_of = S->super_of, *super_first = S->super_first, *earlier = w->earlier;
-  const sl_int *begin = w->rows.begin, *to = w->rows.to, *new_of = w->new_of;
-  sli_growing *g = w->growing;
-  sl_int own, k, p;
-  for (own = first; own <= last; own++) {
-    const sl_int width = g[own].width;
-    sl_off at = 0;
-    for (k = super_first[own]; k < super_first[own + 1]; k++) {
-      const sl_int old = w->old_of[k], r = k - super_first[own];
-      sl_int length = 1, c;
-      at = r % SLI_TILE > 0 ? at + 1
-                  : S->panel_begin[own] + sli_panel_at(width, r, 0) -
-                    SLI_TILE * (sl_off)super_first[own];
-      queue[0] = own;
-      g[own].mark = k;
-      g[own].local = r + 1;
-      for (p = begin[old]; p < begin[old + 1]; p++) {
-        const sl_int i = new_of[to[p]], s = super_of[i];
-        sli_growing *home = &g[s];
-        sl_off row;
-        length = sli_grow(g, s, k, queue, length);
-        row = home->local - 1;
-        row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
-        S->scatter_from[home->to] = w->rows.from[p];
-        S->scatter_to[home->to++] = (s == own ? at : row) + SLI_TILE * (sl_off)i;
+  const sl_int *new_of = w->new_of;
+  const size_t words = (size_t)w->n / 64 + 1;
+  uint64_t *bits = (uint64_t *)(void *)room, *word = bits + words;
+  sl_int s, c, k, count, q;
+  memset(bits, 0, words * sizeof(uint64_t));
+  for (s = first; s <= last; s++) {
+    const sl_int end = S->super_first[s + 1];
+    sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[s];
+    sl_off at = S->rows_begin[s], r;
+    count = 0;
+    for (k = S->super_first[s]; k < end; k++) {
+      const sl_int *begin = w->columns.begin + w->old_of[k];
+      const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
+      const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
+      for (; entry < stop; entry += 2, copy += 3) {
+        const sl_int row = new_of[entry[0]];
+        copy[0] = row;
+        copy[1] = entry[1];
+        copy[2] = k - S->super_first[s];
+        count = sli_structure_set(bits, word, count, row, end);
       }
-      if (earlier != NULL && earlier[own] != -1) {
-        length = sli_grow(g, earlier[own], k, queue, length);
+    }
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+      for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
+        count = sli_structure_set(bits, word, count, S->rows[r], end);
       }
-      for (c = 1; c < length; c++) {
-        const sl_int up = g[queue[c]].parent;
-        const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
-        if (earlier != NULL && earlier[queue[c]] != -1) {
-          length = sli_grow(g, earlier[queue[c]], k, queue, length);
-        }
-        length = sli_grow(g, up, k, queue, length);
-        S->rows[row] = k;
-        S->relative[row] = g[up].local - 1;
+    }
+    sli_sort(word, count, word + words);
+    for (q = 0; q < count; q++) {
+      uint64_t *here = bits + sli_key(word[q]), left = *here;
+      for (*here = 0; left != 0; left &= left - 1) {
+        S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
       }
+    }
+    for (; at < S->rows_begin[s + 1]; at++) {
+      S->rows[at] = S->super_first[S->super_parent[s]];
+    }
+    SLI_ASSERT(at == S->rows_begin[s + 1]);
+  }
+}
+
+static void sli_structure_parts(const sli_analysis *w) {
+  const sl_symbolic *S = w->S;
+  sl_int s, k;
+  for (s = S->n_supers - 1; s >= 0 && w->earlier != NULL; s--) {
+    if (w->earlier[s] != -1) {
+      sl_int *rows = S->rows + S->rows_begin[w->earlier[s]];
+      for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
+        *rows++ = k;
+      }
+      memcpy(rows, S->rows + S->rows_begin[s],
+           (size_t)(S->rows_begin[s + 1] - S->rows_begin[s]) * sizeof(sl_int));
+    }
+  }
+}
+
+static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
+  const sl_off begin = S->rows_begin[s];
+  const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+  sl_int c;
+  sl_off at;
+  for (c = 0; c < width; c++) {
+    local[first + c] = c;
+  }
+  for (at = begin; at < S->rows_begin[s + 1]; at++) {
+    local[S->rows[at]] = width + (sl_int)(at - begin);
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
+      S->relative[at] = local[S->rows[at]];
+    }
+  }
+}
+
+static void sli_structure_map(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
+  const sl_symbolic *S = w->S;
+  sl_int *local = room, *next = room + w->n;
+  sl_int s, r;
+  for (s = first; s <= last; s++) {
+    const sl_int width = S->super_first[s + 1] - S->super_first[s];
+    const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+    const sl_int *entry = w->spare + 3 * (size_t)S->scatter_begin[s];
+    const sl_int *stop = w->spare + 3 * (size_t)S->scatter_begin[s + 1];
+    sl_int total = (sl_int)S->scatter_begin[s];
+    sli_fill_relative_of(S, s, local);
+    memset(next, 0, (size_t)height * sizeof(sl_int));
+    for (; entry < stop; entry += 3) {
+      next[local[*entry]]++;
+    }
+    for (r = 0; r < height; r++) {
+      const sl_int here = next[r];
+      next[r] = total;
+      total += here;
+    }
+    for (entry = w->spare + 3 * (size_t)S->scatter_begin[s]; entry < stop; entry += 3) {
+      const sl_int row = local[entry[0]], to = next[row]++;
+      S->scatter_from[to] = entry[1];
+      S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
     }
   }
 }
@@ -12188,43 +12236,44 @@ static void sli_structure_divide(sli_analysis *w) {
   }
 }
 
+static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
+  sl_int *room = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
+  if (w->has_rows) {
+    sli_structure_map(w, first, last, room);
+  } else {
+    sli_structure_rows(w, first, last, room);
+  }
+}
+
 static void sli_structure_item(void *data, sl_int item, sl_int worker) {
   const sli_analysis *w = (const sli_analysis *)data;
-  (void)worker;
-  sli_structure_rows(w, w->first[item], w->last[item],
-             w->scratch + w->first[item] + w->n_runs - item);
+  sli_structure_run(w, w->first[item], w->last[item], worker);
+}
+
+static void sli_structure_pass(sli_analysis *w, sli_team *team) {
+  sl_int r, next = 0;
+  if (w->n_runs > 0) {
+    sli_team_loop(team, w->n_runs, NULL, sli_structure_item, w);
+  }
+  for (r = w->n_runs - 1; r >= 0; r--) {
+    sli_structure_run(w, next, w->first[r] - 1, 0);
+    next = w->last[r] + 1;
+  }
+  sli_structure_run(w, next, w->S->n_supers - 1, 0);
 }
 
 static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) {
-  sl_int s, next = 0;
   sli_scatter_map_count(S, &w->columns, w->old_of);
   w->S = S;
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_int width = S->super_first[s + 1] - S->super_first[s];
-    sli_growing *g = &w->growing[s];
-    g->base = S->rows_begin[s] - width;
-    g->panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
-           (sl_off)width / SLI_TILE * SLI_TILE * width -
-           SLI_TILE * (sl_off)S->super_first[s];
-    g->to = S->scatter_begin[s];
-    g->width = width;
-    g->local = 0;
-    g->mark = -1;
-    g->parent = S->super_parent[s];
-  }
   w->n_runs = 0;
+  w->has_rows = 0;
   if (w->workers > 1) {
     sli_structure_divide(w);
-    sli_team_loop(team, w->n_runs, NULL, sli_structure_item, w);
   }
-  for (; w->n_runs > 0; w->n_runs--) {
-    sli_structure_rows(w, next, w->first[w->n_runs - 1] - 1, w->scratch);
-    next = w->last[w->n_runs - 1] + 1;
-  }
-  sli_structure_rows(w, next, S->n_supers - 1, w->scratch);
-  for (s = 0; s < S->n_supers; s++) {
-    SLI_ASSERT(w->growing[s].base + w->growing[s].local == S->rows_begin[s + 1]);
-  }
+  sli_structure_pass(w, team);
+  sli_structure_parts(w);
+  w->has_rows = 1;
+  sli_structure_pass(w, team);
 }
 
 static void sli_fill_steps(sl_symbolic *S) {
@@ -12259,20 +12308,9 @@ static void sli_fill_descendants(sl_symbolic *S) {
 }
 
 static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-  sl_int s, c;
-  sl_off at;
+  sl_int s;
   for (s = 0; s < S->n_supers; s++) {
-    for (c = S->super_first[s]; c < S->super_first[s + 1]; c++) {
-      local[c] = c - S->super_first[s];
-    }
-    for (at = S->rows_begin[s]; at < S->rows_begin[s + 1]; at++) {
-      local[S->rows[at]] = S->steps[s].width + (sl_int)(at - S->rows_begin[s]);
-    }
-    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-      for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
-        S->relative[at] = local[S->rows[at]];
-      }
-    }
+    sli_fill_relative_of(S, s, local);
   }
 }
 
@@ -12587,11 +12625,8 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->septree.node_of = SLI_TAKE(b, sl_int, n);
   w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
   w->ordered = b->used;
-  w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
-  w->rows.to = SLI_TAKE(b, sl_int, nnz);
-  w->rows.from = SLI_TAKE(b, sl_int, nnz);
   w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
-  w->columns.to = SLI_TAKE(b, sl_int, nnz);
+  w->columns.entry = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz);
   w->old_of = SLI_TAKE(b, sl_int, n);
   w->new_of = SLI_TAKE(b, sl_int, n);
   w->parent = SLI_TAKE(b, sl_int, n);
@@ -12602,9 +12637,9 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
   w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->growing = SLI_TAKE(b, sli_growing, n * (uint64_t)(w->workers / 5 + 1));
-  if (w->growing != NULL) {
-    w->list = (uint64_t *)(void *)w->growing;
+  w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 5 + 1));
+  if (w->list != NULL) {
+    w->room = (sl_int *)(void *)w->list;
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
     w->amalgamation.cost = w->amalgamation.zeros + n;
     w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
@@ -12695,7 +12730,8 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     w->counts[k] = 1 + (w->parent[k] != -1);
   }
   if (!w->choice.has_tree &&
-    !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order)) {
+    !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order,
+               keeps_order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
     sli_analysis_reorder(w, order, 1);
   }
@@ -12854,7 +12890,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     draft->n_pairs += w->pairs[s];
   }
   stats->symbolic.pairs = draft->n_pairs;
-  stats->symbolic.nnz_a = w->rows.begin[w->n];
+  stats->symbolic.nnz_a = w->columns.begin[w->n];
   for (s = 0; s < w->amalgamation.count; s++) {
     rows += w->amalgamation.below[s];
   }
@@ -25882,31 +25918,18 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
 }
 
 static void sli_restriction_sort(sli_restriction *r) {
-  sli_pattern *rows = &r->w.rows, *columns = &r->w.columns;
-  sl_int *at = r->w.scratch, e, k, row_at = 0, column_at = 0;
-  memset(at, 0, 2 * (size_t)r->n_fresh * sizeof(sl_int));
+  const sli_pattern *columns = &r->w.columns;
+  sl_int *at = r->w.scratch, e;
+  memset(at, 0, (size_t)r->n_fresh * sizeof(sl_int));
   for (e = 0; e < r->n_entries; e++) {
-    const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-    at[2 * (size_t)row]++;
-    at[2 * (size_t)(a + b - row) + 1]++;
+    at[sli_min(r->entry_row[e], r->entry_column[e])]++;
   }
-  for (k = 0; k < r->n_fresh; k++) {
-    sl_int *here = at + 2 * (size_t)k;
-    rows->begin[k] = row_at;
-    columns->begin[k] = column_at;
-    row_at += here[0];
-    column_at += here[1];
-    here[0] = rows->begin[k];
-    here[1] = columns->begin[k];
-  }
-  rows->begin[k] = row_at;
-  columns->begin[k] = column_at;
+  sli_pattern_starts(&r->w.columns, r->n_fresh, at, 1, 0);
   for (e = 0; e < r->n_entries; e++) {
-    const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-    const sl_int column = a + b - row, to = at[2 * (size_t)row]++;
-    rows->to[to] = column;
-    rows->from[to] = r->entry_from[e];
-    columns->to[at[2 * (size_t)column + 1]++] = row;
+    const sl_int a = r->entry_row[e], b = r->entry_column[e], column = sli_min(a, b);
+    sl_int *entry = columns->entry + 2 * (size_t)at[column]++;
+    entry[0] = a + b - column;
+    entry[1] = r->entry_from[e];
   }
 }
 
@@ -25942,6 +25965,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->rows = SLI_TAKE(&b, sl_int, rows);
     T->relative = SLI_TAKE(&b, sl_int, rows);
     T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
+    T->first_descendant = SLI_TAKE(&b, sl_int, T->n_supers);
     T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
     T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
@@ -25959,6 +25983,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->rows_begin[t + 1] = T->rows_begin[t] + below;
     T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
   }
+  sli_fill_descendants(T);
   sli_fill_structure(w, T, NULL);
   return SL_OK;
 }
@@ -31003,6 +31028,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_QUOTIENT_DENSE_ROW
 #undef SLI_ORDER_ND_FLOPS
 #undef SLI_ANALYSIS_FLOPS
+#undef SLI_ANALYSIS_ROOM
 #undef SLI_ANALYSIS_RUNS
 #undef SLI_ORDER_PATHS_SHORT
 #undef SLI_ORDER_PATHS_LONG
@@ -31065,7 +31091,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_COARSEN_STALL
 #undef SLI_LEVELS_MAX
 #undef SLI_LEVELS_MOST
-#undef SLI_WALKS_MOST
+#undef SLI_MERGED
 #undef SLI_LEVELS_TRY
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE

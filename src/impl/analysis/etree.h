@@ -37,10 +37,10 @@ static void sli_merge_compact(sli_merge *m, sl_int last, const sl_int *counts) {
 /* Appends the rows after k that are not marked with `id`, and marks them. Without a branch, which
  * nothing would predict. Returns the end of the list. */
 SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_int id, sl_int *mark,
-                                        const sl_int *rows, sl_int count) {
-    sl_int q;
-    for (q = 0; q < count; q++) {
-        const sl_int r = rows[q];
+                                        const sl_int *rows, sl_int count, size_t stride) {
+    const sl_int *last = rows + (size_t)count * stride;
+    for (; rows < last; rows += stride) {
+        const sl_int r = *rows;
         list[end] = r;
         end += (size_t)((r > k) & (mark[r] != id));
         mark[r] = id;
@@ -49,18 +49,19 @@ SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_i
 }
 
 /* parent[k] := the first row below the diagonal of column k of L, or -1; counts[k] := the entries
- * of column k, diagonal included. Returns whether the columns are numbered in a postorder.
+ * of column k, diagonal included. Returns whether the columns are numbered in a postorder or, if
+ * `keeps_order`, whether each only child with the same rows is numbered before its parent.
  *
  * A column has the rows of its column of A and of its children. The list of a child k - 1 becomes
  * that of k. So in a postorder only entries of A are read, and the lists of the other children; in
  * any other order it takes the time of writing L at most. list: room for three times the entries
  * of A and one; scratch: 5n. [Liu90] */
 static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
-                               sl_int *list, sl_int *scratch) {
+                               sl_int *list, sl_int *scratch, int keeps_order) {
     /* mark: the last list with the row; child: the last child so far; sibling: the one before */
     sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
     sl_int k, c, id = -1, size = 0, gaps = 0;
-    int is_postorder = 1;
+    int is_in_order = 1;
     sli_merge m = {list, 0, NULL, NULL, 0};
     m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
     m.waiting = scratch + 4 * (size_t)n;
@@ -84,10 +85,11 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
             id = k;
             size = 0;
         }
-        end = sli_merge_rows(list, end, k, id, mark, columns->to + columns->begin[k],
-                             columns->begin[k + 1] - columns->begin[k]);
+        end = sli_merge_rows(list, end, k, id, mark,
+                             columns->entry + 2 * (size_t)columns->begin[k],
+                             columns->begin[k + 1] - columns->begin[k], 2);
         for (; c != -1; c = sibling[c]) {
-            end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1);
+            end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1, 1);
             m.from[c] = SLI_MERGED;
             gaps++;
         }
@@ -113,7 +115,9 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
                 up = r > k ? sli_min(r, up) : up;
             }
         }
-        is_postorder &= gaps == 0 && (up < n || m.count == 0);
+        is_in_order &= keeps_order ? id != k || child[k] == -1 || sibling[child[k]] != -1 ||
+                                         counts[child[k]] != counts[k] + 1
+                                   : gaps == 0 && (up < n || m.count == 0);
         parent[k] = up == n ? -1 : up;
         if (up < n) {
             m.from[k] = (uint32_t)to;
@@ -122,7 +126,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
             child[up] = k;
         }
     }
-    return is_postorder;
+    return is_in_order;
 }
 
 /* Renumbers the columns: order[k] = the old number of the new column k. Updates old_of, its inverse

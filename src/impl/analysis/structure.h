@@ -18,64 +18,129 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
     S->scatter_begin[S->n_supers] = total;
 }
 
-/* Adds row k to supernode s unless it is there, and s to a queue if not. Without a branch, which
- * nothing would predict. Returns the length of the queue. */
-SLI_ALWAYS_INLINE sl_int sli_grow(sli_growing *g, sl_int s, sl_int k, sl_int *queue,
-                                  sl_int length) {
-    const int is_new = g[s].mark != k;
-    g[s].mark = k;
-    g[s].local += is_new;
-    queue[length] = s;
-    return length + is_new;
+/* Sets the bit of row r if it is at least `end`. The words with bits are listed, as keys. Without a
+ * branch, which nothing would predict. Returns their number. */
+SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r,
+                                           sl_int end) {
+    const uint32_t at = (uint32_t)r / 64;
+    const uint64_t before = bits[at], bit = (uint64_t)(r >= end) << ((uint32_t)r % 64);
+    word[count] = (uint64_t)at << 32;
+    bits[at] = before | bit;
+    return count + ((before == 0) & (r >= end));
 }
 
-/* Fills what the rows of L in supernodes first .. last contribute.
+/* Fills the rows below supernodes first .. last: those of A in their columns and those below their
+ * children. A bit of each row is set in room, which is cleared again by the search for the bits, in
+ * ascending words. Copies the entries of A, each with its row, its position in A and its column in
+ * the supernode, so that they follow each other.
  *
- * Row k of L occupies the part of the supernode tree between row k's entries of A and k's own
- * supernode. k is appended to the row list of each of these supernodes; as k ascends, so do the
- * lists. The position in the list is the local row of k's entries. A row of one part of a supernode
- * that was split is also a row of the parts before it. */
-static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *queue) {
+ * A row of one part of a supernode that was split is also a row of the parts before it: those have
+ * fewer rows than they should until sli_structure_parts. */
+static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
     const sl_symbolic *S = w->S;
-    const sl_int *super_of = S->super_of, *super_first = S->super_first, *earlier = w->earlier;
-    const sl_int *begin = w->rows.begin, *to = w->rows.to, *new_of = w->new_of;
-    sli_growing *g = w->growing;
-    sl_int own, k, p;
-    for (own = first; own <= last; own++) {
-        const sl_int width = g[own].width;
-        sl_off at = 0; /* where row k and column 0 would be in L */
-        for (k = super_first[own]; k < super_first[own + 1]; k++) {
-            const sl_int old = w->old_of[k], r = k - super_first[own];
-            sl_int length = 1, c;
-            at = r % SLI_TILE > 0 ? at + 1
-                                  : S->panel_begin[own] + sli_panel_at(width, r, 0) -
-                                        SLI_TILE * (sl_off)super_first[own];
-            queue[0] = own;
-            g[own].mark = k;
-            g[own].local = r + 1;
-            for (p = begin[old]; p < begin[old + 1]; p++) {
-                const sl_int i = new_of[to[p]], s = super_of[i];
-                sli_growing *home = &g[s];
-                sl_off row;
-                length = sli_grow(g, s, k, queue, length);
-                row = home->local - 1;
-                row = home->panel + (row & -SLI_TILE) * home->width + (row & (SLI_TILE - 1));
-                S->scatter_from[home->to] = w->rows.from[p];
-                S->scatter_to[home->to++] = (s == own ? at : row) + SLI_TILE * (sl_off)i;
+    const sl_int *new_of = w->new_of;
+    const size_t words = (size_t)w->n / 64 + 1;
+    uint64_t *bits = (uint64_t *)(void *)room, *word = bits + words;
+    sl_int s, c, k, count, q;
+    memset(bits, 0, words * sizeof(uint64_t));
+    for (s = first; s <= last; s++) {
+        const sl_int end = S->super_first[s + 1];
+        sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[s];
+        sl_off at = S->rows_begin[s], r;
+        count = 0;
+        for (k = S->super_first[s]; k < end; k++) {
+            const sl_int *begin = w->columns.begin + w->old_of[k];
+            const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
+            const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
+            for (; entry < stop; entry += 2, copy += 3) {
+                const sl_int row = new_of[entry[0]];
+                copy[0] = row;
+                copy[1] = entry[1];
+                copy[2] = k - S->super_first[s];
+                count = sli_structure_set(bits, word, count, row, end);
             }
-            if (earlier != NULL && earlier[own] != -1) {
-                length = sli_grow(g, earlier[own], k, queue, length);
+        }
+        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+            for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
+                count = sli_structure_set(bits, word, count, S->rows[r], end);
             }
-            for (c = 1; c < length; c++) {
-                const sl_int up = g[queue[c]].parent;
-                const sl_off row = g[queue[c]].base + g[queue[c]].local - 1;
-                if (earlier != NULL && earlier[queue[c]] != -1) {
-                    length = sli_grow(g, earlier[queue[c]], k, queue, length);
-                }
-                length = sli_grow(g, up, k, queue, length);
-                S->rows[row] = k;
-                S->relative[row] = g[up].local - 1;
+        }
+        sli_sort(word, count, word + words);
+        for (q = 0; q < count; q++) {
+            uint64_t *here = bits + sli_key(word[q]), left = *here;
+            for (*here = 0; left != 0; left &= left - 1) {
+                S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
             }
+        }
+        for (; at < S->rows_begin[s + 1]; at++) { /* a part: its parent has this column */
+            S->rows[at] = S->super_first[S->super_parent[s]];
+        }
+        SLI_ASSERT(at == S->rows_begin[s + 1]);
+    }
+}
+
+/* Each part of a supernode that was split has the columns of the next one and its rows. */
+static void sli_structure_parts(const sli_analysis *w) {
+    const sl_symbolic *S = w->S;
+    sl_int s, k;
+    for (s = S->n_supers - 1; s >= 0 && w->earlier != NULL; s--) {
+        if (w->earlier[s] != -1) {
+            sl_int *rows = S->rows + S->rows_begin[w->earlier[s]];
+            for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
+                *rows++ = k;
+            }
+            memcpy(rows, S->rows + S->rows_begin[s],
+                   (size_t)(S->rows_begin[s + 1] - S->rows_begin[s]) * sizeof(sl_int));
+        }
+    }
+}
+
+/* Fills the relative indices of the children of supernode s. local: n of scratch; on return it has
+ * the local rows of s. */
+static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
+    const sl_off begin = S->rows_begin[s];
+    const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+    sl_int c;
+    sl_off at;
+    for (c = 0; c < width; c++) {
+        local[first + c] = c;
+    }
+    for (at = begin; at < S->rows_begin[s + 1]; at++) {
+        local[S->rows[at]] = width + (sl_int)(at - begin);
+    }
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
+            S->relative[at] = local[S->rows[at]];
+        }
+    }
+}
+
+/* Fills the relative indices of the children of supernodes first .. last, and the scatter map,
+ * sorted by rows. Entries of one position follow each other in the order of A. */
+static void sli_structure_map(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
+    const sl_symbolic *S = w->S;
+    sl_int *local = room, *next = room + w->n; /* next: of each local row, the next position */
+    sl_int s, r;
+    for (s = first; s <= last; s++) {
+        const sl_int width = S->super_first[s + 1] - S->super_first[s];
+        const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+        const sl_int *entry = w->spare + 3 * (size_t)S->scatter_begin[s];
+        const sl_int *stop = w->spare + 3 * (size_t)S->scatter_begin[s + 1];
+        sl_int total = (sl_int)S->scatter_begin[s]; /* fits: at most the entries of A */
+        sli_fill_relative_of(S, s, local);
+        memset(next, 0, (size_t)height * sizeof(sl_int));
+        for (; entry < stop; entry += 3) {
+            next[local[*entry]]++;
+        }
+        for (r = 0; r < height; r++) {
+            const sl_int here = next[r];
+            next[r] = total;
+            total += here;
+        }
+        for (entry = w->spare + 3 * (size_t)S->scatter_begin[s]; entry < stop; entry += 3) {
+            const sl_int row = local[entry[0]], to = next[row]++;
+            S->scatter_from[to] = entry[1];
+            S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
         }
     }
 }
@@ -109,46 +174,47 @@ static void sli_structure_divide(sli_analysis *w) {
     }
 }
 
-static void sli_structure_item(void *data, sl_int item, sl_int worker) {
-    const sli_analysis *w = (const sli_analysis *)data;
-    (void)worker;
-    sli_structure_rows(w, w->first[item], w->last[item],
-                       w->scratch + w->first[item] + w->n_runs - item);
+static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
+    sl_int *room = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
+    if (w->has_rows) {
+        sli_structure_map(w, first, last, room);
+    } else {
+        sli_structure_rows(w, first, last, room);
+    }
 }
 
-/* Fills the rows of all supernodes, their relative indices and the scatter map in one pass over the
- * rows of L: subtrees by the team, which needs first_descendant, then the rest. scratch holds the
- * queues. Each has one element more than its run has supernodes. */
-static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) {
-    sl_int s, next = 0;
-    sli_scatter_map_count(S, &w->columns, w->old_of);
-    w->S = S;
-    for (s = 0; s < S->n_supers; s++) {
-        const sl_int width = S->super_first[s + 1] - S->super_first[s];
-        sli_growing *g = &w->growing[s];
-        g->base = S->rows_begin[s] - width;
-        g->panel = S->panel_begin[s] + sli_tile_offset(width, width / SLI_TILE) -
-                   (sl_off)width / SLI_TILE * SLI_TILE * width -
-                   SLI_TILE * (sl_off)S->super_first[s];
-        g->to = S->scatter_begin[s];
-        g->width = width;
-        g->local = 0;
-        g->mark = -1;
-        g->parent = S->super_parent[s];
-    }
-    w->n_runs = 0;
-    if (w->workers > 1) {
-        sli_structure_divide(w);
+static void sli_structure_item(void *data, sl_int item, sl_int worker) {
+    const sli_analysis *w = (const sli_analysis *)data;
+    sli_structure_run(w, w->first[item], w->last[item], worker);
+}
+
+/* One of two passes over all supernodes: the runs by the team, then the rest. */
+static void sli_structure_pass(sli_analysis *w, sli_team *team) {
+    sl_int r, next = 0;
+    if (w->n_runs > 0) {
         sli_team_loop(team, w->n_runs, NULL, sli_structure_item, w);
     }
-    for (; w->n_runs > 0; w->n_runs--) {
-        sli_structure_rows(w, next, w->first[w->n_runs - 1] - 1, w->scratch);
-        next = w->last[w->n_runs - 1] + 1;
+    for (r = w->n_runs - 1; r >= 0; r--) {
+        sli_structure_run(w, next, w->first[r] - 1, 0);
+        next = w->last[r] + 1;
     }
-    sli_structure_rows(w, next, S->n_supers - 1, w->scratch);
-    for (s = 0; s < S->n_supers; s++) {
-        SLI_ASSERT(w->growing[s].base + w->growing[s].local == S->rows_begin[s + 1]);
+    sli_structure_run(w, next, w->S->n_supers - 1, 0);
+}
+
+/* Fills the rows of all supernodes, then their relative indices and the scatter map. It needs
+ * first_descendant. */
+static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) {
+    sli_scatter_map_count(S, &w->columns, w->old_of);
+    w->S = S;
+    w->n_runs = 0;
+    w->has_rows = 0;
+    if (w->workers > 1) {
+        sli_structure_divide(w);
     }
+    sli_structure_pass(w, team);
+    sli_structure_parts(w);
+    w->has_rows = 1;
+    sli_structure_pass(w, team);
 }
 
 /* Fills the steps of a sweep over all supernodes: the vector has all n columns, so that `base` is
@@ -188,20 +254,9 @@ static void sli_fill_descendants(sl_symbolic *S) {
 
 /* Fills the relative indices of all supernodes in their parents' fronts. local: n of scratch. */
 static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-    sl_int s, c;
-    sl_off at;
+    sl_int s;
     for (s = 0; s < S->n_supers; s++) {
-        for (c = S->super_first[s]; c < S->super_first[s + 1]; c++) {
-            local[c] = c - S->super_first[s];
-        }
-        for (at = S->rows_begin[s]; at < S->rows_begin[s + 1]; at++) {
-            local[S->rows[at]] = S->steps[s].width + (sl_int)(at - S->rows_begin[s]);
-        }
-        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-            for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
-                S->relative[at] = local[S->rows[at]];
-            }
-        }
+        sli_fill_relative_of(S, s, local);
     }
 }
 

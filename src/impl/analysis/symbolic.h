@@ -17,11 +17,8 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->septree.node_of = SLI_TAKE(b, sl_int, n);
     w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
     w->ordered = b->used;
-    w->rows.begin = SLI_TAKE(b, sl_int, n + 1);
-    w->rows.to = SLI_TAKE(b, sl_int, nnz);
-    w->rows.from = SLI_TAKE(b, sl_int, nnz);
     w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
-    w->columns.to = SLI_TAKE(b, sl_int, nnz);
+    w->columns.entry = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz);
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n);
@@ -32,10 +29,9 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    /* before that, 2 n counters for each worker */
-    w->growing = SLI_TAKE(b, sli_growing, n * (uint64_t)(w->workers / 5 + 1));
-    if (w->growing != NULL) { /* the next four are free when it is used, and 36 n bytes long */
-        w->list = (uint64_t *)(void *)w->growing;
+    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 5 + 1));
+    if (w->list != NULL) { /* none of these is used together with the room of the workers */
+        w->room = (sl_int *)(void *)w->list;
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
         w->amalgamation.cost = w->amalgamation.zeros + n;
         w->amalgamation.merged_into = (sl_int *)(void *)(w->amalgamation.cost + n);
@@ -131,7 +127,8 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
         w->counts[k] = 1 + (w->parent[k] != -1);
     }
     if (!w->choice.has_tree &&
-        !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order)) {
+        !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order,
+                             keeps_order)) {
         sli_postorder(w->parent, NULL, n, order, child, more);
         sli_analysis_reorder(w, order, 1);
     }
@@ -300,7 +297,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
         draft->n_pairs += w->pairs[s];
     }
     stats->symbolic.pairs = draft->n_pairs;
-    stats->symbolic.nnz_a = w->rows.begin[w->n];
+    stats->symbolic.nnz_a = w->columns.begin[w->n];
     for (s = 0; s < w->amalgamation.count; s++) {
         rows += w->amalgamation.below[s];
     }

@@ -172,34 +172,20 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     return sli_restriction_copy(r, entries, a);
 }
 
-/* Sorts the entries of the graph by rows and by columns. The two counters of a column are neighbors
- * in memory. */
+/* Sorts the entries of the graph by columns. */
 static void sli_restriction_sort(sli_restriction *r) {
-    sli_pattern *rows = &r->w.rows, *columns = &r->w.columns;
-    sl_int *at = r->w.scratch, e, k, row_at = 0, column_at = 0;
-    memset(at, 0, 2 * (size_t)r->n_fresh * sizeof(sl_int));
+    const sli_pattern *columns = &r->w.columns;
+    sl_int *at = r->w.scratch, e;
+    memset(at, 0, (size_t)r->n_fresh * sizeof(sl_int));
     for (e = 0; e < r->n_entries; e++) {
-        const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-        at[2 * (size_t)row]++;
-        at[2 * (size_t)(a + b - row) + 1]++;
+        at[sli_min(r->entry_row[e], r->entry_column[e])]++;
     }
-    for (k = 0; k < r->n_fresh; k++) {
-        sl_int *here = at + 2 * (size_t)k;
-        rows->begin[k] = row_at;
-        columns->begin[k] = column_at;
-        row_at += here[0];
-        column_at += here[1];
-        here[0] = rows->begin[k];
-        here[1] = columns->begin[k];
-    }
-    rows->begin[k] = row_at;
-    columns->begin[k] = column_at;
+    sli_pattern_starts(&r->w.columns, r->n_fresh, at, 1, 0);
     for (e = 0; e < r->n_entries; e++) {
-        const sl_int a = r->entry_row[e], b = r->entry_column[e], row = sli_max(a, b);
-        const sl_int column = a + b - row, to = at[2 * (size_t)row]++;
-        rows->to[to] = column;
-        rows->from[to] = r->entry_from[e];
-        columns->to[at[2 * (size_t)column + 1]++] = row;
+        const sl_int a = r->entry_row[e], b = r->entry_column[e], column = sli_min(a, b);
+        sl_int *entry = columns->entry + 2 * (size_t)at[column]++;
+        entry[0] = a + b - column;
+        entry[1] = r->entry_from[e];
     }
 }
 
@@ -237,6 +223,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->rows = SLI_TAKE(&b, sl_int, rows);
         T->relative = SLI_TAKE(&b, sl_int, rows);
         T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
+        T->first_descendant = SLI_TAKE(&b, sl_int, T->n_supers);
         T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
         T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
@@ -254,6 +241,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->rows_begin[t + 1] = T->rows_begin[t] + below;
         T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
     }
+    sli_fill_descendants(T);
     sli_fill_structure(w, T, NULL);
     return SL_OK;
 }

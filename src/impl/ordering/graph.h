@@ -5,12 +5,11 @@
 #include "../base/hash.h"
 #include "../matrix/csc.h"
 
-/* One triangle of a permuted symmetric pattern, stored by rows or by columns. Duplicate entries are
- * kept. Indices are positions in the elimination order. */
+/* The lower triangle of a permuted symmetric pattern, by columns, unsorted. Duplicate entries are
+ * kept. Rows are positions in the elimination order. */
 typedef struct sli_pattern {
     sl_int *begin; /* n + 1 */
-    sl_int *to;    /* begin[n]: column or row indices */
-    sl_int *from;  /* begin[n]: positions in A's arrays, or NULL if not needed */
+    sl_int *entry; /* 2 begin[n]: of each entry its row and its position in A's arrays */
 } sli_pattern;
 
 /* The adjacency graph of a symmetric matrix: the full pattern without its diagonal. An entry given
