@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 16dd184fae858cde
+ * FNV-1a of the lines after this comment, without the license: 03c0a6fb7142e68f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,44 +48,44 @@
  *  10504 forest.h  10591 peel.h  10791 quotient.h  11208 graph_kind.h  11279 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11604 symbolic_types.h  11641 etree.h  11770 supernodes.h  12010 pattern.h  12084 structure.h
- *  12336 schedule.h  12616 symbolic.h  13074 reach.h
+ *  12343 schedule.h  12623 symbolic.h  13081 reach.h
  * (factor: the numbers of L and D)
- *  13347 factor_types.h  13775 storage.h  13913 pivot_search.h  14259 pivoted.h  14328 scatter.h
- *  14486 uplooking.h  14558 null_product.h  14762 null_dense.h  14839 null_basis.h
- *  15159 null_vectors.h  15301 multifrontal.h  15495 gather.h  15543 kept.h  15713 front_tasks.h
- *  16056 null_center.h  16180 nullspace.h  16367 growth.h  16445 factor_setup.h  16771 factor.h
- *  16986 leftlooking.h  17140 factor_query.h  17275 combination.h
+ *  13354 factor_types.h  13782 storage.h  13920 pivot_search.h  14266 pivoted.h  14335 scatter.h
+ *  14493 uplooking.h  14565 null_product.h  14769 null_dense.h  14846 null_basis.h
+ *  15166 null_vectors.h  15308 multifrontal.h  15502 gather.h  15550 kept.h  15720 front_tasks.h
+ *  16063 null_center.h  16187 nullspace.h  16374 growth.h  16452 factor_setup.h  16778 factor.h
+ *  16993 leftlooking.h  17147 factor_query.h  17282 combination.h
  * (solve: full and local solves)
- *  17336 region_types.h  17440 work.h  17540 query.h  17758 singular.h  18015 backward.h
- *  18045 sweep_tasks.h  18376 sweep.h  18584 compile.h  18777 plan.h  18884 local.h  19036 parts.h
- *  19325 refine.h  19504 refine_local.h  19720 rcond.h  19879 defects.h
+ *  17343 region_types.h  17447 work.h  17547 query.h  17765 singular.h  18022 backward.h
+ *  18052 sweep_tasks.h  18383 sweep.h  18591 compile.h  18784 plan.h  18891 local.h  19043 parts.h
+ *  19332 refine.h  19511 refine_local.h  19727 rcond.h  19886 defects.h
  * (inverse: entries of the inverse, regions)
- *  19938 traversal.h  20187 traversal_run.h  20380 row_sets.h  20414 unit_vectors.h
- *  20641 bilinear.h  20813 entries.h  21090 block.h  21325 reserve.h  21517 selected.h
- *  21727 selected_query.h  21829 region_choose.h  22056 region.h
+ *  19945 traversal.h  20194 traversal_run.h  20387 row_sets.h  20421 unit_vectors.h
+ *  20648 bilinear.h  20820 entries.h  21097 block.h  21332 reserve.h  21524 selected.h
+ *  21734 selected_query.h  21836 region_choose.h  22063 region.h
  * (change: a factor that follows changes of its matrix)
- *  22304 update.h  22672 path.h  22791 rank.h  23169 edges.h  23323 choose.h  23568 pins_types.h
- *  23634 pins_nulls.h  23817 pins_capacitance.h  24071 pins_balance.h  24250 pins_held.h
- *  24466 pins_choose.h  24523 pins_rebuild.h  24741 pins_matrix.h  24892 pins.h  25161 pins_solve.h
- *  25434 subset.h  25562 restrict_kept.h  25760 restrict_analysis.h  26001 restrict_symbolic.h
- *  26196 restrict.h  26427 edit_match.h  26626 edit_place.h  26875 edit_separate.h
- *  27189 edit_order.h  27344 edit_graph.h  27426 edit_join.h  27702 edit.h  27865 edit_factor.h
+ *  22311 update.h  22679 path.h  22798 rank.h  23176 edges.h  23330 choose.h  23575 pins_types.h
+ *  23641 pins_nulls.h  23824 pins_capacitance.h  24078 pins_balance.h  24257 pins_held.h
+ *  24473 pins_choose.h  24530 pins_rebuild.h  24748 pins_matrix.h  24899 pins.h  25168 pins_solve.h
+ *  25441 subset.h  25569 restrict_kept.h  25767 restrict_analysis.h  26008 restrict_symbolic.h
+ *  26203 restrict.h  26434 edit_match.h  26633 edit_place.h  26882 edit_separate.h
+ *  27196 edit_order.h  27351 edit_graph.h  27433 edit_join.h  27709 edit.h  27872 edit_factor.h
  * (save: factors in files)
- *  28150 format.h  28447 decode.h  28595 check.h  28925 write.h  29230 load.h  29498 load_inverse.h
- *  29828 load_calls.h
+ *  28157 format.h  28454 decode.h  28602 check.h  28932 write.h  29237 load.h  29505 load_inverse.h
+ *  29835 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30027 batch_solve.h  30236 batch_factor.h  30437 batch_diagonal.h
+ *  30034 batch_solve.h  30243 batch_factor.h  30444 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30577 hermitian.h  30739 complex_rows.h
+ *  30584 hermitian.h  30746 complex_rows.h
  * (last: undefine every internal macro)
- *  30907 undef.h
+ *  30914 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31191 front.inl.h  31193 product.inl.h  31704 copy_rows.inl.h  31742 sweeps.inl.h
- *  31744 unit_triangle.inl.h  31781 two_rhs.inl.h  31955 small_supernode.inl.h
- *  32157 single_rhs.inl.h  32397 multi_rhs.inl.h  32416 complex_groups.inl.h
- *  32555 multi_rhs_small.inl.h  32727 multi_rhs_tiles.inl.h  33004 kernel_set.inl.h
- *  33006 complex_small.inl.h  33196 complex_rows.inl.h  33411 inverse_front.inl.h  33696 row.inl.h
- *  33726 change.inl.h  33969 interleave.inl.h  34103 lanes_undef.inl.h  34122 words_undef.inl.h
+ *  31198 front.inl.h  31200 product.inl.h  31711 copy_rows.inl.h  31749 sweeps.inl.h
+ *  31751 unit_triangle.inl.h  31788 two_rhs.inl.h  31962 small_supernode.inl.h
+ *  32164 single_rhs.inl.h  32404 multi_rhs.inl.h  32423 complex_groups.inl.h
+ *  32562 multi_rhs_small.inl.h  32734 multi_rhs_tiles.inl.h  33011 kernel_set.inl.h
+ *  33013 complex_small.inl.h  33203 complex_rows.inl.h  33418 inverse_front.inl.h  33703 row.inl.h
+ *  33733 change.inl.h  33976 interleave.inl.h  34110 lanes_undef.inl.h  34129 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12039,7 +12039,7 @@ typedef struct sli_analysis {
   sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
 
-#define SLI_ANALYSIS_ROOM(n) (2 * (uint64_t)(n) + 16)
+#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 16 + 8))
 
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
@@ -12105,53 +12105,53 @@ SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_in
   return count + ((before == 0) & (r >= end));
 }
 
-static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
+static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, uint64_t *bits,
+                   uint64_t *word, sl_int *copy) {
   const sl_symbolic *S = w->S;
   const sl_int *new_of = w->new_of;
-  const size_t words = (size_t)w->n / 64 + 1;
-  uint64_t *bits = (uint64_t *)(void *)room, *word = bits + words;
-  sl_int s, c, k, count, q;
-  memset(bits, 0, words * sizeof(uint64_t));
-  for (s = first; s <= last; s++) {
-    const sl_int end = S->super_first[s + 1];
-    sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[s];
-    sl_off at = S->rows_begin[s], r;
-    count = 0;
-    for (k = S->super_first[s]; k < end; k++) {
-      const sl_int *begin = w->columns.begin + w->old_of[k];
-      const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
-      const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
-      for (; entry < stop; entry += 2, copy += 3) {
-        const sl_int row = new_of[entry[0]];
-        copy[0] = row;
-        copy[1] = entry[1];
-        copy[2] = k - S->super_first[s];
-        count = sli_structure_set(bits, word, count, row, end);
-      }
+  sl_int k, count = 0;
+  for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
+    const sl_int *begin = w->columns.begin + w->old_of[k];
+    const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
+    const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
+    for (; entry < stop; entry += 2, copy += 3) {
+      const sl_int row = new_of[entry[0]];
+      copy[0] = row;
+      copy[1] = entry[1];
+      copy[2] = k - S->super_first[s];
+      count = sli_structure_set(bits, word, count, row, end);
     }
-    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-      for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
-        count = sli_structure_set(bits, word, count, S->rows[r], end);
-      }
-    }
-    sli_sort(word, count, word + words);
-    for (q = 0; q < count; q++) {
-      uint64_t *here = bits + sli_key(word[q]), left = *here;
-      for (*here = 0; left != 0; left &= left - 1) {
-        S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
-      }
-    }
-    for (; at < S->rows_begin[s + 1]; at++) {
-      S->rows[at] = S->super_first[S->super_parent[s]];
-    }
-    SLI_ASSERT(at == S->rows_begin[s + 1]);
   }
+  return count;
+}
+
+static void sli_structure_rows(const sl_symbolic *S, sl_int s, sl_int count, uint64_t *bits,
+                 uint64_t *word, uint64_t *scratch) {
+  const sl_int end = S->super_first[s + 1];
+  sl_off at = S->rows_begin[s], r;
+  sl_int c, q;
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
+      count = sli_structure_set(bits, word, count, S->rows[r], end);
+    }
+  }
+  sli_sort(word, count, scratch);
+  for (q = 0; q < count; q++) {
+    uint64_t *here = bits + sli_key(word[q]), left = *here;
+    for (*here = 0; left != 0; left &= left - 1) {
+      S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
+    }
+  }
+  for (; at < S->rows_begin[s + 1]; at++) {
+    S->rows[at] = S->super_first[S->super_parent[s]];
+  }
+  SLI_ASSERT(at == S->rows_begin[s + 1]);
 }
 
 static void sli_structure_parts(const sli_analysis *w) {
   const sl_symbolic *S = w->S;
   sl_int s, k;
-  for (s = S->n_supers - 1; s >= 0 && w->earlier != NULL; s--) {
+  for (s = S->n_supers - 1; s >= 0; s--) {
     if (w->earlier[s] != -1) {
       sl_int *rows = S->rows + S->rows_begin[w->earlier[s]];
       for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
@@ -12181,30 +12181,44 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
   }
 }
 
-static void sli_structure_map(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
+static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entry,
+                const sl_int *local, sl_int *next) {
+  const sl_int width = S->super_first[s + 1] - S->super_first[s];
+  const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+  const sl_int count = (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]);
+  sl_int total = (sl_int)S->scatter_begin[s], e, r;
+  memset(next, 0, (size_t)height * sizeof(sl_int));
+  for (e = 0; e < count; e++) {
+    next[local[entry[3 * (size_t)e]]]++;
+  }
+  for (r = 0; r < height; r++) {
+    const sl_int here = next[r];
+    next[r] = total;
+    total += here;
+  }
+  for (e = 0; e < count; e++, entry += 3) {
+    const sl_int row = local[entry[0]], to = next[row]++;
+    S->scatter_from[to] = entry[1];
+    S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
+  }
+}
+
+static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
   const sl_symbolic *S = w->S;
-  sl_int *local = room, *next = room + w->n;
-  sl_int s, r;
+  const size_t words = (size_t)w->n / 64 + 1;
+  sl_int *local = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
+  uint64_t *bits = (uint64_t *)(void *)(local + 2 * (size_t)w->n), *word = bits + words;
+  sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s;
+  memset(bits, 0, words * sizeof(uint64_t));
   for (s = first; s <= last; s++) {
-    const sl_int width = S->super_first[s + 1] - S->super_first[s];
-    const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
-    const sl_int *entry = w->spare + 3 * (size_t)S->scatter_begin[s];
-    const sl_int *stop = w->spare + 3 * (size_t)S->scatter_begin[s + 1];
-    sl_int total = (sl_int)S->scatter_begin[s];
-    sli_fill_relative_of(S, s, local);
-    memset(next, 0, (size_t)height * sizeof(sl_int));
-    for (; entry < stop; entry += 3) {
-      next[local[*entry]]++;
+    const sl_int end = w->has_rows ? w->n : S->super_first[s + 1];
+    const sl_int count = sli_structure_gather(w, s, end, bits, word, copy);
+    if (!w->has_rows) {
+      sli_structure_rows(S, s, count, bits, word, word + words);
     }
-    for (r = 0; r < height; r++) {
-      const sl_int here = next[r];
-      next[r] = total;
-      total += here;
-    }
-    for (entry = w->spare + 3 * (size_t)S->scatter_begin[s]; entry < stop; entry += 3) {
-      const sl_int row = local[entry[0]], to = next[row]++;
-      S->scatter_from[to] = entry[1];
-      S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
+    if (w->has_rows || w->earlier == NULL) {
+      sli_fill_relative_of(S, s, local);
+      sli_structure_map(S, s, copy, local, local + w->n);
     }
   }
 }
@@ -12236,15 +12250,6 @@ static void sli_structure_divide(sli_analysis *w) {
   }
 }
 
-static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
-  sl_int *room = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
-  if (w->has_rows) {
-    sli_structure_map(w, first, last, room);
-  } else {
-    sli_structure_rows(w, first, last, room);
-  }
-}
-
 static void sli_structure_item(void *data, sl_int item, sl_int worker) {
   const sli_analysis *w = (const sli_analysis *)data;
   sli_structure_run(w, w->first[item], w->last[item], worker);
@@ -12271,9 +12276,11 @@ static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) 
     sli_structure_divide(w);
   }
   sli_structure_pass(w, team);
-  sli_structure_parts(w);
-  w->has_rows = 1;
-  sli_structure_pass(w, team);
+  if (w->earlier != NULL) {
+    sli_structure_parts(w);
+    w->has_rows = 1;
+    sli_structure_pass(w, team);
+  }
 }
 
 static void sli_fill_steps(sl_symbolic *S) {
@@ -12730,7 +12737,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     w->counts[k] = 1 + (w->parent[k] != -1);
   }
   if (!w->choice.has_tree &&
-    !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order,
+    !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
                keeps_order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
     sli_analysis_reorder(w, order, 1);

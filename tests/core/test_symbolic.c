@@ -110,6 +110,30 @@ static void many_random_patterns(void **state) {
     }
 }
 
+/* Columns of several stars in turns, each with its center first: all of L below the centers is
+ * fill, and no column follows its child. */
+static void stars_in_turns(void **state) {
+    (void)state;
+    for (sl_int stars = 2; stars < 6; stars++) {
+        gen_list_t t = gen_list(60);
+        uint64_t seed = 31;
+        for (sl_int k = stars; k < t.n; k++) {
+            gen_add(&t, k, k % stars, -1);
+        }
+        gen_dominate(&t, 1, &seed);
+        gen_matrix_t M = gen_store(&t, gen_style(0), seed);
+        sl_options opt = options_none();
+        opt.ordering = SL_ORDERING_NATURAL;
+        for (int relaxation = SL_RELAXATION_DEFAULT; relaxation <= SL_RELAXATION_NONE;
+             relaxation++) {
+            opt.relaxation = (sl_relaxation)relaxation;
+            check_all(&M.view, &opt);
+        }
+        gen_matrix_free(&M);
+        gen_list_free(&t);
+    }
+}
+
 static void every_style_gives_the_same_analysis(void **state) {
     (void)state;
     gen_list_t t = gen_make(GEN_COMPONENTS, 70, 1, 3);
@@ -274,6 +298,12 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_zoo_in_every_style_and_ordering),
         cmocka_unit_test(many_random_patterns),
+<<<<<<< HEAD
+=======
+        cmocka_unit_test(stars_in_turns),
+        cmocka_unit_test(the_callers_order_is_kept_where_it_can_be),
+        cmocka_unit_test(small_orders),
+>>>>>>> 27a604b (Analysis: rows and map of a supernode in one pass, in less memory)
         cmocka_unit_test(every_style_gives_the_same_analysis),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(hostile_arrays),

@@ -32,14 +32,14 @@ typedef struct sli_analysis {
     sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
     sli_septree septree;     /* n each: by rows of A */
     size_t ordered;          /* bytes of the block that hold what the ordering fills */
-    sl_int *spare;           /* 3 for each entry: the ordering, lists of rows, copies */
+    sl_int *spare;           /* 3 for each entry: the ordering, rows, entries */
     sl_symbolic *S;          /* what is filled, by runs of supernodes, in descending order */
     int has_rows;            /* the rows of its supernodes are filled */
     sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
 
-/* The memory of one worker. */
-#define SLI_ANALYSIS_ROOM(n) (2 * (uint64_t)(n) + 16)
+/* The memory of one worker, in sl_int: an even number. */
+#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 16 + 8))
 
 /* Counts or fills the range of entries of one worker. */
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {

@@ -29,61 +29,61 @@ SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_in
     return count + ((before == 0) & (r >= end));
 }
 
-/* Fills the rows below supernodes first .. last: those of A in their columns and those below their
- * children. A bit of each row is set in room, which is cleared again by the search for the bits, in
- * ascending words. Copies the entries of A, each with its row, its position in A and its column in
- * the supernode, so that they follow each other.
+/* Copies the entries of A in the columns of supernode s: each with its row, its position in A and
+ * its column in the supernode. Sets the bits of rows that are at least `end`. */
+static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, uint64_t *bits,
+                                   uint64_t *word, sl_int *copy) {
+    const sl_symbolic *S = w->S;
+    const sl_int *new_of = w->new_of;
+    sl_int k, count = 0;
+    for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
+        const sl_int *begin = w->columns.begin + w->old_of[k];
+        const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
+        const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
+        for (; entry < stop; entry += 2, copy += 3) {
+            const sl_int row = new_of[entry[0]];
+            copy[0] = row;
+            copy[1] = entry[1];
+            copy[2] = k - S->super_first[s];
+            count = sli_structure_set(bits, word, count, row, end);
+        }
+    }
+    return count;
+}
+
+/* Fills the rows below supernode s: those whose bits are set, and those below its children. The
+ * bits are cleared again by the search for them, in ascending words.
  *
  * A row of one part of a supernode that was split is also a row of the parts before it: those have
  * fewer rows than they should until sli_structure_parts. */
-static void sli_structure_rows(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
-    const sl_symbolic *S = w->S;
-    const sl_int *new_of = w->new_of;
-    const size_t words = (size_t)w->n / 64 + 1;
-    uint64_t *bits = (uint64_t *)(void *)room, *word = bits + words;
-    sl_int s, c, k, count, q;
-    memset(bits, 0, words * sizeof(uint64_t));
-    for (s = first; s <= last; s++) {
-        const sl_int end = S->super_first[s + 1];
-        sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[s];
-        sl_off at = S->rows_begin[s], r;
-        count = 0;
-        for (k = S->super_first[s]; k < end; k++) {
-            const sl_int *begin = w->columns.begin + w->old_of[k];
-            const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
-            const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
-            for (; entry < stop; entry += 2, copy += 3) {
-                const sl_int row = new_of[entry[0]];
-                copy[0] = row;
-                copy[1] = entry[1];
-                copy[2] = k - S->super_first[s];
-                count = sli_structure_set(bits, word, count, row, end);
-            }
+static void sli_structure_rows(const sl_symbolic *S, sl_int s, sl_int count, uint64_t *bits,
+                               uint64_t *word, uint64_t *scratch) {
+    const sl_int end = S->super_first[s + 1];
+    sl_off at = S->rows_begin[s], r;
+    sl_int c, q;
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
+            count = sli_structure_set(bits, word, count, S->rows[r], end);
         }
-        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-            for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
-                count = sli_structure_set(bits, word, count, S->rows[r], end);
-            }
-        }
-        sli_sort(word, count, word + words);
-        for (q = 0; q < count; q++) {
-            uint64_t *here = bits + sli_key(word[q]), left = *here;
-            for (*here = 0; left != 0; left &= left - 1) {
-                S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
-            }
-        }
-        for (; at < S->rows_begin[s + 1]; at++) { /* a part: its parent has this column */
-            S->rows[at] = S->super_first[S->super_parent[s]];
-        }
-        SLI_ASSERT(at == S->rows_begin[s + 1]);
     }
+    sli_sort(word, count, scratch);
+    for (q = 0; q < count; q++) {
+        uint64_t *here = bits + sli_key(word[q]), left = *here;
+        for (*here = 0; left != 0; left &= left - 1) {
+            S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
+        }
+    }
+    for (; at < S->rows_begin[s + 1]; at++) { /* a part: its parent has this column */
+        S->rows[at] = S->super_first[S->super_parent[s]];
+    }
+    SLI_ASSERT(at == S->rows_begin[s + 1]);
 }
 
 /* Each part of a supernode that was split has the columns of the next one and its rows. */
 static void sli_structure_parts(const sli_analysis *w) {
     const sl_symbolic *S = w->S;
     sl_int s, k;
-    for (s = S->n_supers - 1; s >= 0 && w->earlier != NULL; s--) {
+    for (s = S->n_supers - 1; s >= 0; s--) {
         if (w->earlier[s] != -1) {
             sl_int *rows = S->rows + S->rows_begin[w->earlier[s]];
             for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
@@ -115,32 +115,48 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
     }
 }
 
-/* Fills the relative indices of the children of supernodes first .. last, and the scatter map,
- * sorted by rows. Entries of one position follow each other in the order of A. */
-static void sli_structure_map(const sli_analysis *w, sl_int first, sl_int last, sl_int *room) {
+/* Fills the scatter map of supernode s, sorted by rows. Entries of one position are neighbors, in
+ * the order of A. local: the local row of each row; next: scratch, as many as s has local rows. */
+static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entry,
+                              const sl_int *local, sl_int *next) {
+    const sl_int width = S->super_first[s + 1] - S->super_first[s];
+    const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
+    const sl_int count = (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]);
+    sl_int total = (sl_int)S->scatter_begin[s], e, r; /* fits: at most the entries of A */
+    memset(next, 0, (size_t)height * sizeof(sl_int));
+    for (e = 0; e < count; e++) {
+        next[local[entry[3 * (size_t)e]]]++;
+    }
+    for (r = 0; r < height; r++) {
+        const sl_int here = next[r];
+        next[r] = total;
+        total += here;
+    }
+    for (e = 0; e < count; e++, entry += 3) {
+        const sl_int row = local[entry[0]], to = next[row]++;
+        S->scatter_from[to] = entry[1];
+        S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
+    }
+}
+
+/* Fills the rows of supernodes first .. last, then the relative indices of their children and the
+ * scatter map. Where supernodes were split, all rows are filled before the rest. */
+static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
     const sl_symbolic *S = w->S;
-    sl_int *local = room, *next = room + w->n; /* next: of each local row, the next position */
-    sl_int s, r;
+    const size_t words = (size_t)w->n / 64 + 1;
+    sl_int *local = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
+    uint64_t *bits = (uint64_t *)(void *)(local + 2 * (size_t)w->n), *word = bits + words;
+    sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s;
+    memset(bits, 0, words * sizeof(uint64_t));
     for (s = first; s <= last; s++) {
-        const sl_int width = S->super_first[s + 1] - S->super_first[s];
-        const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
-        const sl_int *entry = w->spare + 3 * (size_t)S->scatter_begin[s];
-        const sl_int *stop = w->spare + 3 * (size_t)S->scatter_begin[s + 1];
-        sl_int total = (sl_int)S->scatter_begin[s]; /* fits: at most the entries of A */
-        sli_fill_relative_of(S, s, local);
-        memset(next, 0, (size_t)height * sizeof(sl_int));
-        for (; entry < stop; entry += 3) {
-            next[local[*entry]]++;
+        const sl_int end = w->has_rows ? w->n : S->super_first[s + 1];
+        const sl_int count = sli_structure_gather(w, s, end, bits, word, copy);
+        if (!w->has_rows) {
+            sli_structure_rows(S, s, count, bits, word, word + words);
         }
-        for (r = 0; r < height; r++) {
-            const sl_int here = next[r];
-            next[r] = total;
-            total += here;
-        }
-        for (entry = w->spare + 3 * (size_t)S->scatter_begin[s]; entry < stop; entry += 3) {
-            const sl_int row = local[entry[0]], to = next[row]++;
-            S->scatter_from[to] = entry[1];
-            S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
+        if (w->has_rows || w->earlier == NULL) {
+            sli_fill_relative_of(S, s, local);
+            sli_structure_map(S, s, copy, local, local + w->n);
         }
     }
 }
@@ -174,21 +190,12 @@ static void sli_structure_divide(sli_analysis *w) {
     }
 }
 
-static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
-    sl_int *room = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
-    if (w->has_rows) {
-        sli_structure_map(w, first, last, room);
-    } else {
-        sli_structure_rows(w, first, last, room);
-    }
-}
-
 static void sli_structure_item(void *data, sl_int item, sl_int worker) {
     const sli_analysis *w = (const sli_analysis *)data;
     sli_structure_run(w, w->first[item], w->last[item], worker);
 }
 
-/* One of two passes over all supernodes: the runs by the team, then the rest. */
+/* A pass over all supernodes: the runs by the team, then the rest. */
 static void sli_structure_pass(sli_analysis *w, sli_team *team) {
     sl_int r, next = 0;
     if (w->n_runs > 0) {
@@ -212,9 +219,11 @@ static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) 
         sli_structure_divide(w);
     }
     sli_structure_pass(w, team);
-    sli_structure_parts(w);
-    w->has_rows = 1;
-    sli_structure_pass(w, team);
+    if (w->earlier != NULL) {
+        sli_structure_parts(w);
+        w->has_rows = 1;
+        sli_structure_pass(w, team);
+    }
 }
 
 /* Fills the steps of a sweep over all supernodes: the vector has all n columns, so that `base` is

@@ -127,7 +127,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
         w->counts[k] = 1 + (w->parent[k] != -1);
     }
     if (!w->choice.has_tree &&
-        !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, order,
+        !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
                              keeps_order)) {
         sli_postorder(w->parent, NULL, n, order, child, more);
         sli_analysis_reorder(w, order, 1);
