@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 03c0a6fb7142e68f
+ * FNV-1a of the lines after this comment, without the license: bdbb7e9ae407a2ea
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -50,42 +50,42 @@
  *  11604 symbolic_types.h  11641 etree.h  11770 supernodes.h  12010 pattern.h  12084 structure.h
  *  12343 schedule.h  12623 symbolic.h  13081 reach.h
  * (factor: the numbers of L and D)
- *  13354 factor_types.h  13782 storage.h  13920 pivot_search.h  14266 pivoted.h  14335 scatter.h
- *  14493 uplooking.h  14565 null_product.h  14769 null_dense.h  14846 null_basis.h
- *  15166 null_vectors.h  15308 multifrontal.h  15502 gather.h  15550 kept.h  15720 front_tasks.h
- *  16063 null_center.h  16187 nullspace.h  16374 growth.h  16452 factor_setup.h  16778 factor.h
- *  16993 leftlooking.h  17147 factor_query.h  17282 combination.h
+ *  13357 factor_types.h  13785 storage.h  13923 pivot_search.h  14269 pivoted.h  14338 scatter.h
+ *  14496 uplooking.h  14568 null_product.h  14772 null_dense.h  14849 null_basis.h
+ *  15169 null_vectors.h  15311 multifrontal.h  15505 gather.h  15553 kept.h  15723 front_tasks.h
+ *  16066 null_center.h  16190 nullspace.h  16377 growth.h  16455 factor_setup.h  16781 factor.h
+ *  16996 leftlooking.h  17150 factor_query.h  17285 combination.h
  * (solve: full and local solves)
- *  17343 region_types.h  17447 work.h  17547 query.h  17765 singular.h  18022 backward.h
- *  18052 sweep_tasks.h  18383 sweep.h  18591 compile.h  18784 plan.h  18891 local.h  19043 parts.h
- *  19332 refine.h  19511 refine_local.h  19727 rcond.h  19886 defects.h
+ *  17346 region_types.h  17450 work.h  17550 query.h  17768 singular.h  18028 backward.h
+ *  18058 sweep_tasks.h  18389 sweep.h  18597 compile.h  18790 plan.h  18897 local.h  19049 parts.h
+ *  19338 refine.h  19517 refine_local.h  19733 rcond.h  19892 defects.h
  * (inverse: entries of the inverse, regions)
- *  19945 traversal.h  20194 traversal_run.h  20387 row_sets.h  20421 unit_vectors.h
- *  20648 bilinear.h  20820 entries.h  21097 block.h  21332 reserve.h  21524 selected.h
- *  21734 selected_query.h  21836 region_choose.h  22063 region.h
+ *  19951 traversal.h  20200 traversal_run.h  20393 row_sets.h  20427 unit_vectors.h
+ *  20654 bilinear.h  20826 entries.h  21103 block.h  21338 reserve.h  21530 selected.h
+ *  21740 selected_query.h  21842 region_choose.h  22069 region.h
  * (change: a factor that follows changes of its matrix)
- *  22311 update.h  22679 path.h  22798 rank.h  23176 edges.h  23330 choose.h  23575 pins_types.h
- *  23641 pins_nulls.h  23824 pins_capacitance.h  24078 pins_balance.h  24257 pins_held.h
- *  24473 pins_choose.h  24530 pins_rebuild.h  24748 pins_matrix.h  24899 pins.h  25168 pins_solve.h
- *  25441 subset.h  25569 restrict_kept.h  25767 restrict_analysis.h  26008 restrict_symbolic.h
- *  26203 restrict.h  26434 edit_match.h  26633 edit_place.h  26882 edit_separate.h
- *  27196 edit_order.h  27351 edit_graph.h  27433 edit_join.h  27709 edit.h  27872 edit_factor.h
+ *  22317 update.h  22685 path.h  22804 rank.h  23182 edges.h  23336 choose.h  23581 pins_types.h
+ *  23647 pins_nulls.h  23830 pins_capacitance.h  24084 pins_balance.h  24263 pins_held.h
+ *  24479 pins_choose.h  24536 pins_rebuild.h  24754 pins_matrix.h  24905 pins.h  25174 pins_solve.h
+ *  25447 subset.h  25575 restrict_kept.h  25773 restrict_analysis.h  26014 restrict_symbolic.h
+ *  26209 restrict.h  26440 edit_match.h  26639 edit_place.h  26888 edit_separate.h
+ *  27202 edit_order.h  27357 edit_graph.h  27439 edit_join.h  27715 edit.h  27878 edit_factor.h
  * (save: factors in files)
- *  28157 format.h  28454 decode.h  28602 check.h  28932 write.h  29237 load.h  29505 load_inverse.h
- *  29835 load_calls.h
+ *  28163 format.h  28460 decode.h  28608 check.h  28938 write.h  29243 load.h  29511 load_inverse.h
+ *  29841 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30034 batch_solve.h  30243 batch_factor.h  30444 batch_diagonal.h
+ *  30040 batch_solve.h  30249 batch_factor.h  30450 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30584 hermitian.h  30746 complex_rows.h
+ *  30590 hermitian.h  30752 complex_rows.h
  * (last: undefine every internal macro)
- *  30914 undef.h
+ *  30920 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31198 front.inl.h  31200 product.inl.h  31711 copy_rows.inl.h  31749 sweeps.inl.h
- *  31751 unit_triangle.inl.h  31788 two_rhs.inl.h  31962 small_supernode.inl.h
- *  32164 single_rhs.inl.h  32404 multi_rhs.inl.h  32423 complex_groups.inl.h
- *  32562 multi_rhs_small.inl.h  32734 multi_rhs_tiles.inl.h  33011 kernel_set.inl.h
- *  33013 complex_small.inl.h  33203 complex_rows.inl.h  33418 inverse_front.inl.h  33703 row.inl.h
- *  33733 change.inl.h  33976 interleave.inl.h  34110 lanes_undef.inl.h  34129 words_undef.inl.h
+ *  31204 front.inl.h  31206 product.inl.h  31717 copy_rows.inl.h  31755 sweeps.inl.h
+ *  31757 unit_triangle.inl.h  31794 two_rhs.inl.h  31968 small_supernode.inl.h
+ *  32170 single_rhs.inl.h  32410 multi_rhs.inl.h  32429 complex_groups.inl.h
+ *  32568 multi_rhs_small.inl.h  32740 multi_rhs_tiles.inl.h  33017 kernel_set.inl.h
+ *  33019 complex_small.inl.h  33209 complex_rows.inl.h  33424 inverse_front.inl.h  33709 row.inl.h
+ *  33739 change.inl.h  33982 interleave.inl.h  34116 lanes_undef.inl.h  34135 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2763,10 +2763,10 @@ SL_API void sl_pins_free(sl_pins *P);
  *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
- *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
- *           the path, and 4 per row below its supernodes. If the matrix is known, k counts the pins
- *           since the last elimination, and once their cost exceeds that of the next one, all are
- *           eliminated: pins that come one by one cost at most about twice as much as together.
+ *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 16 bytes per column
+ *           of the path, and 4 per row below its supernodes. If the matrix is known, k counts the
+ *           pins since the last elimination, and once their cost exceeds that of the next one, all
+ *           are eliminated: pins that come one by one cost at most about twice as much as together.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
@@ -13316,7 +13316,6 @@ static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
 typedef struct sli_intersection {
   const sli_step *a, *a_end, *b, *b_end;
   sl_int count;
-  sl_int column;
   sl_int in_a, in_b;
 } sli_intersection;
 
@@ -13333,12 +13332,16 @@ SLI_INLINE sli_intersection sli_intersection_of(const sli_reach *a, const sli_re
 SLI_INLINE int sli_intersection_next(sli_intersection *m) {
   while (m->a < m->a_end && m->b < m->b_end) {
     if (m->a->panel == m->b->panel) {
-      m->column = sli_max(m->a->column, m->b->column);
-      m->count = m->a->column + sli_step_columns(m->a) - m->column;
-      m->in_a = m->a->base + m->column - m->a->column;
-      m->in_b = m->b->base + m->column - m->b->column;
-      m->a++;
-      m->b++;
+      const sl_int column = sli_max(m->a->column, m->b->column);
+      m->count = m->a->column - column;
+      m->in_a = m->a->base - m->count;
+      m->in_b = m->b->base + column - m->b->column;
+      do {
+        m->count += sli_step_columns(m->a);
+        m->a++;
+        m->b++;
+      } while (m->a < m->a_end && m->b < m->b_end && m->a->panel == m->b->panel &&
+           m->a->column == m->b->column);
       return 1;
     }
     if (m->a->panel < m->b->panel) {
@@ -17784,13 +17787,16 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
                     sl_int columns, sl_int lanes) {
   const ptrdiff_t count = (ptrdiff_t)columns * lanes;
   ptrdiff_t f = 0;
+  double sums[SLI_TILE];
   sl_int q;
+  memcpy(sums, chains, sizeof sums);
   for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
     SLI_UNROLL
     for (q = 0; q < SLI_TILE; q++) {
-      chains[q] += v[q / lanes] * row[f + q];
+      sums[q] += v[q / lanes] * row[f + q];
     }
   }
+  memcpy(chains, sums, sizeof sums);
   for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
     chains[q] += v[q / lanes] * row[f++];
   }

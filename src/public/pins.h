@@ -46,10 +46,10 @@ SL_API void sl_pins_free(sl_pins *P);
  *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
- *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 8 bytes per column of
- *           the path, and 4 per row below its supernodes. If the matrix is known, k counts the pins
- *           since the last elimination, and once their cost exceeds that of the next one, all are
- *           eliminated: pins that come one by one cost at most about twice as much as together.
+ *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 16 bytes per column
+ *           of the path, and 4 per row below its supernodes. If the matrix is known, k counts the
+ *           pins since the last elimination, and once their cost exceeds that of the next one, all
+ *           are eliminated: pins that come one by one cost at most about twice as much as together.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);

@@ -277,13 +277,13 @@ static sl_int sli_reach_index_of(const sli_reach *R, sl_int column) {
     return s == -1 ? -1 : R->steps[s].base + column - R->steps[s].column;
 }
 
-/* Iterates over the supernodes that two reaches share: sli_intersection_of, then
- * sli_intersection_next until it returns 0. */
+/* Iterates over the columns that two reaches share, in runs that have no gap in either vector:
+ * sli_intersection_of, then sli_intersection_next until it returns 0. From where two paths join on
+ * they are one run. */
 typedef struct sli_intersection {
     const sli_step *a, *a_end, *b, *b_end;
-    sl_int count;      /* shared columns of the current supernode */
-    sl_int column;     /* the first of them */
-    sl_int in_a, in_b; /* its indices in the two compact vectors */
+    sl_int count;      /* columns of the current run */
+    sl_int in_a, in_b; /* the indices of the first one in the two compact vectors */
 } sli_intersection;
 
 SLI_INLINE sli_intersection sli_intersection_of(const sli_reach *a, const sli_reach *b) {
@@ -299,12 +299,16 @@ SLI_INLINE sli_intersection sli_intersection_of(const sli_reach *a, const sli_re
 SLI_INLINE int sli_intersection_next(sli_intersection *m) {
     while (m->a < m->a_end && m->b < m->b_end) {
         if (m->a->panel == m->b->panel) { /* the panel identifies the supernode */
-            m->column = sli_max(m->a->column, m->b->column);
-            m->count = m->a->column + sli_step_columns(m->a) - m->column;
-            m->in_a = m->a->base + m->column - m->a->column;
-            m->in_b = m->b->base + m->column - m->b->column;
-            m->a++;
-            m->b++;
+            const sl_int column = sli_max(m->a->column, m->b->column);
+            m->count = m->a->column - column;
+            m->in_a = m->a->base - m->count;
+            m->in_b = m->b->base + column - m->b->column;
+            do {
+                m->count += sli_step_columns(m->a);
+                m->a++;
+                m->b++;
+            } while (m->a < m->a_end && m->b < m->b_end && m->a->panel == m->b->panel &&
+                     m->a->column == m->b->column);
             return 1;
         }
         if (m->a->panel < m->b->panel) {

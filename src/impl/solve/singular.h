@@ -28,13 +28,16 @@ SLI_ALWAYS_INLINE void sli_chains_dot(double *chains, const double *v, const dou
                                       sl_int columns, sl_int lanes) {
     const ptrdiff_t count = (ptrdiff_t)columns * lanes;
     ptrdiff_t f = 0;
+    double sums[SLI_TILE]; /* in registers: chains could be a part of v */
     sl_int q;
+    memcpy(sums, chains, sizeof sums);
     for (; f + SLI_TILE <= count; f += SLI_TILE, v += SLI_TILE / lanes) {
         SLI_UNROLL
         for (q = 0; q < SLI_TILE; q++) { /* sum(r) += v(k) y(k, r) */
-            chains[q] += v[q / lanes] * row[f + q];
+            sums[q] += v[q / lanes] * row[f + q];
         }
     }
+    memcpy(chains, sums, sizeof sums);
     for (q = 0; f < count; q++) { /* untested: none left of 8 lanes */
         chains[q] += v[q / lanes] * row[f++];
     }
