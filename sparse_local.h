@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bdbb7e9ae407a2ea
+ * FNV-1a of the lines after this comment, without the license: 794d0a1173280782
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -67,25 +67,25 @@
  *  22317 update.h  22685 path.h  22804 rank.h  23182 edges.h  23336 choose.h  23581 pins_types.h
  *  23647 pins_nulls.h  23830 pins_capacitance.h  24084 pins_balance.h  24263 pins_held.h
  *  24479 pins_choose.h  24536 pins_rebuild.h  24754 pins_matrix.h  24905 pins.h  25174 pins_solve.h
- *  25447 subset.h  25575 restrict_kept.h  25773 restrict_analysis.h  26014 restrict_symbolic.h
- *  26209 restrict.h  26440 edit_match.h  26639 edit_place.h  26888 edit_separate.h
- *  27202 edit_order.h  27357 edit_graph.h  27439 edit_join.h  27715 edit.h  27878 edit_factor.h
+ *  25447 subset.h  25575 restrict_kept.h  25773 restrict_analysis.h  26016 restrict_symbolic.h
+ *  26211 restrict.h  26442 edit_match.h  26641 edit_place.h  26890 edit_separate.h
+ *  27204 edit_order.h  27359 edit_graph.h  27441 edit_join.h  27717 edit.h  27880 edit_factor.h
  * (save: factors in files)
- *  28163 format.h  28460 decode.h  28608 check.h  28938 write.h  29243 load.h  29511 load_inverse.h
- *  29841 load_calls.h
+ *  28165 format.h  28462 decode.h  28610 check.h  28940 write.h  29245 load.h  29513 load_inverse.h
+ *  29843 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30040 batch_solve.h  30249 batch_factor.h  30450 batch_diagonal.h
+ *  30042 batch_solve.h  30251 batch_factor.h  30452 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30590 hermitian.h  30752 complex_rows.h
+ *  30592 hermitian.h  30754 complex_rows.h
  * (last: undefine every internal macro)
- *  30920 undef.h
+ *  30922 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31204 front.inl.h  31206 product.inl.h  31717 copy_rows.inl.h  31755 sweeps.inl.h
- *  31757 unit_triangle.inl.h  31794 two_rhs.inl.h  31968 small_supernode.inl.h
- *  32170 single_rhs.inl.h  32410 multi_rhs.inl.h  32429 complex_groups.inl.h
- *  32568 multi_rhs_small.inl.h  32740 multi_rhs_tiles.inl.h  33017 kernel_set.inl.h
- *  33019 complex_small.inl.h  33209 complex_rows.inl.h  33424 inverse_front.inl.h  33709 row.inl.h
- *  33739 change.inl.h  33982 interleave.inl.h  34116 lanes_undef.inl.h  34135 words_undef.inl.h
+ *  31206 front.inl.h  31208 product.inl.h  31719 copy_rows.inl.h  31757 sweeps.inl.h
+ *  31759 unit_triangle.inl.h  31796 two_rhs.inl.h  31970 small_supernode.inl.h
+ *  32172 single_rhs.inl.h  32412 multi_rhs.inl.h  32431 complex_groups.inl.h
+ *  32570 multi_rhs_small.inl.h  32742 multi_rhs_tiles.inl.h  33019 kernel_set.inl.h
+ *  33021 complex_small.inl.h  33211 complex_rows.inl.h  33426 inverse_front.inl.h  33711 row.inl.h
+ *  33741 change.inl.h  33984 interleave.inl.h  34118 lanes_undef.inl.h  34137 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25830,28 +25830,29 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
   sl_int *row = r->entry_row, *column = r->entry_column, *from = r->entry_from;
   sl_int k, p, e = r->n_entries;
   for (k = 0; k < r->R.count; k++) {
-    const sl_int j = r->rows[k], own = r->number_of[k];
-    const sl_int end = own == -1 ? A->p[j] : A->p[j + 1];
+    const sl_int j = r->rows[k], own = r->number_of[k], end = sli_value(r->list[k]);
     if (k + SLI_RESTRICT_AHEAD < r->R.count) {
-      const sl_int ahead = A->p[r->rows[k + SLI_RESTRICT_AHEAD]];
-      SLI_PREFETCH(A->i + ahead, 0);
-      SLI_PREFETCH(A->x + ahead, 0);
+      const uint64_t ahead = r->list[k + SLI_RESTRICT_AHEAD];
+      SLI_PREFETCH(A->i + sli_key(ahead), 0);
+      SLI_PREFETCH(A->x + sli_key(ahead), 0);
+      SLI_PREFETCH(A->x + sli_value(ahead), 0);
     }
     if (copies) {
       r->B_begin[k] = e;
     }
-    for (p = A->p[j]; p < end; p++) {
+    for (p = sli_key(r->list[k]); p < end; p++) {
       const sl_int i = A->i[p];
       sl_int other = own, is_there;
       if (i < 0 || i >= A->n_rows) {
         return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
       }
+      is_there = sli_is_read(triangle, i, j);
       if (number_at != NULL) {
         other = number_at[i];
       } else if (i != j) {
-        other = sli_restriction_number(r, i);
+        other = is_there ? sli_restriction_number(r, i) : -1;
       }
-      is_there = (other >= 0) & sli_is_read(triangle, i, j);
+      is_there &= other >= 0;
       if (copies) {
         if (!is_there) {
           continue;
@@ -25920,7 +25921,8 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
     if (r->n_kept > 0) {
       r->number_of[k] = number = r->fresh_of[number];
     }
-    entries += number == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+    r->list[k] = sli_keyed(p[j], number == -1 ? p[j] : p[j + 1]);
+    entries += (uint64_t)(sli_value(r->list[k]) - p[j]);
     if (r->number_at != NULL) {
       r->number_at[j] = number;
     } else {
@@ -26392,7 +26394,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
                   const sl_csc *A, const sl_int *rows, sl_int count,
                   const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  const double started = sli_seconds();
+  const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_restriction r;
   sl_status status;
   sli_stats_clear_error(stats);

@@ -298,12 +298,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_zoo_in_every_style_and_ordering),
         cmocka_unit_test(many_random_patterns),
-<<<<<<< HEAD
-=======
         cmocka_unit_test(stars_in_turns),
-        cmocka_unit_test(the_callers_order_is_kept_where_it_can_be),
-        cmocka_unit_test(small_orders),
->>>>>>> 27a604b (Analysis: rows and map of a supernode in one pass, in less memory)
         cmocka_unit_test(every_style_gives_the_same_analysis),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(hostile_arrays),

@@ -70,28 +70,29 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     sl_int *row = r->entry_row, *column = r->entry_column, *from = r->entry_from;
     sl_int k, p, e = r->n_entries;
     for (k = 0; k < r->R.count; k++) { /* in the caller's order, in which A is read faster */
-        const sl_int j = r->rows[k], own = r->number_of[k];
-        const sl_int end = own == -1 ? A->p[j] : A->p[j + 1];
+        const sl_int j = r->rows[k], own = r->number_of[k], end = sli_value(r->list[k]);
         if (k + SLI_RESTRICT_AHEAD < r->R.count) {
-            const sl_int ahead = A->p[r->rows[k + SLI_RESTRICT_AHEAD]];
-            SLI_PREFETCH(A->i + ahead, 0);
-            SLI_PREFETCH(A->x + ahead, 0);
+            const uint64_t ahead = r->list[k + SLI_RESTRICT_AHEAD];
+            SLI_PREFETCH(A->i + sli_key(ahead), 0);
+            SLI_PREFETCH(A->x + sli_key(ahead), 0);
+            SLI_PREFETCH(A->x + sli_value(ahead), 0);
         }
         if (copies) {
             r->B_begin[k] = e;
         }
-        for (p = A->p[j]; p < end; p++) {
+        for (p = sli_key(r->list[k]); p < end; p++) {
             const sl_int i = A->i[p];
             sl_int other = own, is_there;
             if (i < 0 || i >= A->n_rows) {
                 return sli_fail_at(stats, SL_ERR_PATTERN, i, j, 0.0);
             }
+            is_there = sli_is_read(triangle, i, j);
             if (number_at != NULL) {
                 other = number_at[i];
             } else if (i != j) {
-                other = sli_restriction_number(r, i);
+                other = is_there ? sli_restriction_number(r, i) : -1;
             }
-            is_there = (other >= 0) & sli_is_read(triangle, i, j);
+            is_there &= other >= 0;
             if (copies) {
                 if (!is_there) {
                     continue;
@@ -162,7 +163,8 @@ static sl_status sli_restriction_room(sli_restriction *r, const sl_allocator *a,
         if (r->n_kept > 0) {
             r->number_of[k] = number = r->fresh_of[number];
         }
-        entries += number == -1 ? 0 : (uint64_t)(p[j + 1] - p[j]);
+        r->list[k] = sli_keyed(p[j], number == -1 ? p[j] : p[j + 1]);
+        entries += (uint64_t)(sli_value(r->list[k]) - p[j]);
         if (r->number_at != NULL) {
             r->number_at[j] = number;
         } else {

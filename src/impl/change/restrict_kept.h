@@ -34,7 +34,7 @@ typedef struct sli_restriction {
     const sl_int *rows; /* those of A, in the caller's order */
     int may_keep;       /* 0: nothing is kept */
     sli_subset R;
-    uint64_t *list, *scratch; /* count each */
+    uint64_t *list, *scratch; /* count each; finally list has where rows of A begin and end */
     sl_int *number_of;        /* count: first the rank, then the new column or -1, by row of R */
     sl_int *number_at;        /* the same by rows of A, where R is not small; else NULL */
     uint32_t *bits;           /* bits_mask + 1: there, a filter of R by rows of A */
