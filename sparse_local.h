@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 794d0a1173280782
+ * FNV-1a of the lines after this comment, without the license: da72ebd7aa998ab4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,45 +47,45 @@
  *   9963 metis_refined.h  10077 nd.h  10277 compress.h  10398 levels.h  10451 border.h
  *  10504 forest.h  10591 peel.h  10791 quotient.h  11208 graph_kind.h  11279 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11604 symbolic_types.h  11641 etree.h  11770 supernodes.h  12010 pattern.h  12084 structure.h
- *  12343 schedule.h  12623 symbolic.h  13081 reach.h
+ *  11604 symbolic_types.h  11641 etree.h  11832 supernodes.h  12072 pattern.h  12146 structure.h
+ *  12405 schedule.h  12685 symbolic.h  13154 reach.h
  * (factor: the numbers of L and D)
- *  13357 factor_types.h  13785 storage.h  13923 pivot_search.h  14269 pivoted.h  14338 scatter.h
- *  14496 uplooking.h  14568 null_product.h  14772 null_dense.h  14849 null_basis.h
- *  15169 null_vectors.h  15311 multifrontal.h  15505 gather.h  15553 kept.h  15723 front_tasks.h
- *  16066 null_center.h  16190 nullspace.h  16377 growth.h  16455 factor_setup.h  16781 factor.h
- *  16996 leftlooking.h  17150 factor_query.h  17285 combination.h
+ *  13430 factor_types.h  13858 storage.h  13996 pivot_search.h  14342 pivoted.h  14411 scatter.h
+ *  14569 uplooking.h  14641 null_product.h  14845 null_dense.h  14922 null_basis.h
+ *  15242 null_vectors.h  15384 multifrontal.h  15578 gather.h  15626 kept.h  15796 front_tasks.h
+ *  16139 null_center.h  16263 nullspace.h  16450 growth.h  16528 factor_setup.h  16854 factor.h
+ *  17069 leftlooking.h  17223 factor_query.h  17358 combination.h
  * (solve: full and local solves)
- *  17346 region_types.h  17450 work.h  17550 query.h  17768 singular.h  18028 backward.h
- *  18058 sweep_tasks.h  18389 sweep.h  18597 compile.h  18790 plan.h  18897 local.h  19049 parts.h
- *  19338 refine.h  19517 refine_local.h  19733 rcond.h  19892 defects.h
+ *  17419 region_types.h  17523 work.h  17623 query.h  17841 singular.h  18101 backward.h
+ *  18131 sweep_tasks.h  18462 sweep.h  18670 compile.h  18863 plan.h  18970 local.h  19122 parts.h
+ *  19411 refine.h  19590 refine_local.h  19806 rcond.h  19965 defects.h
  * (inverse: entries of the inverse, regions)
- *  19951 traversal.h  20200 traversal_run.h  20393 row_sets.h  20427 unit_vectors.h
- *  20654 bilinear.h  20826 entries.h  21103 block.h  21338 reserve.h  21530 selected.h
- *  21740 selected_query.h  21842 region_choose.h  22069 region.h
+ *  20024 traversal.h  20273 traversal_run.h  20466 row_sets.h  20500 unit_vectors.h
+ *  20727 bilinear.h  20899 entries.h  21176 block.h  21411 reserve.h  21603 selected.h
+ *  21813 selected_query.h  21915 region_choose.h  22142 region.h
  * (change: a factor that follows changes of its matrix)
- *  22317 update.h  22685 path.h  22804 rank.h  23182 edges.h  23336 choose.h  23581 pins_types.h
- *  23647 pins_nulls.h  23830 pins_capacitance.h  24084 pins_balance.h  24263 pins_held.h
- *  24479 pins_choose.h  24536 pins_rebuild.h  24754 pins_matrix.h  24905 pins.h  25174 pins_solve.h
- *  25447 subset.h  25575 restrict_kept.h  25773 restrict_analysis.h  26016 restrict_symbolic.h
- *  26211 restrict.h  26442 edit_match.h  26641 edit_place.h  26890 edit_separate.h
- *  27204 edit_order.h  27359 edit_graph.h  27441 edit_join.h  27717 edit.h  27880 edit_factor.h
+ *  22390 update.h  22758 path.h  22877 rank.h  23255 edges.h  23409 choose.h  23654 pins_types.h
+ *  23720 pins_nulls.h  23903 pins_capacitance.h  24157 pins_balance.h  24336 pins_held.h
+ *  24552 pins_choose.h  24609 pins_rebuild.h  24827 pins_matrix.h  24978 pins.h  25247 pins_solve.h
+ *  25520 subset.h  25648 restrict_kept.h  25846 restrict_analysis.h  26089 restrict_symbolic.h
+ *  26284 restrict.h  26515 edit_match.h  26714 edit_place.h  26963 edit_separate.h
+ *  27277 edit_order.h  27432 edit_graph.h  27514 edit_join.h  27790 edit.h  27953 edit_factor.h
  * (save: factors in files)
- *  28165 format.h  28462 decode.h  28610 check.h  28940 write.h  29245 load.h  29513 load_inverse.h
- *  29843 load_calls.h
+ *  28238 format.h  28535 decode.h  28683 check.h  29013 write.h  29318 load.h  29586 load_inverse.h
+ *  29916 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30042 batch_solve.h  30251 batch_factor.h  30452 batch_diagonal.h
+ *  30115 batch_solve.h  30324 batch_factor.h  30525 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30592 hermitian.h  30754 complex_rows.h
+ *  30665 hermitian.h  30827 complex_rows.h
  * (last: undefine every internal macro)
- *  30922 undef.h
+ *  30995 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31206 front.inl.h  31208 product.inl.h  31719 copy_rows.inl.h  31757 sweeps.inl.h
- *  31759 unit_triangle.inl.h  31796 two_rhs.inl.h  31970 small_supernode.inl.h
- *  32172 single_rhs.inl.h  32412 multi_rhs.inl.h  32431 complex_groups.inl.h
- *  32570 multi_rhs_small.inl.h  32742 multi_rhs_tiles.inl.h  33019 kernel_set.inl.h
- *  33021 complex_small.inl.h  33211 complex_rows.inl.h  33426 inverse_front.inl.h  33711 row.inl.h
- *  33741 change.inl.h  33984 interleave.inl.h  34118 lanes_undef.inl.h  34137 words_undef.inl.h
+ *  31280 front.inl.h  31282 product.inl.h  31793 copy_rows.inl.h  31831 sweeps.inl.h
+ *  31833 unit_triangle.inl.h  31870 two_rhs.inl.h  32044 small_supernode.inl.h
+ *  32246 single_rhs.inl.h  32486 multi_rhs.inl.h  32505 complex_groups.inl.h
+ *  32644 multi_rhs_small.inl.h  32816 multi_rhs_tiles.inl.h  33093 kernel_set.inl.h
+ *  33095 complex_small.inl.h  33285 complex_rows.inl.h  33500 inverse_front.inl.h  33785 row.inl.h
+ *  33815 change.inl.h  34058 interleave.inl.h  34192 lanes_undef.inl.h  34211 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11642,6 +11642,12 @@ struct sl_symbolic {
 
 #define SLI_MERGED UINT32_MAX
 
+#if defined(SL_VERIFY)
+#define SLI_MERGE_MOST 1
+#else
+#define SLI_MERGE_MOST 8
+#endif
+
 typedef struct sli_merge {
   sl_int *list;
   size_t end;
@@ -11680,24 +11686,33 @@ SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_i
 }
 
 static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
-                 sl_int *list, sl_int *scratch, int keeps_order) {
+                 sl_int *list, sl_int *scratch, int keeps_order,
+                 const sl_int *sequence) {
   sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
-  sl_int k, c, id = -1, size = 0, gaps = 0;
-  int is_in_order = 1;
+  const size_t entries = (size_t)columns->begin[n];
+  const uint64_t most = SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n);
+  uint64_t moved = 0;
+  sl_int t, k = -1, c, id = -1, size = 0, gaps = 0;
+  int is_in_order = sequence == NULL;
   sli_merge m = {list, 0, NULL, NULL, 0};
   m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
   m.waiting = scratch + 4 * (size_t)n;
   memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int));
-  for (k = 0; k < n; k++) {
+  for (t = 0; t < n; t++) {
+    const sl_int last = k, next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
     size_t start, end, to, q;
     sl_int up = n;
-    if (m.end > 2 * (size_t)columns->begin[n]) {
-      sli_merge_compact(&m, k - 1, counts);
+    if (moved > most && sequence == NULL) {
+      return -1;
+    }
+    if (m.end > 2 * entries) {
+      sli_merge_compact(&m, last, counts);
       gaps = 0;
     }
     start = end = m.end;
+    k = sequence == NULL ? t : sequence[t];
     c = child[k];
-    if (c != -1 && c == k - 1) {
+    if (c != -1 && c == last) {
       start = m.from[c];
       m.from[c] = SLI_MERGED;
       size--;
@@ -11712,6 +11727,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
                columns->begin[k + 1] - columns->begin[k], 2);
     for (; c != -1; c = sibling[c]) {
       end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1, 1);
+      moved += (uint64_t)counts[c];
       m.from[c] = SLI_MERGED;
       gaps++;
     }
@@ -11723,13 +11739,17 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     }
     c = m.count == 0 ? -1 : m.waiting[m.count - 1];
     m.end = to = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
-    if (size > 0 && mark[k + 1] == id) {
-      up = k + 1;
-      if (start != to) {
+    if (size > 0 && mark[next] == id) {
+      up = next;
+      if (start - to >= end - start) {
         memmove(list + to, list + start, (end - start) * sizeof(sl_int));
+        end -= start - to;
+        start = to;
       }
-      m.end += end - start;
+      to = start;
+      m.end = end;
     } else {
+      moved += end - start;
       for (q = start; q < end; q++) {
         const sl_int r = list[q];
         list[m.end] = r;
@@ -11749,6 +11769,48 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     }
   }
   return is_in_order;
+}
+
+static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *parent,
+                sl_int *sequence, uint64_t *keys, sl_int *rows, sl_int *scratch) {
+  sl_int *at = scratch, *ancestor = scratch + n, *weight = ancestor, j, k, p = 0;
+  memset(at, 0, (size_t)n * sizeof(sl_int));
+  for (k = 0; k < columns->begin[n]; k++) {
+    at[columns->entry[2 * (size_t)k]]++;
+  }
+  for (k = 0; k < n; k++) {
+    p += at[k];
+    at[k] = p - at[k];
+  }
+  for (j = 0; j < n; j++) {
+    for (p = columns->begin[j]; p < columns->begin[j + 1]; p++) {
+      rows[at[columns->entry[2 * (size_t)p]]++] = j;
+    }
+  }
+  for (k = 0, p = 0; k < n; k++) {
+    parent[k] = ancestor[k] = -1;
+    for (; p < at[k]; p++) {
+      for (j = rows[p]; j != -1 && j < k;) {
+        const sl_int up = ancestor[j];
+        parent[j] = up == -1 ? k : parent[j];
+        ancestor[j] = k;
+        j = up;
+      }
+    }
+  }
+  memset(weight, 0, (size_t)n * sizeof(sl_int));
+  for (k = 0; k < n; k++) {
+    weight[k] += columns->begin[k + 1] - columns->begin[k];
+    keys[k] = sli_keyed(weight[k], k);
+    if (parent[k] != -1) {
+      weight[parent[k]] += weight[k];
+    }
+  }
+  sli_sort(keys, n, keys + n);
+  for (k = 0; k < n; k++) {
+    sequence[k] = sli_value(keys[k]);
+  }
+  sli_postorder(parent, sequence, n, sequence, scratch, scratch + n);
 }
 
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
@@ -12725,6 +12787,19 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   }
 }
 
+static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
+  const sl_int n = w->n;
+  sl_int *sequence = (sl_int *)(void *)w->list;
+  int found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
+                  keeps_order, NULL);
+  if (found == -1) {
+    sli_tree_sequence(n, &w->columns, w->parent, sequence, w->list + n, w->spare, w->scratch);
+    found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
+                  keeps_order, sequence);
+  }
+  return found;
+}
+
 static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
   const sl_int n = w->n;
   const int keeps_order =
@@ -12736,9 +12811,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   for (k = 0; k < n && w->choice.has_tree; k++) {
     w->counts[k] = 1 + (w->parent[k] != -1);
   }
-  if (!w->choice.has_tree &&
-    !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
-               keeps_order)) {
+  if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
     sli_analysis_reorder(w, order, 1);
   }
@@ -31107,6 +31180,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_LEVELS_MAX
 #undef SLI_LEVELS_MOST
 #undef SLI_MERGED
+#undef SLI_MERGE_MOST
 #undef SLI_LEVELS_TRY
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE

@@ -6,6 +6,14 @@
 
 #define SLI_MERGED UINT32_MAX
 
+/* So many rows of lists are moved for each column and entry of A: meshes in any good order need
+ * 1 or 2. */
+#if defined(SL_VERIFY)
+#define SLI_MERGE_MOST 1
+#else
+#define SLI_MERGE_MOST 8
+#endif
+
 /* The lists of rows below columns whose parents are still to come: each row once, in any order. The
  * lists of disjoint subtrees have together no more rows than A has entries. */
 typedef struct sli_merge {
@@ -50,32 +58,42 @@ SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_i
 
 /* parent[k] := the first row below the diagonal of column k of L, or -1; counts[k] := the entries
  * of column k, diagonal included. Returns whether the columns are numbered in a postorder or, if
- * `keeps_order`, whether each only child with the same rows is numbered before its parent.
+ * `keeps_order`, whether each only child with the same rows is numbered before its parent. -1: they
+ * are numbered so that this would take too long, and nothing is known.
  *
- * A column has the rows of its column of A and of its children. The list of a child k - 1 becomes
- * that of k. So in a postorder only entries of A are read, and the lists of the other children; in
- * any other order it takes the time of writing L at most. list: room for three times the entries
- * of A and one; scratch: 5n. [Liu90] */
+ * A column has the rows of its column of A and of its children. The list of a child that was the
+ * last column becomes that of its parent. So in a postorder only entries of A are read, and the
+ * lists of the other children. sequence: another order of the columns, each after its children, or
+ * NULL. list: room for three times the entries of A and one; scratch: 5n. [Liu90] */
 static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
-                               sl_int *list, sl_int *scratch, int keeps_order) {
+                               sl_int *list, sl_int *scratch, int keeps_order,
+                               const sl_int *sequence) {
     /* mark: the last list with the row; child: the last child so far; sibling: the one before */
     sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
-    sl_int k, c, id = -1, size = 0, gaps = 0;
-    int is_in_order = 1;
+    const size_t entries = (size_t)columns->begin[n];
+    const uint64_t most = SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n);
+    uint64_t moved = 0;
+    sl_int t, k = -1, c, id = -1, size = 0, gaps = 0;
+    int is_in_order = sequence == NULL;
     sli_merge m = {list, 0, NULL, NULL, 0};
     m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
     m.waiting = scratch + 4 * (size_t)n;
     memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int)); /* -1, also in child */
-    for (k = 0; k < n; k++) {
+    for (t = 0; t < n; t++) {
+        const sl_int last = k, next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
         size_t start, end, to, q;
         sl_int up = n;
-        if (m.end > 2 * (size_t)columns->begin[n]) {
-            sli_merge_compact(&m, k - 1, counts);
+        if (moved > most && sequence == NULL) {
+            return -1;
+        }
+        if (m.end > 2 * entries) {
+            sli_merge_compact(&m, last, counts);
             gaps = 0;
         }
         start = end = m.end;
+        k = sequence == NULL ? t : sequence[t];
         c = child[k];
-        if (c != -1 && c == k - 1) { /* its list is the last one and holds k */
+        if (c != -1 && c == last) { /* its list is the last one and holds k */
             start = m.from[c];
             m.from[c] = SLI_MERGED;
             size--;
@@ -90,6 +108,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
                              columns->begin[k + 1] - columns->begin[k], 2);
         for (; c != -1; c = sibling[c]) {
             end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1, 1);
+            moved += (uint64_t)counts[c];
             m.from[c] = SLI_MERGED;
             gaps++;
         }
@@ -101,13 +120,17 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
         }
         c = m.count == 0 ? -1 : m.waiting[m.count - 1];
         m.end = to = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
-        if (size > 0 && mark[k + 1] == id) {
-            up = k + 1;
-            if (start != to) {
+        if (size > 0 && mark[next] == id) {
+            up = next;
+            if (start - to >= end - start) { /* otherwise the gap stays, which is short */
                 memmove(list + to, list + start, (end - start) * sizeof(sl_int));
+                end -= start - to;
+                start = to;
             }
-            m.end += end - start;
+            to = start;
+            m.end = end;
         } else {
+            moved += end - start;
             for (q = start; q < end; q++) {
                 const sl_int r = list[q];
                 list[m.end] = r;
@@ -127,6 +150,52 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
         }
     }
     return is_in_order;
+}
+
+/* A postorder of the elimination tree, for sli_tree_and_counts: each list that does not become that
+ * of the parent comes from a subtree with at most half of the entries of A below the parent. So all
+ * lists together take O(nnz log nnz). Finds the tree from the rows, in nearly O(nnz). keys: 2n;
+ * rows: nnz; scratch: 2n. [Liu90] */
+static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *parent,
+                              sl_int *sequence, uint64_t *keys, sl_int *rows, sl_int *scratch) {
+    sl_int *at = scratch, *ancestor = scratch + n, *weight = ancestor, j, k, p = 0;
+    memset(at, 0, (size_t)n * sizeof(sl_int));
+    for (k = 0; k < columns->begin[n]; k++) {
+        at[columns->entry[2 * (size_t)k]]++;
+    }
+    for (k = 0; k < n; k++) {
+        p += at[k];
+        at[k] = p - at[k];
+    }
+    for (j = 0; j < n; j++) {
+        for (p = columns->begin[j]; p < columns->begin[j + 1]; p++) {
+            rows[at[columns->entry[2 * (size_t)p]]++] = j;
+        }
+    }
+    for (k = 0, p = 0; k < n; k++) {
+        parent[k] = ancestor[k] = -1;
+        for (; p < at[k]; p++) {
+            for (j = rows[p]; j != -1 && j < k;) {
+                const sl_int up = ancestor[j];
+                parent[j] = up == -1 ? k : parent[j];
+                ancestor[j] = k;
+                j = up;
+            }
+        }
+    }
+    memset(weight, 0, (size_t)n * sizeof(sl_int));
+    for (k = 0; k < n; k++) {
+        weight[k] += columns->begin[k + 1] - columns->begin[k];
+        keys[k] = sli_keyed(weight[k], k);
+        if (parent[k] != -1) {
+            weight[parent[k]] += weight[k];
+        }
+    }
+    sli_sort(keys, n, keys + n);
+    for (k = 0; k < n; k++) {
+        sequence[k] = sli_value(keys[k]);
+    }
+    sli_postorder(parent, sequence, n, sequence, scratch, scratch + n);
 }
 
 /* Renumbers the columns: order[k] = the old number of the new column k. Updates old_of, its inverse

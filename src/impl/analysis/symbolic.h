@@ -114,6 +114,20 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
     }
 }
 
+/* Finds tree and counts. Returns whether the columns need no postorder. */
+static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
+    const sl_int n = w->n;
+    sl_int *sequence = (sl_int *)(void *)w->list;
+    int found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
+                                    keeps_order, NULL);
+    if (found == -1) {
+        sli_tree_sequence(n, &w->columns, w->parent, sequence, w->list + n, w->spare, w->scratch);
+        found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
+                                    keeps_order, sequence);
+    }
+    return found;
+}
+
 /* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
 static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
     const sl_int n = w->n;
@@ -126,9 +140,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     for (k = 0; k < n && w->choice.has_tree; k++) {
         w->counts[k] = 1 + (w->parent[k] != -1);
     }
-    if (!w->choice.has_tree &&
-        !sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
-                             keeps_order)) {
+    if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
         sli_postorder(w->parent, NULL, n, order, child, more);
         sli_analysis_reorder(w, order, 1);
     }
