@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: da72ebd7aa998ab4
+ * FNV-1a of the lines after this comment, without the license: 5aa18d7b7051a924
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -64,28 +64,28 @@
  *  20727 bilinear.h  20899 entries.h  21176 block.h  21411 reserve.h  21603 selected.h
  *  21813 selected_query.h  21915 region_choose.h  22142 region.h
  * (change: a factor that follows changes of its matrix)
- *  22390 update.h  22758 path.h  22877 rank.h  23255 edges.h  23409 choose.h  23654 pins_types.h
- *  23720 pins_nulls.h  23903 pins_capacitance.h  24157 pins_balance.h  24336 pins_held.h
- *  24552 pins_choose.h  24609 pins_rebuild.h  24827 pins_matrix.h  24978 pins.h  25247 pins_solve.h
- *  25520 subset.h  25648 restrict_kept.h  25846 restrict_analysis.h  26089 restrict_symbolic.h
- *  26284 restrict.h  26515 edit_match.h  26714 edit_place.h  26963 edit_separate.h
- *  27277 edit_order.h  27432 edit_graph.h  27514 edit_join.h  27790 edit.h  27953 edit_factor.h
+ *  22390 update.h  22758 path.h  22877 rank.h  23255 edges.h  23409 choose.h  23656 pins_types.h
+ *  23722 pins_nulls.h  23905 pins_capacitance.h  24159 pins_balance.h  24338 pins_held.h
+ *  24554 pins_choose.h  24611 pins_rebuild.h  24829 pins_matrix.h  24980 pins.h  25249 pins_solve.h
+ *  25522 subset.h  25650 restrict_kept.h  25848 restrict_analysis.h  26091 restrict_symbolic.h
+ *  26286 restrict.h  26517 edit_match.h  26716 edit_place.h  26965 edit_separate.h
+ *  27279 edit_order.h  27434 edit_graph.h  27516 edit_join.h  27792 edit.h  27955 edit_factor.h
  * (save: factors in files)
- *  28238 format.h  28535 decode.h  28683 check.h  29013 write.h  29318 load.h  29586 load_inverse.h
- *  29916 load_calls.h
+ *  28240 format.h  28537 decode.h  28685 check.h  29015 write.h  29320 load.h  29588 load_inverse.h
+ *  29918 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30115 batch_solve.h  30324 batch_factor.h  30525 batch_diagonal.h
+ *  30117 batch_solve.h  30326 batch_factor.h  30527 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30665 hermitian.h  30827 complex_rows.h
+ *  30667 hermitian.h  30829 complex_rows.h
  * (last: undefine every internal macro)
- *  30995 undef.h
+ *  30997 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31280 front.inl.h  31282 product.inl.h  31793 copy_rows.inl.h  31831 sweeps.inl.h
- *  31833 unit_triangle.inl.h  31870 two_rhs.inl.h  32044 small_supernode.inl.h
- *  32246 single_rhs.inl.h  32486 multi_rhs.inl.h  32505 complex_groups.inl.h
- *  32644 multi_rhs_small.inl.h  32816 multi_rhs_tiles.inl.h  33093 kernel_set.inl.h
- *  33095 complex_small.inl.h  33285 complex_rows.inl.h  33500 inverse_front.inl.h  33785 row.inl.h
- *  33815 change.inl.h  34058 interleave.inl.h  34192 lanes_undef.inl.h  34211 words_undef.inl.h
+ *  31283 front.inl.h  31285 product.inl.h  31796 copy_rows.inl.h  31834 sweeps.inl.h
+ *  31836 unit_triangle.inl.h  31873 two_rhs.inl.h  32047 small_supernode.inl.h
+ *  32249 single_rhs.inl.h  32489 multi_rhs.inl.h  32508 complex_groups.inl.h
+ *  32647 multi_rhs_small.inl.h  32819 multi_rhs_tiles.inl.h  33096 kernel_set.inl.h
+ *  33098 complex_small.inl.h  33288 complex_rows.inl.h  33503 inverse_front.inl.h  33788 row.inl.h
+ *  33818 change.inl.h  34061 interleave.inl.h  34195 lanes_undef.inl.h  34214 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -666,7 +666,7 @@ typedef struct sl_change_info {
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
      * times the largest number a pivot was computed from, relative to the largest |a| */
     double drift;
-    double flops_update;   /* of the rank-one changes, at least; 0 if F cannot be changed so */
+    double flops_update;   /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
      * sl_factor_change, else 0 */
     double flops_changed;
@@ -23409,10 +23409,11 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
 #define SLI_CHANGE_ENTRY 0.3e-9
-#define SLI_CHANGE_PIVOT 4e-9
-#define SLI_CHANGE_FRONT 0.8e-6
-#define SLI_CHANGE_VISIT 0.6e-6
-#define SLI_CHANGE_INPUT 4e-9
+#define SLI_CHANGE_HIDDEN 12e-12
+#define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))
+#define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
+#define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
+#define SLI_CHANGE_INPUT 2.5e-9
 #define SLI_CHANGE_DRIFT 1e-11
 
 typedef struct sli_way {
@@ -23425,12 +23426,12 @@ typedef struct sli_way {
   sl_change_reason reason;
 } sli_way;
 
-static const double sli_change_flop[] = {0.0, 0.3e-9, 0.03e-9, 0.0125e-9, 0.08e-9};
+static const double sli_change_flop[] = {0.0, 0.155e-9, 0.021e-9, 0.013e-9, 0.08e-9};
 
 static double sli_way_refactor(const sl_factor *F) {
   const sl_symbolic *S = F->S;
-  return sli_change_flop[F->kernels->isa] * S->stats.symbolic.flops +
-       SLI_CHANGE_FRONT * S->n_supers +
+  const double flop = sli_change_flop[F->kernels->isa];
+  return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
        SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
@@ -23461,6 +23462,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
 static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
   const sl_symbolic *S = F->S;
   const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
+  const double flop = sli_change_flop[F->kernels->isa];
   sl_int k = 0, s, next, visits = 0;
   c->flops_changed = 0.0;
   c->changed = input;
@@ -23472,8 +23474,7 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
       c->flops_changed +=
         sli_way_front(S, s) +
         sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
-      c->changed = input + SLI_CHANGE_VISIT * visits +
-             sli_change_flop[F->kernels->isa] * c->flops_changed;
+      c->changed = input + SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
     }
   }
 }
@@ -23546,8 +23547,9 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
 }
 
 static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
-  return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT * pivots +
-      0.5 * sli_change_flop[q->u.F->kernels->isa] * flops) *
+  const double flop = sli_change_flop[q->u.F->kernels->isa];
+  return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
+      1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
        (q->has_trial || q->has_log ? 1.5 : 1.0);
 }
 
@@ -23558,7 +23560,7 @@ static void sli_way_estimate(sli_way *c, const sli_rank *q) {
   for (k = 0; k < q->n_entries; k++) {
     edges += q->entry_rows[k] != q->entry_columns[k];
   }
-  passes = sli_max(c->n_seeds, edges) / (2 * SLI_TILE);
+  passes = sli_max(c->n_seeds, edges) / SLI_TILE;
   if (passes > 0) {
     sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, 1, &R);
   }
@@ -31229,6 +31231,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_COST_WIDE_ONE_FACTOR
 #undef SLI_UPDATE_COLUMNS
 #undef SLI_CHANGE_ENTRY
+#undef SLI_CHANGE_HIDDEN
 #undef SLI_CHANGE_PIVOT
 #undef SLI_CHANGE_FRONT
 #undef SLI_CHANGE_VISIT

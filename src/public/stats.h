@@ -118,7 +118,7 @@ typedef struct sl_change_info {
     /* an estimate of the backward error that they have added: the sum over all passes of epsilon
      * times the largest number a pivot was computed from, relative to the largest |a| */
     double drift;
-    double flops_update;   /* of the rank-one changes, at least; 0 if F cannot be changed so */
+    double flops_update;   /* of the rank-one changes, about; 0 if F cannot be changed so */
     /* of sl_factor_refactor_changed, counted up to the cost of the cheapest way; of
      * sl_factor_change, else 0 */
     double flops_changed;

@@ -5,12 +5,14 @@
 #include "../factor/leftlooking.h"
 #include "edges.h"
 
-/* Seconds of the parts of the three ways, measured on grids of 1e4 to 1e6 rows. */
-#define SLI_CHANGE_ENTRY 0.3e-9 /* an entry of L in a pass of rank-one changes */
-#define SLI_CHANGE_PIVOT 4e-9   /* a pivot that one vector changes */
-#define SLI_CHANGE_FRONT 0.8e-6 /* a front, beside its flops */
-#define SLI_CHANGE_VISIT 0.6e-6 /* a descendant that updates a front again */
-#define SLI_CHANGE_INPUT 4e-9   /* an entry of A */
+/* Seconds of the parts of the three ways, fitted to grids of 1e4 and 1e5 rows: what does not depend
+ * on the instruction set, and what takes as long as some flops in a front. */
+#define SLI_CHANGE_ENTRY 0.3e-9  /* an entry of L in a pass of rank-one changes */
+#define SLI_CHANGE_HIDDEN 12e-12 /* so much of each of its flops passes while L is read */
+#define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))     /* a pivot that one vector changes */
+#define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop)) /* a front, beside its flops */
+#define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))  /* a descendant that updates a front */
+#define SLI_CHANGE_INPUT 2.5e-9                            /* an entry of A */
 /* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
 #define SLI_CHANGE_DRIFT 1e-11
 
@@ -25,14 +27,14 @@ typedef struct sli_way {
     sl_change_reason reason;
 } sli_way;
 
-/* Seconds of a flop in a front, by sl_isa. In a pass of rank-one changes it takes half of this. */
-static const double sli_change_flop[] = {0.0, 0.3e-9, 0.03e-9, 0.0125e-9, 0.08e-9};
+/* Seconds of a flop in a front, by sl_isa. */
+static const double sli_change_flop[] = {0.0, 0.155e-9, 0.021e-9, 0.013e-9, 0.08e-9};
 
 /* Seconds of a refactorization. */
 static double sli_way_refactor(const sl_factor *F) {
     const sl_symbolic *S = F->S;
-    return sli_change_flop[F->kernels->isa] * S->stats.symbolic.flops +
-           SLI_CHANGE_FRONT * S->n_supers +
+    const double flop = sli_change_flop[F->kernels->isa];
+    return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
            SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
@@ -67,6 +69,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
 static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
     const sl_symbolic *S = F->S;
     const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
+    const double flop = sli_change_flop[F->kernels->isa];
     sl_int k = 0, s, next, visits = 0;
     c->flops_changed = 0.0;
     c->changed = input;
@@ -78,8 +81,7 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
             c->flops_changed +=
                 sli_way_front(S, s) +
                 sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
-            c->changed = input + SLI_CHANGE_VISIT * visits +
-                         sli_change_flop[F->kernels->isa] * c->flops_changed;
+            c->changed = input + SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
         }
     }
 }
@@ -158,14 +160,14 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
 
 /* Seconds of rank-one changes. */
 static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
-    return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT * pivots +
-            0.5 * sli_change_flop[q->u.F->kernels->isa] * flops) *
+    const double flop = sli_change_flop[q->u.F->kernels->isa];
+    return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
+            1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
            (q->has_trial || q->has_log ? 1.5 : 1.0);
 }
 
-/* Estimates the rank-one changes from below, with the path of the column in the middle: half a
- * vector for each seed or edge, as an edge may be named twice. Where even they take too long, the
- * vectors need not be sorted. */
+/* Estimates the rank-one changes with the path of the column in the middle: a vector for each seed
+ * or edge. Where they take too long, the vectors need not be sorted. */
 static void sli_way_estimate(sli_way *c, const sli_rank *q) {
     sl_int k, edges = 0, passes;
     sli_reach R;
@@ -173,7 +175,7 @@ static void sli_way_estimate(sli_way *c, const sli_rank *q) {
     for (k = 0; k < q->n_entries; k++) {
         edges += q->entry_rows[k] != q->entry_columns[k];
     }
-    passes = sli_max(c->n_seeds, edges) / (2 * SLI_TILE);
+    passes = sli_max(c->n_seeds, edges) / SLI_TILE;
     if (passes > 0) {
         sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, 1, &R);
     }
