@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5aa18d7b7051a924
+ * FNV-1a of the lines after this comment, without the license: a92ac1f83cf5dbc1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -23408,8 +23408,8 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
-#define SLI_CHANGE_ENTRY 0.3e-9
-#define SLI_CHANGE_HIDDEN 12e-12
+#define SLI_CHANGE_ENTRY 0.27e-9
+#define SLI_CHANGE_HIDDEN 15e-12
 #define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))
 #define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
 #define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
@@ -23426,7 +23426,7 @@ typedef struct sli_way {
   sl_change_reason reason;
 } sli_way;
 
-static const double sli_change_flop[] = {0.0, 0.155e-9, 0.021e-9, 0.013e-9, 0.08e-9};
+static const double sli_change_flop[] = {0.0, 0.155e-9, 0.024e-9, 0.014e-9, 0.08e-9};
 
 static double sli_way_refactor(const sl_factor *F) {
   const sl_symbolic *S = F->S;

@@ -7,8 +7,8 @@
 
 /* Seconds of the parts of the three ways, fitted to grids of 1e4 and 1e5 rows: what does not depend
  * on the instruction set, and what takes as long as some flops in a front. */
-#define SLI_CHANGE_ENTRY 0.3e-9  /* an entry of L in a pass of rank-one changes */
-#define SLI_CHANGE_HIDDEN 12e-12 /* so much of each of its flops passes while L is read */
+#define SLI_CHANGE_ENTRY 0.27e-9 /* an entry of L in a pass of rank-one changes */
+#define SLI_CHANGE_HIDDEN 15e-12 /* so much of each of its flops passes while L is read */
 #define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))     /* a pivot that one vector changes */
 #define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop)) /* a front, beside its flops */
 #define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))  /* a descendant that updates a front */
@@ -28,7 +28,7 @@ typedef struct sli_way {
 } sli_way;
 
 /* Seconds of a flop in a front, by sl_isa. */
-static const double sli_change_flop[] = {0.0, 0.155e-9, 0.021e-9, 0.013e-9, 0.08e-9};
+static const double sli_change_flop[] = {0.0, 0.155e-9, 0.024e-9, 0.014e-9, 0.08e-9};
 
 /* Seconds of a refactorization. */
 static double sli_way_refactor(const sl_factor *F) {
