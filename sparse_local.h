@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a92ac1f83cf5dbc1
+ * FNV-1a of the lines after this comment, without the license: 986891f607414ab6
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -67,25 +67,25 @@
  *  22390 update.h  22758 path.h  22877 rank.h  23255 edges.h  23409 choose.h  23656 pins_types.h
  *  23722 pins_nulls.h  23905 pins_capacitance.h  24159 pins_balance.h  24338 pins_held.h
  *  24554 pins_choose.h  24611 pins_rebuild.h  24829 pins_matrix.h  24980 pins.h  25249 pins_solve.h
- *  25522 subset.h  25650 restrict_kept.h  25848 restrict_analysis.h  26091 restrict_symbolic.h
- *  26286 restrict.h  26517 edit_match.h  26716 edit_place.h  26965 edit_separate.h
- *  27279 edit_order.h  27434 edit_graph.h  27516 edit_join.h  27792 edit.h  27955 edit_factor.h
+ *  25522 subset.h  25650 restrict_kept.h  25848 restrict_analysis.h  26094 restrict_symbolic.h
+ *  26289 restrict.h  26520 edit_match.h  26719 edit_place.h  26968 edit_separate.h
+ *  27282 edit_order.h  27437 edit_graph.h  27519 edit_join.h  27795 edit.h  27958 edit_factor.h
  * (save: factors in files)
- *  28240 format.h  28537 decode.h  28685 check.h  29015 write.h  29320 load.h  29588 load_inverse.h
- *  29918 load_calls.h
+ *  28243 format.h  28540 decode.h  28688 check.h  29018 write.h  29323 load.h  29591 load_inverse.h
+ *  29921 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30117 batch_solve.h  30326 batch_factor.h  30527 batch_diagonal.h
+ *  30120 batch_solve.h  30329 batch_factor.h  30530 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30667 hermitian.h  30829 complex_rows.h
+ *  30670 hermitian.h  30832 complex_rows.h
  * (last: undefine every internal macro)
- *  30997 undef.h
+ *  31000 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31283 front.inl.h  31285 product.inl.h  31796 copy_rows.inl.h  31834 sweeps.inl.h
- *  31836 unit_triangle.inl.h  31873 two_rhs.inl.h  32047 small_supernode.inl.h
- *  32249 single_rhs.inl.h  32489 multi_rhs.inl.h  32508 complex_groups.inl.h
- *  32647 multi_rhs_small.inl.h  32819 multi_rhs_tiles.inl.h  33096 kernel_set.inl.h
- *  33098 complex_small.inl.h  33288 complex_rows.inl.h  33503 inverse_front.inl.h  33788 row.inl.h
- *  33818 change.inl.h  34061 interleave.inl.h  34195 lanes_undef.inl.h  34214 words_undef.inl.h
+ *  31286 front.inl.h  31288 product.inl.h  31799 copy_rows.inl.h  31837 sweeps.inl.h
+ *  31839 unit_triangle.inl.h  31876 two_rhs.inl.h  32050 small_supernode.inl.h
+ *  32252 single_rhs.inl.h  32492 multi_rhs.inl.h  32511 complex_groups.inl.h
+ *  32650 multi_rhs_small.inl.h  32822 multi_rhs_tiles.inl.h  33099 kernel_set.inl.h
+ *  33101 complex_small.inl.h  33291 complex_rows.inl.h  33506 inverse_front.inl.h  33791 row.inl.h
+ *  33821 change.inl.h  34064 interleave.inl.h  34198 lanes_undef.inl.h  34217 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25909,8 +25909,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
     if (k + SLI_RESTRICT_AHEAD < r->R.count) {
       const uint64_t ahead = r->list[k + SLI_RESTRICT_AHEAD];
       SLI_PREFETCH(A->i + sli_key(ahead), 0);
-      SLI_PREFETCH(A->x + sli_key(ahead), 0);
-      SLI_PREFETCH(A->x + sli_value(ahead), 0);
+      SLI_PREFETCH(A->i + sli_value(ahead), 0);
     }
     if (copies) {
       r->B_begin[k] = e;
@@ -25933,16 +25932,20 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
           continue;
         }
         r->B_rows[e] = i;
-        r->B_values[e] = A->x[p];
       }
       row[e] = other;
       column[e] = own;
-      from[e] = copies ? e : p;
+      from[e] = p;
       e += is_there;
     }
   }
   if (copies) {
     r->B_begin[k] = e;
+  }
+  for (k = r->n_entries; k < e && copies; k++) {
+    SLI_PREFETCH(A->x + from[sli_min(k + SLI_RESTRICT_AHEAD, e - 1)], 0);
+    r->B_values[k] = A->x[from[k]];
+    from[k] = k;
   }
   r->n_entries = e;
   return SL_OK;

@@ -74,8 +74,7 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
         if (k + SLI_RESTRICT_AHEAD < r->R.count) {
             const uint64_t ahead = r->list[k + SLI_RESTRICT_AHEAD];
             SLI_PREFETCH(A->i + sli_key(ahead), 0);
-            SLI_PREFETCH(A->x + sli_key(ahead), 0);
-            SLI_PREFETCH(A->x + sli_value(ahead), 0);
+            SLI_PREFETCH(A->i + sli_value(ahead), 0);
         }
         if (copies) {
             r->B_begin[k] = e;
@@ -98,16 +97,20 @@ static sl_status sli_restriction_graph(sli_restriction *r, sl_stats *stats) {
                     continue;
                 }
                 r->B_rows[e] = i;
-                r->B_values[e] = A->x[p];
             }
             row[e] = other;
             column[e] = own;
-            from[e] = copies ? e : p;
+            from[e] = p;
             e += is_there;
         }
     }
     if (copies) {
         r->B_begin[k] = e;
+    }
+    for (k = r->n_entries; k < e && copies; k++) { /* only values in R are fetched */
+        SLI_PREFETCH(A->x + from[sli_min(k + SLI_RESTRICT_AHEAD, e - 1)], 0);
+        r->B_values[k] = A->x[from[k]];
+        from[k] = k;
     }
     r->n_entries = e;
     return SL_OK;
