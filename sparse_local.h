@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 986891f607414ab6
+ * FNV-1a of the lines after this comment, without the license: 4717e78ecf12302f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -66,26 +66,26 @@
  * (change: a factor that follows changes of its matrix)
  *  22390 update.h  22758 path.h  22877 rank.h  23255 edges.h  23409 choose.h  23656 pins_types.h
  *  23722 pins_nulls.h  23905 pins_capacitance.h  24159 pins_balance.h  24338 pins_held.h
- *  24554 pins_choose.h  24611 pins_rebuild.h  24829 pins_matrix.h  24980 pins.h  25249 pins_solve.h
- *  25522 subset.h  25650 restrict_kept.h  25848 restrict_analysis.h  26094 restrict_symbolic.h
- *  26289 restrict.h  26520 edit_match.h  26719 edit_place.h  26968 edit_separate.h
- *  27282 edit_order.h  27437 edit_graph.h  27519 edit_join.h  27795 edit.h  27958 edit_factor.h
+ *  24554 pins_choose.h  24616 pins_rebuild.h  24834 pins_matrix.h  24985 pins.h  25254 pins_solve.h
+ *  25527 subset.h  25655 restrict_kept.h  25853 restrict_analysis.h  26099 restrict_symbolic.h
+ *  26294 restrict.h  26525 edit_match.h  26724 edit_place.h  26973 edit_separate.h
+ *  27287 edit_order.h  27442 edit_graph.h  27524 edit_join.h  27800 edit.h  27963 edit_factor.h
  * (save: factors in files)
- *  28243 format.h  28540 decode.h  28688 check.h  29018 write.h  29323 load.h  29591 load_inverse.h
- *  29921 load_calls.h
+ *  28248 format.h  28545 decode.h  28693 check.h  29023 write.h  29328 load.h  29596 load_inverse.h
+ *  29926 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30120 batch_solve.h  30329 batch_factor.h  30530 batch_diagonal.h
+ *  30125 batch_solve.h  30334 batch_factor.h  30535 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30670 hermitian.h  30832 complex_rows.h
+ *  30675 hermitian.h  30837 complex_rows.h
  * (last: undefine every internal macro)
- *  31000 undef.h
+ *  31005 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31286 front.inl.h  31288 product.inl.h  31799 copy_rows.inl.h  31837 sweeps.inl.h
- *  31839 unit_triangle.inl.h  31876 two_rhs.inl.h  32050 small_supernode.inl.h
- *  32252 single_rhs.inl.h  32492 multi_rhs.inl.h  32511 complex_groups.inl.h
- *  32650 multi_rhs_small.inl.h  32822 multi_rhs_tiles.inl.h  33099 kernel_set.inl.h
- *  33101 complex_small.inl.h  33291 complex_rows.inl.h  33506 inverse_front.inl.h  33791 row.inl.h
- *  33821 change.inl.h  34064 interleave.inl.h  34198 lanes_undef.inl.h  34217 words_undef.inl.h
+ *  31293 front.inl.h  31295 product.inl.h  31806 copy_rows.inl.h  31844 sweeps.inl.h
+ *  31846 unit_triangle.inl.h  31883 two_rhs.inl.h  32057 small_supernode.inl.h
+ *  32259 single_rhs.inl.h  32499 multi_rhs.inl.h  32518 complex_groups.inl.h
+ *  32657 multi_rhs_small.inl.h  32829 multi_rhs_tiles.inl.h  33106 kernel_set.inl.h
+ *  33108 complex_small.inl.h  33298 complex_rows.inl.h  33513 inverse_front.inl.h  33798 row.inl.h
+ *  33828 change.inl.h  34071 interleave.inl.h  34205 lanes_undef.inl.h  34224 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24553,8 +24553,10 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
 
 /* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
 
-#define SLI_PINS_ENTRY 0.15e-9
-#define SLI_PINS_TERM 0.35e-9
+#define SLI_PINS_ENTRY 0.12e-9
+#define SLI_PINS_TERM 0.15e-9
+#define SLI_PINS_FAR 1e-9
+#define SLI_PINS_NEAR 5e5
 #define SLI_PINS_STEP 10e-9
 #define SLI_PINS_DENSE 0.2e-9
 #define SLI_PINS_MAP 5e-9
@@ -24565,6 +24567,7 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
                     sl_int others, sl_int *uses) {
   const double before = others, after = before + count;
   double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before);
+  double terms = 0.0, numbers = 0.0;
   sl_int k, s;
   for (k = 0; k < count && uses != NULL; k++) {
     uses[S->super_of[sli_key(seeds[k])]]++;
@@ -24576,7 +24579,9 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
     const sl_int up = S->super_parent[s];
     if (u > 0.0) {
       seconds += SLI_PINS_ENTRY * u * (double)sli_panel_size((sl_int)w, S->steps[s].below) +
-             (SLI_PINS_TERM * w + SLI_PINS_STEP) * pairs;
+             SLI_PINS_STEP * pairs;
+      terms += w * pairs;
+      numbers += w * (before + u);
     }
     if (uses != NULL) {
       if (up != -1) {
@@ -24587,7 +24592,7 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
       s = up;
     }
   }
-  return seconds;
+  return seconds + (numbers > SLI_PINS_NEAR ? SLI_PINS_FAR : SLI_PINS_TERM) * terms;
 }
 
 static double sli_pins_least_cost(const sl_pins *P) {
@@ -31253,6 +31258,8 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_NULL_DEPENDENT
 #undef SLI_PINS_ENTRY
 #undef SLI_PINS_TERM
+#undef SLI_PINS_FAR
+#undef SLI_PINS_NEAR
 #undef SLI_PINS_STEP
 #undef SLI_PINS_DENSE
 #undef SLI_PINS_MAP

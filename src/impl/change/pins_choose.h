@@ -5,8 +5,10 @@
 #include "pins_held.h"
 
 /* Seconds of the parts of both ways, measured on grids of 1e4 to 1e6 rows. */
-#define SLI_PINS_ENTRY 0.15e-9 /* an entry of L in a forward sweep */
-#define SLI_PINS_TERM 0.35e-9  /* a product of a sum over shared columns */
+#define SLI_PINS_ENTRY 0.12e-9 /* an entry of L in a forward sweep */
+#define SLI_PINS_TERM 0.15e-9  /* a product of a sum over shared columns */
+#define SLI_PINS_FAR 1e-9      /* the same, where the vectors of pins are more than */
+#define SLI_PINS_NEAR 5e5      /* so many numbers, which stay in a cache */
 #define SLI_PINS_STEP 10e-9    /* a supernode of the same */
 #define SLI_PINS_DENSE 0.2e-9  /* a product in the factor of K */
 #define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
@@ -20,6 +22,7 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
                                         sl_int others, sl_int *uses) {
     const double before = others, after = before + count;
     double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before);
+    double terms = 0.0, numbers = 0.0;
     sl_int k, s;
     for (k = 0; k < count && uses != NULL; k++) {
         uses[S->super_of[sli_key(seeds[k])]]++;
@@ -31,7 +34,9 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
         const sl_int up = S->super_parent[s];
         if (u > 0.0) {
             seconds += SLI_PINS_ENTRY * u * (double)sli_panel_size((sl_int)w, S->steps[s].below) +
-                       (SLI_PINS_TERM * w + SLI_PINS_STEP) * pairs;
+                       SLI_PINS_STEP * pairs;
+            terms += w * pairs;
+            numbers += w * (before + u);
         }
         if (uses != NULL) {
             if (up != -1) {
@@ -42,7 +47,7 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
             s = up;
         }
     }
-    return seconds;
+    return seconds + (numbers > SLI_PINS_NEAR ? SLI_PINS_FAR : SLI_PINS_TERM) * terms;
 }
 
 /* Seconds that elimination takes at least. */
