@@ -111,7 +111,8 @@ static void many_random_patterns(void **state) {
 }
 
 /* Columns of several stars in turns, each with its center first: all of L below the centers is
- * fill, and no column follows its child. So many lists would be moved that the tree is found first. */
+ * fill, and no column follows its child. So many lists would be moved that the tree is found
+ * first. */
 static void stars_in_turns(void **state) {
     (void)state;
     for (sl_int stars = 2; stars < 6; stars++) {
