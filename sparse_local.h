@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4717e78ecf12302f
+ * FNV-1a of the lines after this comment, without the license: 119080111965ffb0
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -3619,7 +3619,7 @@ SLI_NOINLINE static sl_options sli_options_with(const sl_allocator *a) {
   return opt;
 }
 
-SLI_NOINLINE static void *sli_alloc(const sl_allocator *a, size_t bytes) {
+SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
   unsigned char *raw, *block;
   if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
     return NULL;

@@ -61,7 +61,7 @@ SLI_NOINLINE static sl_options sli_options_with(const sl_allocator *a) {
 
 /* Returns bytes > 0 of aligned memory, or NULL. The pointer from the allocator is stored just
  * before the block. */
-SLI_NOINLINE static void *sli_alloc(const sl_allocator *a, size_t bytes) {
+SLI_INLINE void *sli_alloc(const sl_allocator *a, size_t bytes) {
     unsigned char *raw, *block;
     if (bytes > SIZE_MAX - SLI_ALIGN - sizeof(void *)) {
         return NULL;
