@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 119080111965ffb0
+ * FNV-1a of the lines after this comment, without the license: e719df530f98377d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,51 +41,51 @@
  *   5904 csc.h   6047 csc_build.h   6181 csc64.h   6252 csc_triangle.h   6317 csc_products.h
  *   6434 permute.h   6500 sum.h   6582 output_file.h   6791 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7237 graph.h   7354 contract.h   7608 coarsen.h   7771 labels.h   7992 subgraph.h   8186 heap.h
- *   8248 bisect.h   8454 separator.h   8716 mindeg.h   8899 dissect.h   9225 tree_cost.h
- *   9277 levelset.h   9383 geometric.h   9558 cells.h   9738 septree.h   9814 metis.h
- *   9963 metis_refined.h  10077 nd.h  10277 compress.h  10398 levels.h  10451 border.h
- *  10504 forest.h  10591 peel.h  10791 quotient.h  11208 graph_kind.h  11279 order.h
+ *   7237 graph.h   7354 contract.h   7608 coarsen.h   7772 labels.h   7993 subgraph.h   8187 heap.h
+ *   8249 bisect.h   8457 separator.h   8719 mindeg.h   8902 dissect.h   9237 tree_cost.h
+ *   9289 levelset.h   9397 geometric.h   9572 cells.h   9752 septree.h   9828 metis.h
+ *   9977 metis_refined.h  10091 nd.h  10291 compress.h  10412 levels.h  10465 border.h
+ *  10518 forest.h  10605 peel.h  10805 quotient.h  11222 graph_kind.h  11293 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11604 symbolic_types.h  11641 etree.h  11832 supernodes.h  12072 pattern.h  12146 structure.h
- *  12405 schedule.h  12685 symbolic.h  13154 reach.h
+ *  11618 symbolic_types.h  11655 etree.h  11846 supernodes.h  12086 pattern.h  12160 structure.h
+ *  12419 schedule.h  12699 symbolic.h  13168 reach.h
  * (factor: the numbers of L and D)
- *  13430 factor_types.h  13858 storage.h  13996 pivot_search.h  14342 pivoted.h  14411 scatter.h
- *  14569 uplooking.h  14641 null_product.h  14845 null_dense.h  14922 null_basis.h
- *  15242 null_vectors.h  15384 multifrontal.h  15578 gather.h  15626 kept.h  15796 front_tasks.h
- *  16139 null_center.h  16263 nullspace.h  16450 growth.h  16528 factor_setup.h  16854 factor.h
- *  17069 leftlooking.h  17223 factor_query.h  17358 combination.h
+ *  13444 factor_types.h  13872 storage.h  14010 pivot_search.h  14356 pivoted.h  14425 scatter.h
+ *  14583 uplooking.h  14655 null_product.h  14859 null_dense.h  14936 null_basis.h
+ *  15256 null_vectors.h  15398 multifrontal.h  15592 gather.h  15640 kept.h  15810 front_tasks.h
+ *  16153 null_center.h  16277 nullspace.h  16464 growth.h  16542 factor_setup.h  16868 factor.h
+ *  17083 leftlooking.h  17237 factor_query.h  17372 combination.h
  * (solve: full and local solves)
- *  17419 region_types.h  17523 work.h  17623 query.h  17841 singular.h  18101 backward.h
- *  18131 sweep_tasks.h  18462 sweep.h  18670 compile.h  18863 plan.h  18970 local.h  19122 parts.h
- *  19411 refine.h  19590 refine_local.h  19806 rcond.h  19965 defects.h
+ *  17433 region_types.h  17537 work.h  17637 query.h  17855 singular.h  18115 backward.h
+ *  18145 sweep_tasks.h  18476 sweep.h  18684 compile.h  18877 plan.h  18984 local.h  19136 parts.h
+ *  19425 refine.h  19604 refine_local.h  19820 rcond.h  19979 defects.h
  * (inverse: entries of the inverse, regions)
- *  20024 traversal.h  20273 traversal_run.h  20466 row_sets.h  20500 unit_vectors.h
- *  20727 bilinear.h  20899 entries.h  21176 block.h  21411 reserve.h  21603 selected.h
- *  21813 selected_query.h  21915 region_choose.h  22142 region.h
+ *  20038 traversal.h  20287 traversal_run.h  20480 row_sets.h  20514 unit_vectors.h
+ *  20741 bilinear.h  20913 entries.h  21190 block.h  21425 reserve.h  21617 selected.h
+ *  21827 selected_query.h  21929 region_choose.h  22156 region.h
  * (change: a factor that follows changes of its matrix)
- *  22390 update.h  22758 path.h  22877 rank.h  23255 edges.h  23409 choose.h  23656 pins_types.h
- *  23722 pins_nulls.h  23905 pins_capacitance.h  24159 pins_balance.h  24338 pins_held.h
- *  24554 pins_choose.h  24616 pins_rebuild.h  24834 pins_matrix.h  24985 pins.h  25254 pins_solve.h
- *  25527 subset.h  25655 restrict_kept.h  25853 restrict_analysis.h  26099 restrict_symbolic.h
- *  26294 restrict.h  26525 edit_match.h  26724 edit_place.h  26973 edit_separate.h
- *  27287 edit_order.h  27442 edit_graph.h  27524 edit_join.h  27800 edit.h  27963 edit_factor.h
+ *  22404 update.h  22772 path.h  22891 rank.h  23269 edges.h  23423 choose.h  23670 pins_types.h
+ *  23736 pins_nulls.h  23919 pins_capacitance.h  24173 pins_balance.h  24352 pins_held.h
+ *  24568 pins_choose.h  24630 pins_rebuild.h  24848 pins_matrix.h  24999 pins.h  25268 pins_solve.h
+ *  25541 subset.h  25669 restrict_kept.h  25867 restrict_analysis.h  26113 restrict_symbolic.h
+ *  26308 restrict.h  26539 edit_match.h  26738 edit_place.h  26987 edit_separate.h
+ *  27301 edit_order.h  27456 edit_graph.h  27538 edit_join.h  27814 edit.h  27977 edit_factor.h
  * (save: factors in files)
- *  28248 format.h  28545 decode.h  28693 check.h  29023 write.h  29328 load.h  29596 load_inverse.h
- *  29926 load_calls.h
+ *  28262 format.h  28559 decode.h  28707 check.h  29037 write.h  29342 load.h  29610 load_inverse.h
+ *  29940 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30125 batch_solve.h  30334 batch_factor.h  30535 batch_diagonal.h
+ *  30139 batch_solve.h  30348 batch_factor.h  30549 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30675 hermitian.h  30837 complex_rows.h
+ *  30689 hermitian.h  30851 complex_rows.h
  * (last: undefine every internal macro)
- *  31005 undef.h
+ *  31019 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31293 front.inl.h  31295 product.inl.h  31806 copy_rows.inl.h  31844 sweeps.inl.h
- *  31846 unit_triangle.inl.h  31883 two_rhs.inl.h  32057 small_supernode.inl.h
- *  32259 single_rhs.inl.h  32499 multi_rhs.inl.h  32518 complex_groups.inl.h
- *  32657 multi_rhs_small.inl.h  32829 multi_rhs_tiles.inl.h  33106 kernel_set.inl.h
- *  33108 complex_small.inl.h  33298 complex_rows.inl.h  33513 inverse_front.inl.h  33798 row.inl.h
- *  33828 change.inl.h  34071 interleave.inl.h  34205 lanes_undef.inl.h  34224 words_undef.inl.h
+ *  31307 front.inl.h  31309 product.inl.h  31820 copy_rows.inl.h  31858 sweeps.inl.h
+ *  31860 unit_triangle.inl.h  31897 two_rhs.inl.h  32071 small_supernode.inl.h
+ *  32273 single_rhs.inl.h  32513 multi_rhs.inl.h  32532 complex_groups.inl.h
+ *  32671 multi_rhs_small.inl.h  32843 multi_rhs_tiles.inl.h  33120 kernel_set.inl.h
+ *  33122 complex_small.inl.h  33312 complex_rows.inl.h  33527 inverse_front.inl.h  33812 row.inl.h
+ *  33842 change.inl.h  34085 interleave.inl.h  34219 lanes_undef.inl.h  34238 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7616,6 +7616,10 @@ SLI_INLINE uint32_t sli_hash32(uint32_t v) {
   return v ^ v >> 16;
 }
 
+SLI_INLINE sl_off sli_visited(sl_off k) {
+  return (k & ~(sl_off)511) | ((k * 197 + (k >> 9) * 157) & 511);
+}
+
 static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, const sl_int *mate) {
   const sl_off first = g->begin[v], degree = g->begin[v + 1] - first;
   const sl_int own = sli_level_weight(g, v);
@@ -7636,28 +7640,23 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
 }
 
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
-  const sl_int window = 512;
-  sl_off first;
-  sl_int k, v, pairs = 0;
+  sl_off k;
+  sl_int v, pairs = 0;
   for (v = 0; v < g->n; v++) {
     mate[v] = -1;
   }
-  for (first = 0; first < g->n; first += window) {
-    const uint32_t turn = sli_hash32((uint32_t)first);
-    for (k = 0; k < window; k++) {
-      const sl_off at =
-        first + (sl_off)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
-      sl_int u;
-      if (at >= g->n || mate[at] != -1) {
-        continue;
-      }
-      v = (sl_int)at;
-      u = sli_match_best(g, v, heaviest, mate);
-      if (u != -1) {
-        mate[v] = u;
-        mate[u] = v;
-        pairs++;
-      }
+  for (k = 0; k < (sl_off)g->n + 511; k++) {
+    const sl_off at = sli_visited(k);
+    sl_int u;
+    if (at >= g->n || mate[at] != -1) {
+      continue;
+    }
+    v = (sl_int)at;
+    u = sli_match_best(g, v, heaviest, mate);
+    if (u != -1) {
+      mate[v] = u;
+      mate[u] = v;
+      pairs++;
     }
   }
   return pairs;
@@ -7708,7 +7707,6 @@ static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate, sli_clust
 
 #define SLI_WIDE_DEGREE 16
 #define SLI_NEIGHBORHOOD_PAIRS 8
-#define SLI_NEIGHBORHOOD_SHRINK 4
 
 SLI_INLINE int sli_level_is_wide(const sli_level *g) {
   return g->begin[g->n] >= SLI_WIDE_DEGREE * (sl_off)g->n;
@@ -7717,15 +7715,18 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
 static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
                     sli_clusters *clusters) {
   sl_int v, count = 0, members = 0;
-  sl_off e;
+  sl_off e, k;
   for (v = 0; v < g->n; v++) {
     g->coarse[v] = -1;
   }
-  for (v = 0; v < g->n; v++) {
-    int64_t weight = sli_level_weight(g, v);
-    if (g->coarse[v] != -1) {
+  for (k = 0; k < (sl_off)g->n + 511; k++) {
+    const sl_off at = sli_visited(k);
+    int64_t weight;
+    if (at >= g->n || g->coarse[at] != -1) {
       continue;
     }
+    v = (sl_int)at;
+    weight = sli_level_weight(g, v);
     clusters->start[count] = members;
     clusters->member[members++] = v;
     g->coarse[v] = count;
@@ -7749,12 +7750,12 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
   sl_int pairs, count = g->n;
   memset(c, 0, sizeof *c);
   *shrunk = 1;
-  if (g->edge == NULL && sli_level_is_wide(g)) {
-    count = sli_cluster_neighborhoods(
-      g, sli_min(heaviest, INT32_MAX / SLI_NEIGHBORHOOD_PAIRS) * SLI_NEIGHBORHOOD_PAIRS,
-      clusters);
+  if (g->edge == NULL) {
+    const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS : 1;
+    heaviest = sli_min(heaviest, INT32_MAX / times);
+    count = sli_cluster_neighborhoods(g, heaviest * times, clusters);
   }
-  if (count > g->n / SLI_NEIGHBORHOOD_SHRINK) {
+  if (count > g->n / 2) {
     pairs = sli_match(g, heaviest, mate);
     if (pairs < g->n / 4) {
       pairs += sli_match_two_hop(g, heaviest, mate);
@@ -8304,7 +8305,7 @@ SLI_INLINE void sli_fm_flip(sli_fm *m, sl_int v, int queue) {
 
 static int sli_fm_pass(sli_fm *m, int64_t *cut) {
   sli_subgraph *sub = m->sub;
-  const sl_int patience = 20 + sub->n / 20 < 100 ? 20 + sub->n / 20 : 100;
+  const sl_int patience = 10 + sub->n / 20 < 100 ? 10 + sub->n / 20 : 100;
   int64_t here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
   sl_int v, made = 0, best = 0;
   int side;
@@ -8427,7 +8428,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
   }
 }
 
-static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
+static void sli_subgraph_bisect(sli_subgraph *sub, int tries) {
   sli_fm m = sli_fm_of(sub);
   int64_t best = 0, total[2] = {0, 0};
   int k;
@@ -8438,7 +8439,7 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
       seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
     }
     sli_fm_grow(&m, seed);
-    cost = sli_fm_refine(&m, rounds);
+    cost = sli_fm_refine(&m, 1);
     if (k == 0 || cost < best) {
       best = cost;
       memcpy(sub->best, sub->side, (size_t)sub->n);
@@ -8449,6 +8450,8 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
   memcpy(sub->side, sub->best, (size_t)sub->n);
   sub->total[0] = total[0];
   sub->total[1] = total[1];
+  m = sli_fm_of(sub);
+  sli_fm_refine(&m, 2);
 }
 
 /* src/impl/ordering/separator.h: a minimum vertex separator in a band, by maximum flow */
@@ -8898,10 +8901,10 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 
 /* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
 
-#define SLI_DISSECT_LEAF 200
+#define SLI_DISSECT_LEAF 160
 #define SLI_DISSECT_LEAF_REFINED 140
-#define SLI_DISSECT_BISECT_MIN 100
-#define SLI_DISSECT_SHRINK 7
+#define SLI_DISSECT_BISECT_MIN 70
+#define SLI_DISSECT_SHRINK 10
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
@@ -8928,7 +8931,7 @@ typedef struct sli_dissection {
   sl_int total;
   sl_int leaf_size;
   int band_growth;
-  sli_label_tree tree;
+  sli_label_tree tree, other_tree;
   sli_border_pool pool;
   sli_dissect_worker *workers;
   sl_int *label, *other;
@@ -8940,17 +8943,18 @@ typedef struct sli_dissection {
 } sli_dissection;
 
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
-  const sl_int room = n + 1;
+  const sl_int room = sli_min(n, n / 4 + 1024) + 1;
   sl_int k, *head;
   sl_off *next;
   d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
   sli_label_tree_layout(&d->tree, b, room);
+  sli_label_tree_layout(&d->other_tree, b, room);
   head = SLI_TAKE(b, sl_int, room);
   d->label = SLI_TAKE(b, sl_int, n);
   d->other = SLI_TAKE(b, sl_int, n);
-  d->begin = SLI_TAKE(b, sl_int, (size_t)room + 1);
+  d->begin = SLI_TAKE(b, sl_int, (size_t)n + 2);
   d->order = SLI_TAKE(b, sl_int, n);
-  d->nodes = SLI_TAKE(b, sl_int, room);
+  d->nodes = SLI_TAKE(b, sl_int, (size_t)n + 1);
   d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
   next = SLI_TAKE(b, sl_off, (uint64_t)n * (uint64_t)d->team->workers);
   d->ranges.team = d->team;
@@ -9001,8 +9005,7 @@ static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
   sli_subgraph_bisect(sub,
             few           ? SLI_DISSECT_TRIES_FIRST
             : sub->n > 50 ? SLI_DISSECT_TRIES
-                    : 1,
-            2);
+                    : 1);
 }
 
 static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
@@ -9211,6 +9214,15 @@ static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
   return d->pool.failed ? SL_ERR_MEMORY : SL_OK;
 }
 
+static void sli_dissect_swap(sli_dissection *d) {
+  const sli_label_tree tree = d->tree;
+  sl_int *label = d->label;
+  d->tree = d->other_tree;
+  d->other_tree = tree;
+  d->label = d->other;
+  d->other = label;
+}
+
 static sl_status sli_dissect_multilevel(sli_dissection *d) {
   sl_status status;
   d->n_levels = 1;
@@ -9371,13 +9383,15 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
   if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
     return status;
   }
-  multilevel = sli_dissect_cost(d, &flat);
+  multilevel = sli_tree_cost_times(sli_dissect_cost(d, &flat), 2);
+  sli_dissect_swap(d);
   sli_dissect_levelset(d);
-  if (sli_tree_cost_is_less(sli_dissect_cost(d, &flat), multilevel)) {
+  if (sli_tree_cost_is_less(sli_tree_cost_times(sli_dissect_cost(d, &flat), 3), multilevel)) {
     d->band_growth = 0;
-    return SL_OK;
+  } else {
+    sli_dissect_swap(d);
   }
-  return sli_dissect_multilevel(d);
+  return SL_OK;
 }
 
 /* src/impl/ordering/geometric.h: nested dissection by coordinates, used where its estimated cost is lower */

@@ -124,7 +124,7 @@ static void many_flips_follow_each_other(void **state) {
 static void every_changed_value_is_noticed(void **state) {
     (void)state;
     for (int style = 0; style < 4; style++) {
-        followed_t y = followed_make(gen_make(GEN_GRID2, 400, 1, 42), style, NULL);
+        followed_t y = followed_make(gen_make(GEN_GRID2, 900, 1, 42), style, NULL);
         const sl_int n = y.t.n, nnz = y.A.view.p[n];
         sl_int *map = identity(n);
         sl_stats stats;
@@ -161,7 +161,7 @@ static void every_changed_value_is_noticed(void **state) {
 /* What rank-one changes and refactorizations have changed is not copied. */
 static void changed_factors_follow(void **state) {
     (void)state;
-    followed_t y = followed_make(gen_make(GEN_GRID2, 400, 1, 42), 0, NULL);
+    followed_t y = followed_make(gen_make(GEN_GRID2, 900, 1, 42), 0, NULL);
     const sl_int row = y.A.view.i[1], column = 0;
     const double delta = 0.25;
     sl_int *map = identity(y.t.n);

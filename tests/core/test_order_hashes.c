@@ -41,9 +41,9 @@ static int differs(const char *what, int kind, uint64_t found, uint64_t expected
 static void patterns_have_one_order(void **state) {
     (void)state;
     static const uint64_t expected[ORDER_KINDS] = {
-        0xa1f7c2d388b5e0dau, 0x5705b41e58745b21u, 0x2e7ee44d77d693e6u, 0x7e8d54dc3f9547ecu,
-        0x4c85b3d7f50377e2u, 0x49389d4a8d4f8aa3u, 0xbfec7b76be2cb289u, 0xab619d1e4f017fa3u,
-        0x23d3c361ab0e84b3u, 0x097c965d40afaf06u, 0x983361f6de384a9bu, 0x73f178d5be922416u};
+        0xc9652a8860d10bbcu, 0xf424a95df0192f8au, 0x94df81bbbfcf14dau, 0xc97785b670e44a52u,
+        0x4c85b3d7f50377e2u, 0x6f65117e326858f7u, 0xbfec7b76be2cb289u, 0xab619d1e4f017fa3u,
+        0x23d3c361ab0e84b3u, 0x04227071eca4a6e5u, 0x605777a43ae9d01fu, 0x3838cf092e4a29eeu};
     int wrong = 0;
     for (int kind = 0; kind < ORDER_KINDS; kind++) {
         gen_list_t t = pattern(kind);
@@ -84,8 +84,8 @@ static void supernodes_merge_alike(void **state) {
 static void coordinates_give_one_order(void **state) {
     (void)state;
     static const uint64_t expected[7] = {
-        0xf6f2b121f7e6607cu, 0x06a7a36731b5f6d3u, 0x06a7a36731b5f6d3u, 0x06a7a36731b5f6d3u,
-        0xdc57574e0d023575u, 0xb9c83c65fe752cccu, 0xf6f2b121f7e6607cu}; /* tiny: as the first */
+        0x7d0d7d9ee81034b2u, 0xeb5c95eaafecee66u, 0xeb5c95eaafecee66u, 0xeb5c95eaafecee66u,
+        0xb5d92f839852ea4eu, 0x1a90d3a032019cd0u, 0x7d0d7d9ee81034b2u}; /* tiny: as the first */
     const sl_int side = 150;
     int wrong = 0;
     gen_list_t t = gen_list(side * side);

@@ -2,6 +2,7 @@
 #include "tests/lib/ordering_meshes.h"
 
 #define SIZES 3
+#define NAMES 4
 
 /* Squares with one diagonal each: the shorter one, after every vertex has moved by up to `jitter`
  * along both axes. With jitter 0 all diagonals have one direction. */
@@ -55,6 +56,31 @@ static void add_both(const sl_csc *A, order_quality *ours, order_quality *metis)
     metis->path += q.path;
 }
 
+/* The pattern of a lower triangle with its rows renamed at random. */
+static gen_matrix_t renamed(const sl_csc *A, uint64_t seed) {
+    gen_list_t t = gen_list(A->n_cols);
+    for (sl_int j = 0; j < A->n_cols; j++) {
+        for (sl_int p = A->p[j]; p < A->p[j + 1]; p++) {
+            gen_add(&t, A->i[p], j, 1.0);
+        }
+    }
+    gen_rename(&t, seed);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* The same, for the rows under NAMES names: which straits of an archipelago are cut makes paths
+ * scatter by 15 %. */
+static void add_renamed(const sl_csc *A, order_quality *ours, order_quality *metis) {
+    add_both(A, ours, metis);
+    for (uint64_t seed = 1; seed < NAMES; seed++) {
+        gen_matrix_t M = renamed(A, seed);
+        add_both(&M.view, ours, metis);
+        gen_matrix_free(&M);
+    }
+}
+
 /* Prints two ratios and returns whether one exceeds its limit. */
 static int is_worse(const char *name, order_quality a, order_quality b, double fill, double path) {
     const int worse = a.fill > fill * b.fill || a.path > path * b.path;
@@ -106,13 +132,13 @@ static const struct {
     const char *name;
     ordering_mesh kind;
     double path; /* limit of the path weight; one seed of METIS scatters by 3 to 6 % */
-} meshes[] = {{"jittered", MESH_JITTERED, 1.06}, {"archipelago", MESH_ARCHIPELAGO, 1.06},
+} meshes[] = {{"jittered", MESH_JITTERED, 1.06}, {"archipelago", MESH_ARCHIPELAGO, 1.10},
               {"spiral", MESH_SPIRAL, 1.06},     {"comb", MESH_COMB, 1.06},
               {"torus", MESH_TORUS, 1.08},       {"scroll", MESH_SCROLL, 1.06}};
 
 enum { MESHES = sizeof meshes / sizeof *meshes };
 
-/* Measured: fill 0.93 to 1.05, path weight 0.97 to 1.07. */
+/* Measured: fill 0.94 to 1.05, path weight 1.01 to 1.09, 1.04 in the mean of the five. */
 static void meshes_are_near_metis(void **state) {
     (void)state;
     static const sl_int sides[SIZES] = {130, 150, 170};
@@ -125,7 +151,7 @@ static void meshes_are_near_metis(void **state) {
         for (int size = 0; size < SIZES; size++) {
             double *xyz;
             gen_matrix_t M = mesh_pattern(meshes[m].kind, sides[size], &xyz);
-            add_both(&M.view, &ours, &metis);
+            add_renamed(&M.view, &ours, &metis);
             gen_matrix_free(&M);
             free(xyz);
         }
@@ -135,7 +161,7 @@ static void meshes_are_near_metis(void **state) {
 }
 
 /* Biharmonic and triharmonic systems: their wide graphs are coarsened by neighborhoods. Measured:
- * fill 0.88 to 1.03, path weight 0.98 to 1.07. With pairs of vertices, bands of several layers and
+ * fill 0.89 to 1.03, path weight 0.97 to 1.07. With pairs of vertices, bands of several layers and
  * level sets, as in other graphs: fill up to 1.07, path weight up to 1.13. */
 static void rings_are_near_metis(void **state) {
     (void)state;
@@ -151,7 +177,7 @@ static void rings_are_near_metis(void **state) {
                 double *xyz;
                 gen_matrix_t M = mesh_pattern(meshes[m].kind, sides[size], &xyz);
                 gen_matrix_t rings = mesh_rings(&M.view, k);
-                add_both(&rings.view, &ours, &metis);
+                add_renamed(&rings.view, &ours, &metis);
                 gen_matrix_free(&rings);
                 gen_matrix_free(&M);
                 free(xyz);

@@ -17,8 +17,10 @@ static void assert_same_bits_for_any_thread_count(gen_kind_t kind, sl_int size, 
             assert_same_bits(F, y.F);
             SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
             assert_same_bits(F, y.F);
-            /* one parallel call in each factorization */
-            assert_int_equal(calls, count > 1 && sl_symbolic_view(y.S).n_supers > 1 ? 2 : 0);
+            /* one parallel call in each factorization, and one more where a pivot of badly scaled
+             * rows was suspected to be null */
+            const int wanted = count > 1 && sl_symbolic_view(y.S).n_supers > 1 ? 2 : 0;
+            assert_true(calls == wanted || (kind == GEN_SCALED && calls == 2 * wanted));
             sl_factor_free(F);
         }
     }

@@ -278,7 +278,7 @@ static sl_status edit(fixture_t *f, const sl_options *opt) {
     return status;
 }
 
-/* The last entry that is read of column 154 has another value; F keeps its own. */
+/* The last entry that is read of column 148 has another value; F keeps its own. */
 static sl_status edit_factor(fixture_t *f, const sl_options *opt) {
     sl_int rows[225];
     sl_factor *G = GARBAGE(sl_factor);
@@ -286,7 +286,7 @@ static sl_status edit_factor(fixture_t *f, const sl_options *opt) {
     for (sl_int j = 0; j < 225; j++) {
         rows[j] = j;
     }
-    double *x = &f->y.M.x[f->y.M.view.p[155] - 1];
+    double *x = &f->y.M.x[f->y.M.view.p[149] - 1];
     const double before = *x;
     *x += 0.5;
     const sl_status status = sl_factor_edit(&G, f->y.F, f->y.S, &f->y.M.view, rows, opt, &stats);

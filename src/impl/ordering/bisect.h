@@ -71,7 +71,7 @@ SLI_INLINE void sli_fm_flip(sli_fm *m, sl_int v, int queue) {
  * then undoes the moves after the best cut. Returns whether that cut is better than the first. */
 static int sli_fm_pass(sli_fm *m, int64_t *cut) {
     sli_subgraph *sub = m->sub;
-    const sl_int patience = 20 + sub->n / 20 < 100 ? 20 + sub->n / 20 : 100;
+    const sl_int patience = 10 + sub->n / 20 < 100 ? 10 + sub->n / 20 : 100;
     int64_t here = *cut, cost = sli_cut_cost(here, sub->total), best_cost = cost;
     sl_int v, made = 0, best = 0;
     int side;
@@ -200,8 +200,8 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
     }
 }
 
-/* Bisects a subgraph: keeps the cheapest cut of several tries. */
-static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
+/* Bisects a subgraph: refines the cheapest cut of several tries, each of which has one pass. */
+static void sli_subgraph_bisect(sli_subgraph *sub, int tries) {
     sli_fm m = sli_fm_of(sub);
     int64_t best = 0, total[2] = {0, 0};
     int k;
@@ -212,7 +212,7 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
             seed = sli_subgraph_farthest(sub, seed, sub->scratch, sub->locked);
         }
         sli_fm_grow(&m, seed);
-        cost = sli_fm_refine(&m, rounds);
+        cost = sli_fm_refine(&m, 1);
         if (k == 0 || cost < best) {
             best = cost;
             memcpy(sub->best, sub->side, (size_t)sub->n);
@@ -223,6 +223,8 @@ static void sli_subgraph_bisect(sli_subgraph *sub, int tries, int rounds) {
     memcpy(sub->side, sub->best, (size_t)sub->n);
     sub->total[0] = total[0];
     sub->total[1] = total[1];
+    m = sli_fm_of(sub);
+    sli_fm_refine(&m, 2);
 }
 
 #endif

@@ -16,6 +16,12 @@ SLI_INLINE uint32_t sli_hash32(uint32_t v) {
     return v ^ v >> 16;
 }
 
+/* The vertex that is visited after k others, in pseudo-random order, but only within windows, for
+ * locality of memory access. It may be beyond the last one, up to the next multiple of 512. */
+SLI_INLINE sl_off sli_visited(sl_off k) {
+    return (k & ~(sl_off)511) | ((k * 197 + (k >> 9) * 157) & 511);
+}
+
 /* Returns the unmatched neighbor of v with the largest edge weight per vertex weight, or -1. The
  * search starts at a pseudo-random position in the list, so that in a regular grid not all pairs
  * have the same direction. */
@@ -38,32 +44,26 @@ static sl_int sli_match_best(const sli_level *g, sl_int v, sl_int heaviest, cons
     return best;
 }
 
-/* Matches vertices in pairs: mate[v] := the vertex matched with v, or -1. Vertices are visited in
- * pseudo-random order, but only within windows, for locality of memory access. Returns the number
- * of pairs. */
+/* Matches vertices in pairs: mate[v] := the vertex matched with v, or -1. Returns the number of
+ * pairs. */
 static sl_int sli_match(const sli_level *g, sl_int heaviest, sl_int *mate) {
-    const sl_int window = 512;
-    sl_off first;
-    sl_int k, v, pairs = 0;
+    sl_off k;
+    sl_int v, pairs = 0;
     for (v = 0; v < g->n; v++) {
         mate[v] = -1;
     }
-    for (first = 0; first < g->n; first += window) {
-        const uint32_t turn = sli_hash32((uint32_t)first);
-        for (k = 0; k < window; k++) {
-            const sl_off at =
-                first + (sl_off)(((uint32_t)k * 197u + turn) & (uint32_t)(window - 1));
-            sl_int u;
-            if (at >= g->n || mate[at] != -1) {
-                continue;
-            }
-            v = (sl_int)at;
-            u = sli_match_best(g, v, heaviest, mate);
-            if (u != -1) {
-                mate[v] = u;
-                mate[u] = v;
-                pairs++;
-            }
+    for (k = 0; k < (sl_off)g->n + 511; k++) {
+        const sl_off at = sli_visited(k);
+        sl_int u;
+        if (at >= g->n || mate[at] != -1) {
+            continue;
+        }
+        v = (sl_int)at;
+        u = sli_match_best(g, v, heaviest, mate);
+        if (u != -1) {
+            mate[v] = u;
+            mate[u] = v;
+            pairs++;
         }
     }
     return pairs;
@@ -120,10 +120,8 @@ static sl_int sli_number_pairs(const sli_level *g, const sl_int *mate, sli_clust
  * Laplacian A of a mesh, which joins vertices at two or three edges (18 and 36 neighbors), or of
  * finite elements of high order. */
 #define SLI_WIDE_DEGREE 16
-/* A cluster of neighbors has at most the weight of this many pairs. */
+/* A cluster of neighbors in a wide graph has at most the weight of this many pairs. */
 #define SLI_NEIGHBORHOOD_PAIRS 8
-/* Clusters of neighbors are used if they leave at most one vertex in this many. */
-#define SLI_NEIGHBORHOOD_SHRINK 4
 
 SLI_INLINE int sli_level_is_wide(const sli_level *g) {
     return g->begin[g->n] >= SLI_WIDE_DEGREE * (sl_off)g->n;
@@ -134,15 +132,18 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
 static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
                                         sli_clusters *clusters) {
     sl_int v, count = 0, members = 0;
-    sl_off e;
+    sl_off e, k;
     for (v = 0; v < g->n; v++) {
         g->coarse[v] = -1;
     }
-    for (v = 0; v < g->n; v++) {
-        int64_t weight = sli_level_weight(g, v);
-        if (g->coarse[v] != -1) {
+    for (k = 0; k < (sl_off)g->n + 511; k++) {
+        const sl_off at = sli_visited(k);
+        int64_t weight;
+        if (at >= g->n || g->coarse[at] != -1) {
             continue;
         }
+        v = (sl_int)at;
+        weight = sli_level_weight(g, v);
         clusters->start[count] = members;
         clusters->member[members++] = v;
         g->coarse[v] = count;
@@ -160,8 +161,9 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
     return count;
 }
 
-/* Makes the next coarser level, of pairs, or if the finest level is wide, of neighborhoods: these
- * replace three or four levels of pairs, each of which reads and contracts most of the edges again.
+/* Makes the next coarser level: of the finest, of neighborhoods, as heavy as the heaviest pair,
+ * which replace two levels of pairs, or in a wide graph three or four, each of which reads and
+ * contracts most of the edges again; of others, or where neighborhoods are small, of pairs.
  * heaviest: a pair's largest weight; mate: g->n of scratch. *shrunk := whether the level is
  * small enough to be used; c is empty if not. */
 static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
@@ -170,12 +172,12 @@ static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, 
     sl_int pairs, count = g->n;
     memset(c, 0, sizeof *c);
     *shrunk = 1;
-    if (g->edge == NULL && sli_level_is_wide(g)) {
-        count = sli_cluster_neighborhoods(
-            g, sli_min(heaviest, INT32_MAX / SLI_NEIGHBORHOOD_PAIRS) * SLI_NEIGHBORHOOD_PAIRS,
-            clusters);
+    if (g->edge == NULL) {
+        const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS : 1;
+        heaviest = sli_min(heaviest, INT32_MAX / times);
+        count = sli_cluster_neighborhoods(g, heaviest * times, clusters);
     }
-    if (count > g->n / SLI_NEIGHBORHOOD_SHRINK) {
+    if (count > g->n / 2) {
         pairs = sli_match(g, heaviest, mate);
         if (pairs < g->n / 4) {
             pairs += sli_match_two_hop(g, heaviest, mate);

@@ -7,12 +7,12 @@
 
 /* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as
  * a further separator. With METIS's separators, smaller leaves save another 0.5 % of fill. */
-#define SLI_DISSECT_LEAF 200
+#define SLI_DISSECT_LEAF 160
 #define SLI_DISSECT_LEAF_REFINED 140
 /* A leaf is bisected on the coarsest level on which it has more vertices than this. */
-#define SLI_DISSECT_BISECT_MIN 100
+#define SLI_DISSECT_BISECT_MIN 70
 /* Leaves are bisected only on levels of at most n / SLI_DISSECT_SHRINK vertices. */
-#define SLI_DISSECT_SHRINK 7
+#define SLI_DISSECT_SHRINK 10
 /* Tries of graph growing: TRIES_FIRST while the tree has fewer than FIRST nodes, because the first
  * separators decide most, then TRIES. */
 #define SLI_DISSECT_FIRST 64
@@ -51,30 +51,31 @@ typedef struct sli_dissection {
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
-    sli_label_tree tree;
+    sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
     sli_border_pool pool;
     sli_dissect_worker *workers; /* team->workers; the first is the leader */
     sl_int *label, *other;       /* n: the node of each vertex; `other` is scratch */
-    sl_int *begin;               /* room + 1: where each node's vertices begin in order */
+    sl_int *begin;               /* n + 2: where each node's vertices begin in order */
     sl_int *order;               /* n */
-    sl_int *nodes;               /* room */
+    sl_int *nodes;               /* n + 1 */
     /* the loop under way: bisects a subgraph when the tree has so many nodes, or visits a node */
     void (*bisect)(sli_subgraph *sub, sl_int nodes);
     void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
 } sli_dissection;
 
 static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
-    const sl_int room = n + 1; /* there are never more nodes than vertices */
+    const sl_int room = sli_min(n, n / 4 + 1024) + 1; /* of nodes: more leaves would be tiny */
     sl_int k, *head;
     sl_off *next;
     d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
     sli_label_tree_layout(&d->tree, b, room);
+    sli_label_tree_layout(&d->other_tree, b, room);
     head = SLI_TAKE(b, sl_int, room);
     d->label = SLI_TAKE(b, sl_int, n);
     d->other = SLI_TAKE(b, sl_int, n);
-    d->begin = SLI_TAKE(b, sl_int, (size_t)room + 1);
+    d->begin = SLI_TAKE(b, sl_int, (size_t)n + 2);
     d->order = SLI_TAKE(b, sl_int, n);
-    d->nodes = SLI_TAKE(b, sl_int, room);
+    d->nodes = SLI_TAKE(b, sl_int, (size_t)n + 1);
     d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
     next = SLI_TAKE(b, sl_off, (uint64_t)n * (uint64_t)d->team->workers);
     d->ranges.team = d->team;
@@ -128,8 +129,7 @@ static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
     sli_subgraph_bisect(sub,
                         few           ? SLI_DISSECT_TRIES_FIRST
                         : sub->n > 50 ? SLI_DISSECT_TRIES
-                                      : 1,
-                        2);
+                                      : 1);
 }
 
 /* Gives the two sides of the subgraph of a former leaf to the new leaves below it. */
@@ -359,6 +359,16 @@ static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
         sli_dissect_visit(d, sli_dissect_refine);
     }
     return d->pool.failed ? SL_ERR_MEMORY : SL_OK;
+}
+
+/* Exchanges the dissection with the other one of the finest level. */
+static void sli_dissect_swap(sli_dissection *d) {
+    const sli_label_tree tree = d->tree;
+    sl_int *label = d->label;
+    d->tree = d->other_tree;
+    d->other_tree = tree;
+    d->label = d->other;
+    d->other = label;
 }
 
 /* Finds labels of the finest level by levels of matched vertices. */
