@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e719df530f98377d
+ * FNV-1a of the lines after this comment, without the license: db66802059a5a9dd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8728,7 +8728,7 @@ typedef struct sli_mindeg {
   uint32_t *key;
   size_t room;
   uint64_t alive[SLI_MINDEG_MAX / 64];
-  int has_popcnt;
+  int has_avx2;
 } sli_mindeg;
 
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
@@ -8803,7 +8803,7 @@ SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *o
   return at;
 }
 
-SLI_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
+SLI_ALWAYS_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
   uint32_t least[4] = {SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED,
              SLI_MINDEG_ELIMINATED};
   sl_int v = 0, k;
@@ -8833,7 +8833,7 @@ static void sli_mindeg_run(sli_mindeg *m, sl_int *order) {
 }
 
 #if defined(SLI_X86) && defined(SLI_GNU)
-SLI_TARGET("popcnt") static void sli_mindeg_run_popcnt(sli_mindeg *m, sl_int *order) {
+SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int *order) {
   sli_mindeg_run_body(m, order);
 }
 #endif
@@ -8886,8 +8886,8 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
     return;
   }
 #if defined(SLI_X86) && defined(SLI_GNU)
-  if (m->has_popcnt) {
-    sli_mindeg_run_popcnt(m, order);
+  if (m->has_avx2) {
+    sli_mindeg_run_avx2(m, order);
   } else
 #endif
   {
@@ -10276,10 +10276,10 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
   }
   w.points.row = w.row;
   if (status == SL_OK) {
-    const int has_popcnt =
+    const int has_avx2 =
       G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
     for (k = 0; k < team->workers; k++) {
-      w.d.workers[k].mindeg.has_popcnt = has_popcnt;
+      w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
     status = sli_nd_run(&w, perm, septree);
     sli_border_pool_free(&w.d.pool);

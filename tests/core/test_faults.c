@@ -129,7 +129,7 @@ static void minimum_degree_on_any_processor(void **state) {
             vertices[k] = (k * 37) % LEAF;
         }
         m.room = turn < 2 ? LEAF * 3 : LEAF;
-        m.has_popcnt = turn == 1 && isas_present().count > 1;
+        m.has_avx2 = turn == 1 && isas_present().count > 1;
         sli_mindeg_order(&m, &g, vertices, LEAF, local, turn == 0 ? first : scratch);
         for (sl_int k = 0; k < LEAF; k++) {
             first[k] = turn == 0 ? vertices[k] : first[k];

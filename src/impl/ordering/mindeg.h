@@ -17,11 +17,11 @@ typedef struct sli_mindeg {
     uint32_t *key;  /* n: degree, then number; SLI_MINDEG_ELIMINATED once eliminated */
     size_t room;    /* words available in rows */
     uint64_t alive[SLI_MINDEG_MAX / 64]; /* vertices of the leaf not yet eliminated */
-    int has_popcnt;                      /* every processor with AVX2 has the instruction */
+    int has_avx2;                        /* and with it an instruction that counts bits */
 } sli_mindeg;
 
 /* The number of bits set: one instruction where the function that inlines this is compiled for it,
- * see sli_mindeg_run_popcnt. */
+ * see sli_mindeg_run_avx2. */
 SLI_ALWAYS_INLINE uint32_t sli_popcount(uint64_t w) {
 #if defined(SLI_GNU)
     return (uint32_t)__builtin_popcountll(w);
@@ -99,7 +99,7 @@ SLI_ALWAYS_INLINE sl_int sli_mindeg_eliminate(sli_mindeg *m, sl_int v, sl_int *o
 }
 
 /* The vertex of minimum degree, the one with the smallest number among several. */
-SLI_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
+SLI_ALWAYS_INLINE sl_int sli_mindeg_best(const sli_mindeg *m) {
     uint32_t least[4] = {SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED, SLI_MINDEG_ELIMINATED,
                          SLI_MINDEG_ELIMINATED};
     sl_int v = 0, k;
@@ -130,7 +130,7 @@ static void sli_mindeg_run(sli_mindeg *m, sl_int *order) {
 }
 
 #if defined(SLI_X86) && defined(SLI_GNU)
-SLI_TARGET("popcnt") static void sli_mindeg_run_popcnt(sli_mindeg *m, sl_int *order) {
+SLI_TARGET("avx2,popcnt") static void sli_mindeg_run_avx2(sli_mindeg *m, sl_int *order) {
     sli_mindeg_run_body(m, order);
 }
 #endif
@@ -186,8 +186,8 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
         return;
     }
 #if defined(SLI_X86) && defined(SLI_GNU)
-    if (m->has_popcnt) {
-        sli_mindeg_run_popcnt(m, order);
+    if (m->has_avx2) {
+        sli_mindeg_run_avx2(m, order);
     } else
 #endif
     {

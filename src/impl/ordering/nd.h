@@ -209,10 +209,10 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
     w.points.row = w.row;
     if (status == SL_OK) {
         /* CPUID takes longer than what it saves in a small graph */
-        const int has_popcnt =
+        const int has_avx2 =
             G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
         for (k = 0; k < team->workers; k++) {
-            w.d.workers[k].mindeg.has_popcnt = has_popcnt;
+            w.d.workers[k].mindeg.has_avx2 = has_avx2;
         }
         status = sli_nd_run(&w, perm, septree);
         sli_border_pool_free(&w.d.pool);
