@@ -3,6 +3,7 @@
 #define SLI_ANALYSIS_ETREE_H
 
 #include "symbolic_types.h"
+#include "../ordering/forest.h"
 
 #define SLI_MERGED UINT32_MAX
 
