@@ -402,7 +402,7 @@ MSAN_TESTS ?= $(CORE_TESTS)
 test-msan: deps deps-clang sparse_local.h ## the header's tests under clang's memory sanitizer: no uninitialized value is used
 	@+tools/build/platform.sh msan 'clang -fsanitize=memory' natively \
 	$(SUB_MAKE) run-tests B=build/msan CC=clang $(WITHOUT_CMOCKA) LIBS='$(FILE_LIBS) -lm' INCLUDES=-Itests/lib/cmocka \
-	OPT='-O1 -g -fno-omit-frame-pointer -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all' \
+	OPT='-O1 -g -fno-omit-frame-pointer -fsanitize=memory -fsanitize-memory-track-origins -fno-sanitize-recover=all -fsanitize-ignorelist=tests/lib/msan.ignore' \
 	TEST_PROGRAMS='$(MSAN_TESTS:tests/%.c=build/msan/tests/%)'
 
 # Programs get names without .exe, as the rules expect them; LIBRARY is the tools, which need POSIX. The isfinite of MinGW
