@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: db66802059a5a9dd
+ * FNV-1a of the lines after this comment, without the license: 295993b70178cebf
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -27,65 +27,65 @@
  *   2723 pins.h       rows held at given values, on top of a factor that stays as it is
  *   2874 complex.h    complex Hermitian systems, solved as real ones of twice the size
  *   3005 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   3060 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3154 base.h   3450 status.h   3511 options.h   3570 alloc.h   3733 hash.h   3863 file_map.h
- *   3960 sort.h   4024 parallel.h
+ *   3153 base.h   3449 status.h   3510 options.h   3569 alloc.h   3732 hash.h   3862 file_map.h
+ *   3959 sort.h   4023 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4220 panel.h   4245 step.h   4324 pivot_rule.h   4398 front.h   4459 pairs.h
- *   4666 inverse_front.h   4738 table.h   4787 simd.h   4883 simd_scalar_single.h
- *   4927 simd_scalar.h   5053 simd_avx2_single.h   5105 simd_avx2.h   5331 simd_avx512_single.h
- *   5385 simd_avx512.h   5551 simd_neon_single.h   5591 simd_neon.h   5811 dispatch.h
+ *   4219 panel.h   4244 step.h   4323 pivot_rule.h   4397 front.h   4458 pairs.h
+ *   4665 inverse_front.h   4737 table.h   4786 simd.h   4882 simd_scalar_single.h
+ *   4926 simd_scalar.h   5052 simd_avx2_single.h   5104 simd_avx2.h   5330 simd_avx512_single.h
+ *   5384 simd_avx512.h   5550 simd_neon_single.h   5590 simd_neon.h   5810 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5904 csc.h   6047 csc_build.h   6181 csc64.h   6252 csc_triangle.h   6317 csc_products.h
- *   6434 permute.h   6500 sum.h   6582 output_file.h   6791 matrix_market.h
+ *   5903 csc.h   6046 csc_build.h   6180 csc64.h   6251 csc_triangle.h   6316 csc_products.h
+ *   6433 permute.h   6499 sum.h   6581 output_file.h   6790 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7237 graph.h   7354 contract.h   7608 coarsen.h   7772 labels.h   7993 subgraph.h   8187 heap.h
- *   8249 bisect.h   8457 separator.h   8719 mindeg.h   8902 dissect.h   9237 tree_cost.h
- *   9289 levelset.h   9397 geometric.h   9572 cells.h   9752 septree.h   9828 metis.h
- *   9977 metis_refined.h  10091 nd.h  10291 compress.h  10412 levels.h  10465 border.h
- *  10518 forest.h  10605 peel.h  10805 quotient.h  11222 graph_kind.h  11293 order.h
+ *   7236 graph.h   7353 contract.h   7607 coarsen.h   7771 labels.h   7992 subgraph.h   8186 heap.h
+ *   8248 bisect.h   8456 separator.h   8718 mindeg.h   8901 dissect.h   9236 tree_cost.h
+ *   9288 levelset.h   9396 geometric.h   9571 cells.h   9751 septree.h   9827 metis.h
+ *   9976 metis_refined.h  10090 nd.h  10290 compress.h  10411 levels.h  10464 border.h
+ *  10517 forest.h  10604 peel.h  10804 quotient.h  11221 graph_kind.h  11292 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11618 symbolic_types.h  11655 etree.h  11846 supernodes.h  12086 pattern.h  12160 structure.h
- *  12419 schedule.h  12699 symbolic.h  13168 reach.h
+ *  11617 symbolic_types.h  11654 etree.h  11845 supernodes.h  12085 pattern.h  12159 structure.h
+ *  12418 schedule.h  12698 symbolic.h  13167 reach.h
  * (factor: the numbers of L and D)
- *  13444 factor_types.h  13872 storage.h  14010 pivot_search.h  14356 pivoted.h  14425 scatter.h
- *  14583 uplooking.h  14655 null_product.h  14859 null_dense.h  14936 null_basis.h
- *  15256 null_vectors.h  15398 multifrontal.h  15592 gather.h  15640 kept.h  15810 front_tasks.h
- *  16153 null_center.h  16277 nullspace.h  16464 growth.h  16542 factor_setup.h  16868 factor.h
- *  17083 leftlooking.h  17237 factor_query.h  17372 combination.h
+ *  13443 factor_types.h  13871 storage.h  14009 pivot_search.h  14355 pivoted.h  14424 scatter.h
+ *  14582 uplooking.h  14654 null_product.h  14858 null_dense.h  14935 null_basis.h
+ *  15255 null_vectors.h  15397 multifrontal.h  15591 gather.h  15639 kept.h  15809 front_tasks.h
+ *  16152 null_center.h  16276 nullspace.h  16463 growth.h  16541 factor_setup.h  16867 factor.h
+ *  17082 leftlooking.h  17236 factor_query.h  17371 combination.h
  * (solve: full and local solves)
- *  17433 region_types.h  17537 work.h  17637 query.h  17855 singular.h  18115 backward.h
- *  18145 sweep_tasks.h  18476 sweep.h  18684 compile.h  18877 plan.h  18984 local.h  19136 parts.h
- *  19425 refine.h  19604 refine_local.h  19820 rcond.h  19979 defects.h
+ *  17432 region_types.h  17536 work.h  17636 query.h  17854 singular.h  18114 backward.h
+ *  18144 sweep_tasks.h  18475 sweep.h  18683 compile.h  18876 plan.h  18983 local.h  19135 parts.h
+ *  19424 refine.h  19603 refine_local.h  19819 rcond.h  19978 defects.h
  * (inverse: entries of the inverse, regions)
- *  20038 traversal.h  20287 traversal_run.h  20480 row_sets.h  20514 unit_vectors.h
- *  20741 bilinear.h  20913 entries.h  21190 block.h  21425 reserve.h  21617 selected.h
- *  21827 selected_query.h  21929 region_choose.h  22156 region.h
+ *  20037 traversal.h  20286 traversal_run.h  20479 row_sets.h  20513 unit_vectors.h
+ *  20740 bilinear.h  20912 entries.h  21189 block.h  21424 reserve.h  21616 selected.h
+ *  21826 selected_query.h  21928 region_choose.h  22155 region.h
  * (change: a factor that follows changes of its matrix)
- *  22404 update.h  22772 path.h  22891 rank.h  23269 edges.h  23423 choose.h  23670 pins_types.h
- *  23736 pins_nulls.h  23919 pins_capacitance.h  24173 pins_balance.h  24352 pins_held.h
- *  24568 pins_choose.h  24630 pins_rebuild.h  24848 pins_matrix.h  24999 pins.h  25268 pins_solve.h
- *  25541 subset.h  25669 restrict_kept.h  25867 restrict_analysis.h  26113 restrict_symbolic.h
- *  26308 restrict.h  26539 edit_match.h  26738 edit_place.h  26987 edit_separate.h
- *  27301 edit_order.h  27456 edit_graph.h  27538 edit_join.h  27814 edit.h  27977 edit_factor.h
+ *  22403 update.h  22771 path.h  22890 rank.h  23268 edges.h  23422 choose.h  23669 pins_types.h
+ *  23735 pins_nulls.h  23918 pins_capacitance.h  24172 pins_balance.h  24351 pins_held.h
+ *  24567 pins_choose.h  24629 pins_rebuild.h  24847 pins_matrix.h  24998 pins.h  25267 pins_solve.h
+ *  25540 subset.h  25668 restrict_kept.h  25866 restrict_analysis.h  26112 restrict_symbolic.h
+ *  26307 restrict.h  26538 edit_match.h  26737 edit_place.h  26986 edit_separate.h
+ *  27300 edit_order.h  27455 edit_graph.h  27537 edit_join.h  27813 edit.h  27976 edit_factor.h
  * (save: factors in files)
- *  28262 format.h  28559 decode.h  28707 check.h  29037 write.h  29342 load.h  29610 load_inverse.h
- *  29940 load_calls.h
+ *  28261 format.h  28558 decode.h  28706 check.h  29036 write.h  29341 load.h  29609 load_inverse.h
+ *  29939 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30139 batch_solve.h  30348 batch_factor.h  30549 batch_diagonal.h
+ *  30138 batch_solve.h  30347 batch_factor.h  30548 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30689 hermitian.h  30851 complex_rows.h
+ *  30688 hermitian.h  30850 complex_rows.h
  * (last: undefine every internal macro)
- *  31019 undef.h
+ *  31018 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31307 front.inl.h  31309 product.inl.h  31820 copy_rows.inl.h  31858 sweeps.inl.h
- *  31860 unit_triangle.inl.h  31897 two_rhs.inl.h  32071 small_supernode.inl.h
- *  32273 single_rhs.inl.h  32513 multi_rhs.inl.h  32532 complex_groups.inl.h
- *  32671 multi_rhs_small.inl.h  32843 multi_rhs_tiles.inl.h  33120 kernel_set.inl.h
- *  33122 complex_small.inl.h  33312 complex_rows.inl.h  33527 inverse_front.inl.h  33812 row.inl.h
- *  33842 change.inl.h  34085 interleave.inl.h  34219 lanes_undef.inl.h  34238 words_undef.inl.h
+ *  31306 front.inl.h  31308 product.inl.h  31819 copy_rows.inl.h  31857 sweeps.inl.h
+ *  31859 unit_triangle.inl.h  31896 two_rhs.inl.h  32070 small_supernode.inl.h
+ *  32272 single_rhs.inl.h  32512 multi_rhs.inl.h  32531 complex_groups.inl.h
+ *  32670 multi_rhs_small.inl.h  32842 multi_rhs_tiles.inl.h  33119 kernel_set.inl.h
+ *  33121 complex_small.inl.h  33311 complex_rows.inl.h  33526 inverse_front.inl.h  33811 row.inl.h
+ *  33841 change.inl.h  34084 interleave.inl.h  34218 lanes_undef.inl.h  34237 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3042,13 +3042,12 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *lo
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns. For a disc of 1e4 vertices in a grid
  *           of 1e6, 80 % of the columns are kept, but the others have half of the flops, and the
- *           Schur complements of the kept ones another fifth. The call then takes 0.55 of the time
- *           of analyzing and factoring A[R, R] in a given order, and 0.43 for half of the grid.
- *           Where nothing is kept (bands, lines, spirals, random rows), it takes 0.85 to 1.0 times
- *           as long as extracting, analyzing and factoring A[R, R] in that order. If A[R, R] is
- *           available already, it takes 0.95 to 1.1 times as long where R has half of the rows of A
- *           or more, and up to 1.3 times where it has a tenth: reading A is the difference. For 1 %
- *           of 1e6 rows at random the ratios are 0.6 and 1.5.
+ *           Schur complements of the kept ones another fifth. The call then takes 0.58 of the time
+ *           of analyzing and factoring A[R, R] in a given order, and 0.44 for half of the grid.
+ *           Where nothing is kept, it takes 0.8 to 0.93 times as long as extracting, analyzing and
+ *           factoring A[R, R] in that order (bands, lines, spirals), and 0.6 to 0.83 times for
+ *           random rows. If A[R, R] is available already, it takes 0.9 to 1.1 times as long, and
+ *           1.15 to 1.45 times for 1 to 10 % of 1e6 rows at random: reading A is the difference.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c

@@ -43,13 +43,12 @@
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns. For a disc of 1e4 vertices in a grid
  *           of 1e6, 80 % of the columns are kept, but the others have half of the flops, and the
- *           Schur complements of the kept ones another fifth. The call then takes 0.55 of the time
- *           of analyzing and factoring A[R, R] in a given order, and 0.43 for half of the grid.
- *           Where nothing is kept (bands, lines, spirals, random rows), it takes 0.85 to 1.0 times
- *           as long as extracting, analyzing and factoring A[R, R] in that order. If A[R, R] is
- *           available already, it takes 0.95 to 1.1 times as long where R has half of the rows of A
- *           or more, and up to 1.3 times where it has a tenth: reading A is the difference. For 1 %
- *           of 1e6 rows at random the ratios are 0.6 and 1.5.
+ *           Schur complements of the kept ones another fifth. The call then takes 0.58 of the time
+ *           of analyzing and factoring A[R, R] in a given order, and 0.44 for half of the grid.
+ *           Where nothing is kept, it takes 0.8 to 0.93 times as long as extracting, analyzing and
+ *           factoring A[R, R] in that order (bands, lines, spirals), and 0.6 to 0.83 times for
+ *           random rows. If A[R, R] is available already, it takes 0.9 to 1.1 times as long, and
+ *           1.15 to 1.45 times for 1 to 10 % of 1e6 rows at random: reading A is the difference.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c
