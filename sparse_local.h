@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 295993b70178cebf
+ * FNV-1a of the lines after this comment, without the license: fe7e64d85631779e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,51 +41,51 @@
  *   5903 csc.h   6046 csc_build.h   6180 csc64.h   6251 csc_triangle.h   6316 csc_products.h
  *   6433 permute.h   6499 sum.h   6581 output_file.h   6790 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7236 graph.h   7353 contract.h   7607 coarsen.h   7771 labels.h   7992 subgraph.h   8186 heap.h
- *   8248 bisect.h   8456 separator.h   8718 mindeg.h   8901 dissect.h   9236 tree_cost.h
- *   9288 levelset.h   9396 geometric.h   9571 cells.h   9751 septree.h   9827 metis.h
- *   9976 metis_refined.h  10090 nd.h  10290 compress.h  10411 levels.h  10464 border.h
- *  10517 forest.h  10604 peel.h  10804 quotient.h  11221 graph_kind.h  11292 order.h
+ *   7236 graph.h   7353 contract.h   7607 coarsen.h   7771 labels.h   7993 subgraph.h   8187 heap.h
+ *   8249 bisect.h   8457 separator.h   8719 mindeg.h   8902 dissect.h   9237 tree_cost.h
+ *   9289 levelset.h   9397 geometric.h   9572 cells.h   9752 septree.h   9828 metis.h
+ *   9977 metis_refined.h  10092 nd.h  10292 compress.h  10413 levels.h  10466 border.h
+ *  10519 forest.h  10606 peel.h  10806 quotient.h  11223 graph_kind.h  11294 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11617 symbolic_types.h  11654 etree.h  11845 supernodes.h  12085 pattern.h  12159 structure.h
- *  12418 schedule.h  12698 symbolic.h  13167 reach.h
+ *  11619 symbolic_types.h  11656 etree.h  11847 supernodes.h  12087 pattern.h  12161 structure.h
+ *  12420 schedule.h  12700 symbolic.h  13169 reach.h
  * (factor: the numbers of L and D)
- *  13443 factor_types.h  13871 storage.h  14009 pivot_search.h  14355 pivoted.h  14424 scatter.h
- *  14582 uplooking.h  14654 null_product.h  14858 null_dense.h  14935 null_basis.h
- *  15255 null_vectors.h  15397 multifrontal.h  15591 gather.h  15639 kept.h  15809 front_tasks.h
- *  16152 null_center.h  16276 nullspace.h  16463 growth.h  16541 factor_setup.h  16867 factor.h
- *  17082 leftlooking.h  17236 factor_query.h  17371 combination.h
+ *  13445 factor_types.h  13873 storage.h  14011 pivot_search.h  14357 pivoted.h  14426 scatter.h
+ *  14584 uplooking.h  14656 null_product.h  14860 null_dense.h  14937 null_basis.h
+ *  15257 null_vectors.h  15399 multifrontal.h  15593 gather.h  15641 kept.h  15811 front_tasks.h
+ *  16154 null_center.h  16278 nullspace.h  16465 growth.h  16543 factor_setup.h  16869 factor.h
+ *  17084 leftlooking.h  17238 factor_query.h  17373 combination.h
  * (solve: full and local solves)
- *  17432 region_types.h  17536 work.h  17636 query.h  17854 singular.h  18114 backward.h
- *  18144 sweep_tasks.h  18475 sweep.h  18683 compile.h  18876 plan.h  18983 local.h  19135 parts.h
- *  19424 refine.h  19603 refine_local.h  19819 rcond.h  19978 defects.h
+ *  17434 region_types.h  17538 work.h  17638 query.h  17856 singular.h  18116 backward.h
+ *  18146 sweep_tasks.h  18477 sweep.h  18685 compile.h  18878 plan.h  18985 local.h  19137 parts.h
+ *  19426 refine.h  19605 refine_local.h  19821 rcond.h  19980 defects.h
  * (inverse: entries of the inverse, regions)
- *  20037 traversal.h  20286 traversal_run.h  20479 row_sets.h  20513 unit_vectors.h
- *  20740 bilinear.h  20912 entries.h  21189 block.h  21424 reserve.h  21616 selected.h
- *  21826 selected_query.h  21928 region_choose.h  22155 region.h
+ *  20039 traversal.h  20288 traversal_run.h  20481 row_sets.h  20515 unit_vectors.h
+ *  20742 bilinear.h  20914 entries.h  21191 block.h  21426 reserve.h  21618 selected.h
+ *  21828 selected_query.h  21930 region_choose.h  22157 region.h
  * (change: a factor that follows changes of its matrix)
- *  22403 update.h  22771 path.h  22890 rank.h  23268 edges.h  23422 choose.h  23669 pins_types.h
- *  23735 pins_nulls.h  23918 pins_capacitance.h  24172 pins_balance.h  24351 pins_held.h
- *  24567 pins_choose.h  24629 pins_rebuild.h  24847 pins_matrix.h  24998 pins.h  25267 pins_solve.h
- *  25540 subset.h  25668 restrict_kept.h  25866 restrict_analysis.h  26112 restrict_symbolic.h
- *  26307 restrict.h  26538 edit_match.h  26737 edit_place.h  26986 edit_separate.h
- *  27300 edit_order.h  27455 edit_graph.h  27537 edit_join.h  27813 edit.h  27976 edit_factor.h
+ *  22405 update.h  22773 path.h  22892 rank.h  23270 edges.h  23424 choose.h  23671 pins_types.h
+ *  23737 pins_nulls.h  23920 pins_capacitance.h  24174 pins_balance.h  24353 pins_held.h
+ *  24569 pins_choose.h  24631 pins_rebuild.h  24849 pins_matrix.h  25000 pins.h  25269 pins_solve.h
+ *  25542 subset.h  25670 restrict_kept.h  25868 restrict_analysis.h  26114 restrict_symbolic.h
+ *  26309 restrict.h  26540 edit_match.h  26739 edit_place.h  26988 edit_separate.h
+ *  27302 edit_order.h  27457 edit_graph.h  27539 edit_join.h  27815 edit.h  27978 edit_factor.h
  * (save: factors in files)
- *  28261 format.h  28558 decode.h  28706 check.h  29036 write.h  29341 load.h  29609 load_inverse.h
- *  29939 load_calls.h
+ *  28263 format.h  28560 decode.h  28708 check.h  29038 write.h  29343 load.h  29611 load_inverse.h
+ *  29941 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30138 batch_solve.h  30347 batch_factor.h  30548 batch_diagonal.h
+ *  30140 batch_solve.h  30349 batch_factor.h  30550 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30688 hermitian.h  30850 complex_rows.h
+ *  30690 hermitian.h  30852 complex_rows.h
  * (last: undefine every internal macro)
- *  31018 undef.h
+ *  31020 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31306 front.inl.h  31308 product.inl.h  31819 copy_rows.inl.h  31857 sweeps.inl.h
- *  31859 unit_triangle.inl.h  31896 two_rhs.inl.h  32070 small_supernode.inl.h
- *  32272 single_rhs.inl.h  32512 multi_rhs.inl.h  32531 complex_groups.inl.h
- *  32670 multi_rhs_small.inl.h  32842 multi_rhs_tiles.inl.h  33119 kernel_set.inl.h
- *  33121 complex_small.inl.h  33311 complex_rows.inl.h  33526 inverse_front.inl.h  33811 row.inl.h
- *  33841 change.inl.h  34084 interleave.inl.h  34218 lanes_undef.inl.h  34237 words_undef.inl.h
+ *  31308 front.inl.h  31310 product.inl.h  31821 copy_rows.inl.h  31859 sweeps.inl.h
+ *  31861 unit_triangle.inl.h  31898 two_rhs.inl.h  32072 small_supernode.inl.h
+ *  32274 single_rhs.inl.h  32514 multi_rhs.inl.h  32533 complex_groups.inl.h
+ *  32672 multi_rhs_small.inl.h  32844 multi_rhs_tiles.inl.h  33121 kernel_set.inl.h
+ *  33123 complex_small.inl.h  33313 complex_rows.inl.h  33528 inverse_front.inl.h  33813 row.inl.h
+ *  33843 change.inl.h  34086 interleave.inl.h  34220 lanes_undef.inl.h  34239 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7800,6 +7800,7 @@ static sl_int sli_label_tree_add(sli_label_tree *t, sl_int parent) {
 }
 
 static void sli_label_tree_split(sli_label_tree *t, sl_int leaf) {
+  SLI_ASSERT(t->count + 2 <= t->room);
   t->left[leaf] = sli_label_tree_add(t, leaf);
   t->right[leaf] = sli_label_tree_add(t, leaf);
 }
@@ -10024,7 +10025,8 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
   const sli_level *g = &d->levels[0];
   sl_int n_leaves = 1, v, node, k, *sizes = d->begin, *size = d->nodes;
   sl_status status;
-  while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8) {
+  while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8 &&
+       4 * (sl_off)n_leaves <= d->tree.room) {
     n_leaves *= 2;
   }
   d->level = 0;

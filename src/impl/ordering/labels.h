@@ -41,6 +41,7 @@ static sl_int sli_label_tree_add(sli_label_tree *t, sl_int parent) {
 
 /* Splits a leaf in two. */
 static void sli_label_tree_split(sli_label_tree *t, sl_int leaf) {
+    SLI_ASSERT(t->count + 2 <= t->room);
     t->left[leaf] = sli_label_tree_add(t, leaf);
     t->right[leaf] = sli_label_tree_add(t, leaf);
 }

@@ -60,7 +60,8 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     const sli_level *g = &d->levels[0];
     sl_int n_leaves = 1, v, node, k, *sizes = d->begin, *size = d->nodes;
     sl_status status;
-    while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8) {
+    while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8 &&
+           4 * (sl_off)n_leaves <= d->tree.room) {
         n_leaves *= 2;
     }
     d->level = 0;
