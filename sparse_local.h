@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: fe7e64d85631779e
+ * FNV-1a of the lines after this comment, without the license: 8ac5eda45e11db24
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,45 +47,45 @@
  *   9977 metis_refined.h  10092 nd.h  10292 compress.h  10413 levels.h  10466 border.h
  *  10519 forest.h  10606 peel.h  10806 quotient.h  11223 graph_kind.h  11294 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11619 symbolic_types.h  11656 etree.h  11847 supernodes.h  12087 pattern.h  12161 structure.h
- *  12420 schedule.h  12700 symbolic.h  13169 reach.h
+ *  11619 symbolic_types.h  11656 etree.h  11848 supernodes.h  12088 pattern.h  12162 structure.h
+ *  12421 schedule.h  12701 symbolic.h  13168 reach.h
  * (factor: the numbers of L and D)
- *  13445 factor_types.h  13873 storage.h  14011 pivot_search.h  14357 pivoted.h  14426 scatter.h
- *  14584 uplooking.h  14656 null_product.h  14860 null_dense.h  14937 null_basis.h
- *  15257 null_vectors.h  15399 multifrontal.h  15593 gather.h  15641 kept.h  15811 front_tasks.h
- *  16154 null_center.h  16278 nullspace.h  16465 growth.h  16543 factor_setup.h  16869 factor.h
- *  17084 leftlooking.h  17238 factor_query.h  17373 combination.h
+ *  13444 factor_types.h  13872 storage.h  14010 pivot_search.h  14356 pivoted.h  14425 scatter.h
+ *  14583 uplooking.h  14655 null_product.h  14859 null_dense.h  14936 null_basis.h
+ *  15256 null_vectors.h  15398 multifrontal.h  15592 gather.h  15640 kept.h  15810 front_tasks.h
+ *  16153 null_center.h  16277 nullspace.h  16464 growth.h  16542 factor_setup.h  16868 factor.h
+ *  17083 leftlooking.h  17237 factor_query.h  17372 combination.h
  * (solve: full and local solves)
- *  17434 region_types.h  17538 work.h  17638 query.h  17856 singular.h  18116 backward.h
- *  18146 sweep_tasks.h  18477 sweep.h  18685 compile.h  18878 plan.h  18985 local.h  19137 parts.h
- *  19426 refine.h  19605 refine_local.h  19821 rcond.h  19980 defects.h
+ *  17433 region_types.h  17537 work.h  17637 query.h  17855 singular.h  18115 backward.h
+ *  18145 sweep_tasks.h  18476 sweep.h  18684 compile.h  18877 plan.h  18984 local.h  19136 parts.h
+ *  19425 refine.h  19604 refine_local.h  19820 rcond.h  19979 defects.h
  * (inverse: entries of the inverse, regions)
- *  20039 traversal.h  20288 traversal_run.h  20481 row_sets.h  20515 unit_vectors.h
- *  20742 bilinear.h  20914 entries.h  21191 block.h  21426 reserve.h  21618 selected.h
- *  21828 selected_query.h  21930 region_choose.h  22157 region.h
+ *  20038 traversal.h  20287 traversal_run.h  20480 row_sets.h  20514 unit_vectors.h
+ *  20741 bilinear.h  20913 entries.h  21190 block.h  21425 reserve.h  21617 selected.h
+ *  21827 selected_query.h  21929 region_choose.h  22156 region.h
  * (change: a factor that follows changes of its matrix)
- *  22405 update.h  22773 path.h  22892 rank.h  23270 edges.h  23424 choose.h  23671 pins_types.h
- *  23737 pins_nulls.h  23920 pins_capacitance.h  24174 pins_balance.h  24353 pins_held.h
- *  24569 pins_choose.h  24631 pins_rebuild.h  24849 pins_matrix.h  25000 pins.h  25269 pins_solve.h
- *  25542 subset.h  25670 restrict_kept.h  25868 restrict_analysis.h  26114 restrict_symbolic.h
- *  26309 restrict.h  26540 edit_match.h  26739 edit_place.h  26988 edit_separate.h
- *  27302 edit_order.h  27457 edit_graph.h  27539 edit_join.h  27815 edit.h  27978 edit_factor.h
+ *  22404 update.h  22772 path.h  22891 rank.h  23269 edges.h  23423 choose.h  23670 pins_types.h
+ *  23736 pins_nulls.h  23919 pins_capacitance.h  24173 pins_balance.h  24352 pins_held.h
+ *  24568 pins_choose.h  24630 pins_rebuild.h  24848 pins_matrix.h  24999 pins.h  25268 pins_solve.h
+ *  25541 subset.h  25669 restrict_kept.h  25867 restrict_analysis.h  26113 restrict_symbolic.h
+ *  26308 restrict.h  26539 edit_match.h  26738 edit_place.h  26987 edit_separate.h
+ *  27301 edit_order.h  27456 edit_graph.h  27538 edit_join.h  27814 edit.h  27977 edit_factor.h
  * (save: factors in files)
- *  28263 format.h  28560 decode.h  28708 check.h  29038 write.h  29343 load.h  29611 load_inverse.h
- *  29941 load_calls.h
+ *  28262 format.h  28559 decode.h  28707 check.h  29037 write.h  29342 load.h  29610 load_inverse.h
+ *  29940 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30140 batch_solve.h  30349 batch_factor.h  30550 batch_diagonal.h
+ *  30139 batch_solve.h  30348 batch_factor.h  30549 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30690 hermitian.h  30852 complex_rows.h
+ *  30689 hermitian.h  30851 complex_rows.h
  * (last: undefine every internal macro)
- *  31020 undef.h
+ *  31019 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31308 front.inl.h  31310 product.inl.h  31821 copy_rows.inl.h  31859 sweeps.inl.h
- *  31861 unit_triangle.inl.h  31898 two_rhs.inl.h  32072 small_supernode.inl.h
- *  32274 single_rhs.inl.h  32514 multi_rhs.inl.h  32533 complex_groups.inl.h
- *  32672 multi_rhs_small.inl.h  32844 multi_rhs_tiles.inl.h  33121 kernel_set.inl.h
- *  33123 complex_small.inl.h  33313 complex_rows.inl.h  33528 inverse_front.inl.h  33813 row.inl.h
- *  33843 change.inl.h  34086 interleave.inl.h  34220 lanes_undef.inl.h  34239 words_undef.inl.h
+ *  31307 front.inl.h  31309 product.inl.h  31820 copy_rows.inl.h  31858 sweeps.inl.h
+ *  31860 unit_triangle.inl.h  31897 two_rhs.inl.h  32071 small_supernode.inl.h
+ *  32273 single_rhs.inl.h  32513 multi_rhs.inl.h  32532 complex_groups.inl.h
+ *  32671 multi_rhs_small.inl.h  32843 multi_rhs_tiles.inl.h  33120 kernel_set.inl.h
+ *  33122 complex_small.inl.h  33312 complex_rows.inl.h  33527 inverse_front.inl.h  33812 row.inl.h
+ *  33842 change.inl.h  34085 interleave.inl.h  34219 lanes_undef.inl.h  34238 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3650,7 +3650,7 @@ typedef struct sli_block {
 SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
   const size_t at = b->used, half = SIZE_MAX >> (4 * sizeof(size_t));
   size_t bytes = SIZE_MAX;
-  if ((count < half && size < half) ||
+  if (count < half ||
     count <= (SIZE_MAX - SLI_ALIGN) / size) {
     bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
   }
@@ -11705,7 +11705,8 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
                  const sl_int *sequence) {
   sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
   const size_t entries = (size_t)columns->begin[n];
-  const uint64_t most = SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n);
+  const uint64_t most =
+    sequence == NULL ? SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n) : UINT64_MAX;
   uint64_t moved = 0;
   sl_int t, k = -1, c, id = -1, size = 0, gaps = 0;
   int is_in_order = sequence == NULL;
@@ -11717,7 +11718,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     const sl_int last = k, next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
     size_t start, end, to, q;
     sl_int up = n;
-    if (moved > most && sequence == NULL) {
+    if (moved > most) {
       return -1;
     }
     if (m.end > 2 * entries) {
@@ -12760,7 +12761,7 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
   S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
-static void sli_analysis_reorder(sli_analysis *w, const sl_int *order, int has_counts) {
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
   sl_int k = 0;
   while (k < w->n && order[k] == k) {
     k++;
@@ -12768,12 +12769,10 @@ static void sli_analysis_reorder(sli_analysis *w, const sl_int *order, int has_c
   if (k == w->n) {
     return;
   }
-  for (k = 0; k < w->n && has_counts; k++) {
+  for (k = 0; k < w->n; k++) {
     w->scratch[k] = w->counts[order[k]];
   }
-  if (has_counts) {
-    memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
-  }
+  memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
   sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
@@ -12795,7 +12794,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   }
   if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
             order, w->scratch)) {
-    sli_analysis_reorder(w, order, 1);
+    sli_analysis_reorder(w, order);
     for (k = 0; k < w->n; k++) {
       w->is_first[k] = w->pairs[w->old_of[k]];
     }
@@ -12828,7 +12827,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
   if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
-    sli_analysis_reorder(w, order, 1);
+    sli_analysis_reorder(w, order);
   }
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
@@ -12842,7 +12841,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   }
   sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
               w->scratch);
-  sli_analysis_reorder(w, order, 1);
+  sli_analysis_reorder(w, order);
   if (w->pairs != NULL) {
     sli_analysis_split(w, order);
   }

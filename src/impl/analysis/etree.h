@@ -72,7 +72,8 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     /* mark: the last list with the row; child: the last child so far; sibling: the one before */
     sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
     const size_t entries = (size_t)columns->begin[n];
-    const uint64_t most = SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n);
+    const uint64_t most =
+        sequence == NULL ? SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n) : UINT64_MAX;
     uint64_t moved = 0;
     sl_int t, k = -1, c, id = -1, size = 0, gaps = 0;
     int is_in_order = sequence == NULL;
@@ -84,7 +85,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
         const sl_int last = k, next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
         size_t start, end, to, q;
         sl_int up = n;
-        if (moved > most && sequence == NULL) {
+        if (moved > most) {
             return -1;
         }
         if (m.end > 2 * entries) {

@@ -69,8 +69,8 @@ static void sli_symbolic_layout(sl_symbolic *S, sli_block *b, sl_off rows, sl_of
     S->node_level = SLI_TAKE(b, sl_int, S->n_nodes);
 }
 
-/* Renumbers the tree, and counts if there are any: order[k] = the old number of column k. */
-static void sli_analysis_reorder(sli_analysis *w, const sl_int *order, int has_counts) {
+/* Renumbers the tree and the counts: order[k] = the old number of column k. */
+static void sli_analysis_reorder(sli_analysis *w, const sl_int *order) {
     sl_int k = 0;
     while (k < w->n && order[k] == k) {
         k++;
@@ -78,12 +78,10 @@ static void sli_analysis_reorder(sli_analysis *w, const sl_int *order, int has_c
     if (k == w->n) {
         return;
     }
-    for (k = 0; k < w->n && has_counts; k++) {
+    for (k = 0; k < w->n; k++) {
         w->scratch[k] = w->counts[order[k]];
     }
-    if (has_counts) {
-        memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
-    }
+    memcpy(w->counts, w->scratch, (size_t)w->n * sizeof(sl_int));
     sli_relabel(order, w->n, w->old_of, w->new_of, w->parent, w->scratch);
 }
 
@@ -107,7 +105,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
     }
     if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
                         order, w->scratch)) {
-        sli_analysis_reorder(w, order, 1);
+        sli_analysis_reorder(w, order);
         for (k = 0; k < w->n; k++) {
             w->is_first[k] = w->pairs[w->old_of[k]];
         }
@@ -142,7 +140,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
     if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
         sli_postorder(w->parent, NULL, n, order, child, more);
-        sli_analysis_reorder(w, order, 1);
+        sli_analysis_reorder(w, order);
     }
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
@@ -156,7 +154,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     }
     sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
                           w->scratch);
-    sli_analysis_reorder(w, order, 1);
+    sli_analysis_reorder(w, order);
     if (w->pairs != NULL) {
         sli_analysis_split(w, order);
     }

@@ -98,7 +98,7 @@ typedef struct sli_block {
 SLI_INLINE void *sli_take_inline(sli_block *b, uint64_t count, size_t size) {
     const size_t at = b->used, half = SIZE_MAX >> (4 * sizeof(size_t));
     size_t bytes = SIZE_MAX;
-    if ((count < half && size < half) || /* the usual case needs no division */
+    if (count < half || /* the usual case needs no division; sizes are those of types */
         count <= (SIZE_MAX - SLI_ALIGN) / size) {
         bytes = ((size_t)count * size + SLI_ALIGN - 1) / SLI_ALIGN * SLI_ALIGN;
     }
