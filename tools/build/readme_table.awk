@@ -89,8 +89,8 @@ END {
     }
     printf "%s.\n\n", machine
     print "Each cell: the median time of this library; the time of the fastest peer as a multiple"
-    print "of it; the physical limit as a share of our time. The limit is the time that the machine"
-    print "needs at least, to read L or to do the operations. Peers run in their best and in their"
+    print "of it; the physical limit as a share of our time. The limit is the least time in"
+    print "which the machine can read L or do the operations. Peers run in their best and in their"
     print "default settings, and the fastest counts. CHOLMOD with its own ordering: `M` METIS, `C`"
     print "nothing set. CHOLMOD in our ordering: `S` supernodal, `s` simplicial, `B` cholmod_solve2"
     print "with Bset, `F` a full solve in its fastest setting, `U` cholmod_updown on vectors that"
