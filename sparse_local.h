@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8ac5eda45e11db24
+ * FNV-1a of the lines after this comment, without the license: 9a4267de684eae6b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -12155,7 +12155,7 @@ static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *te
   const sl_int ranges = sli_max(w->workers, 1);
   w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
   sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
-  sli_pattern_starts(&w->columns, w->n, w->room, ranges, SLI_ANALYSIS_ROOM(w->n));
+  sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
   sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
 }
 
