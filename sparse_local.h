@@ -1,91 +1,92 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9a4267de684eae6b
+ * FNV-1a of the lines after this comment, without the license: adb345434bd61462
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     93 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    162 config.h     macros that a user may define before the include, the version, and the integer types
- *    241 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    411 options.h    options of all calls, threads, and the allocator
- *    553 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    750 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    922 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1066 factor.h     the numerical factorization P A P' = L D L'
- *   1355 solve.h      full solves, and the workspace of all solves
- *   1468 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1562 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1675 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1788 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1924 batch.h      many independent solves by one call, distributed over threads
- *   1974 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2152 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2272 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2376 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2515 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2633 change.h     a factor that follows small changes of its matrix
- *   2723 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2874 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3005 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3060 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *     94 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    163 config.h     macros that a user may define before the include, the version, and the integer types
+ *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    412 options.h    options of all calls, threads, and the allocator
+ *    554 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    751 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    923 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1067 factor.h     the numerical factorization P A P' = L D L'
+ *   1356 solve.h      full solves, and the workspace of all solves
+ *   1469 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1563 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1676 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1789 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1925 batch.h      many independent solves by one call, distributed over threads
+ *   1975 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2153 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2273 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2634 change.h     a factor that follows small changes of its matrix
+ *   2724 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2875 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3006 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3153 base.h   3449 status.h   3510 options.h   3569 alloc.h   3732 hash.h   3862 file_map.h
- *   3959 sort.h   4023 parallel.h
+ *   3154 base.h   3450 status.h   3511 options.h   3570 alloc.h   3733 hash.h   3863 file_map.h
+ *   3960 sort.h   4024 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4219 panel.h   4244 step.h   4323 pivot_rule.h   4397 front.h   4458 pairs.h
- *   4665 inverse_front.h   4737 table.h   4786 simd.h   4882 simd_scalar_single.h
- *   4926 simd_scalar.h   5052 simd_avx2_single.h   5104 simd_avx2.h   5330 simd_avx512_single.h
- *   5384 simd_avx512.h   5550 simd_neon_single.h   5590 simd_neon.h   5810 dispatch.h
+ *   4220 panel.h   4245 step.h   4324 pivot_rule.h   4398 front.h   4459 pairs.h
+ *   4666 inverse_front.h   4738 table.h   4787 simd.h   4883 simd_scalar_single.h
+ *   4927 simd_scalar.h   5053 simd_avx2_single.h   5105 simd_avx2.h   5331 simd_avx512_single.h
+ *   5385 simd_avx512.h   5551 simd_neon_single.h   5591 simd_neon.h   5811 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5903 csc.h   6046 csc_build.h   6180 csc64.h   6251 csc_triangle.h   6316 csc_products.h
- *   6433 permute.h   6499 sum.h   6581 output_file.h   6790 matrix_market.h
+ *   5904 csc.h   6047 csc_build.h   6181 csc64.h   6252 csc_triangle.h   6317 csc_products.h
+ *   6434 permute.h   6500 sum.h   6582 output_file.h   6791 text_reader.h   6972 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7236 graph.h   7353 contract.h   7607 coarsen.h   7771 labels.h   7993 subgraph.h   8187 heap.h
- *   8249 bisect.h   8457 separator.h   8719 mindeg.h   8902 dissect.h   9237 tree_cost.h
- *   9289 levelset.h   9397 geometric.h   9572 cells.h   9752 septree.h   9828 metis.h
- *   9977 metis_refined.h  10092 nd.h  10292 compress.h  10413 levels.h  10466 border.h
- *  10519 forest.h  10606 peel.h  10806 quotient.h  11223 graph_kind.h  11294 order.h
+ *   7240 graph.h   7357 contract.h   7611 coarsen.h   7775 labels.h   7997 subgraph.h   8191 heap.h
+ *   8253 bisect.h   8461 separator.h   8723 mindeg.h   8906 dissect.h   9241 tree_cost.h
+ *   9293 levelset.h   9401 geometric.h   9576 cells.h   9756 septree.h   9832 metis.h
+ *   9981 metis_refined.h  10096 nd.h  10296 compress.h  10417 levels.h  10470 border.h
+ *  10523 forest.h  10610 peel.h  10810 quotient.h  11227 graph_kind.h  11298 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11619 symbolic_types.h  11656 etree.h  11848 supernodes.h  12088 pattern.h  12162 structure.h
- *  12421 schedule.h  12701 symbolic.h  13168 reach.h
+ *  11623 symbolic_types.h  11660 etree.h  11852 supernodes.h  12092 pattern.h  12166 structure.h
+ *  12425 schedule.h  12705 symbolic.h  13172 reach.h
  * (factor: the numbers of L and D)
- *  13444 factor_types.h  13872 storage.h  14010 pivot_search.h  14356 pivoted.h  14425 scatter.h
- *  14583 uplooking.h  14655 null_product.h  14859 null_dense.h  14936 null_basis.h
- *  15256 null_vectors.h  15398 multifrontal.h  15592 gather.h  15640 kept.h  15810 front_tasks.h
- *  16153 null_center.h  16277 nullspace.h  16464 growth.h  16542 factor_setup.h  16868 factor.h
- *  17083 leftlooking.h  17237 factor_query.h  17372 combination.h
+ *  13448 factor_types.h  13651 panel_load.h  13764 pivot_check.h  13880 storage.h
+ *  14018 pivot_search.h  14364 pivoted.h  14433 scatter.h  14591 uplooking.h  14663 null_product.h
+ *  14867 null_dense.h  14944 null_basis.h  15264 null_vectors.h  15406 multifrontal.h
+ *  15600 gather.h  15648 kept.h  15818 front_tasks.h  16161 null_center.h  16285 nullspace.h
+ *  16472 growth.h  16550 factor_setup.h  16876 factor.h  17091 leftlooking.h  17245 factor_query.h
+ *  17380 combination.h
  * (solve: full and local solves)
- *  17433 region_types.h  17537 work.h  17637 query.h  17855 singular.h  18115 backward.h
- *  18145 sweep_tasks.h  18476 sweep.h  18684 compile.h  18877 plan.h  18984 local.h  19136 parts.h
- *  19425 refine.h  19604 refine_local.h  19820 rcond.h  19979 defects.h
+ *  17441 region_types.h  17545 work.h  17645 query.h  17863 singular.h  18123 backward.h
+ *  18153 sweep_tasks.h  18484 sweep.h  18692 compile.h  18885 plan.h  18992 local.h  19144 parts.h
+ *  19433 refine.h  19612 refine_local.h  19828 rcond.h  19987 defects.h
  * (inverse: entries of the inverse, regions)
- *  20038 traversal.h  20287 traversal_run.h  20480 row_sets.h  20514 unit_vectors.h
- *  20741 bilinear.h  20913 entries.h  21190 block.h  21425 reserve.h  21617 selected.h
- *  21827 selected_query.h  21929 region_choose.h  22156 region.h
+ *  20046 traversal.h  20295 traversal_run.h  20488 row_sets.h  20522 unit_vectors.h
+ *  20749 bilinear.h  20921 entries.h  21198 block.h  21433 reserve.h  21625 selected.h
+ *  21835 selected_query.h  21937 region_choose.h  22164 region.h
  * (change: a factor that follows changes of its matrix)
- *  22404 update.h  22772 path.h  22891 rank.h  23269 edges.h  23423 choose.h  23670 pins_types.h
- *  23736 pins_nulls.h  23919 pins_capacitance.h  24173 pins_balance.h  24352 pins_held.h
- *  24568 pins_choose.h  24630 pins_rebuild.h  24848 pins_matrix.h  24999 pins.h  25268 pins_solve.h
- *  25541 subset.h  25669 restrict_kept.h  25867 restrict_analysis.h  26113 restrict_symbolic.h
- *  26308 restrict.h  26539 edit_match.h  26738 edit_place.h  26987 edit_separate.h
- *  27301 edit_order.h  27456 edit_graph.h  27538 edit_join.h  27814 edit.h  27977 edit_factor.h
+ *  22412 update.h  22780 path.h  22899 rank.h  23277 edges.h  23431 choose.h  23678 pins_types.h
+ *  23744 pins_nulls.h  23927 pins_capacitance.h  24181 pins_balance.h  24360 pins_held.h
+ *  24576 pins_choose.h  24638 pins_rebuild.h  24856 pins_matrix.h  25007 pins.h  25276 pins_solve.h
+ *  25549 subset.h  25677 restrict_kept.h  25875 restrict_analysis.h  26121 restrict_symbolic.h
+ *  26316 restrict.h  26547 edit_match.h  26746 edit_place.h  26995 edit_separate.h
+ *  27309 edit_order.h  27464 edit_graph.h  27546 edit_join.h  27822 edit.h  27985 edit_factor.h
  * (save: factors in files)
- *  28262 format.h  28559 decode.h  28707 check.h  29037 write.h  29342 load.h  29610 load_inverse.h
- *  29940 load_calls.h
+ *  28270 format.h  28567 decode.h  28715 check.h  29045 write.h  29350 load.h  29618 load_inverse.h
+ *  29948 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30139 batch_solve.h  30348 batch_factor.h  30549 batch_diagonal.h
+ *  30147 batch_solve.h  30356 batch_factor.h  30557 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30689 hermitian.h  30851 complex_rows.h
+ *  30697 hermitian.h  30859 complex_rows.h
  * (last: undefine every internal macro)
- *  31019 undef.h
+ *  31027 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31307 front.inl.h  31309 product.inl.h  31820 copy_rows.inl.h  31858 sweeps.inl.h
- *  31860 unit_triangle.inl.h  31897 two_rhs.inl.h  32071 small_supernode.inl.h
- *  32273 single_rhs.inl.h  32513 multi_rhs.inl.h  32532 complex_groups.inl.h
- *  32671 multi_rhs_small.inl.h  32843 multi_rhs_tiles.inl.h  33120 kernel_set.inl.h
- *  33122 complex_small.inl.h  33312 complex_rows.inl.h  33527 inverse_front.inl.h  33812 row.inl.h
- *  33842 change.inl.h  34085 interleave.inl.h  34219 lanes_undef.inl.h  34238 words_undef.inl.h
+ *  31315 front.inl.h  31317 product.inl.h  31828 copy_rows.inl.h  31866 sweeps.inl.h
+ *  31868 unit_triangle.inl.h  31905 two_rhs.inl.h  32079 small_supernode.inl.h
+ *  32281 single_rhs.inl.h  32521 multi_rhs.inl.h  32540 complex_groups.inl.h
+ *  32679 multi_rhs_small.inl.h  32851 multi_rhs_tiles.inl.h  33128 kernel_set.inl.h
+ *  33130 complex_small.inl.h  33320 complex_rows.inl.h  33535 inverse_front.inl.h  33820 row.inl.h
+ *  33850 change.inl.h  34093 interleave.inl.h  34227 lanes_undef.inl.h  34246 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -6787,12 +6788,11 @@ static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) 
   return ok;
 }
 
-/* src/impl/matrix/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+/* src/impl/matrix/text_reader.h: lines, words and numbers of a text, in any locale */
 
 #define SLI_TOKEN_MAX 63
 #define SLI_POINT_MAX 16
 #define SLI_LINE_MAX 65536
-#define SLI_ENTRIES_FIRST 65536
 
 typedef struct sli_reader {
   const char *at, *end;
@@ -6962,6 +6962,17 @@ static int sli_token_in(const char *token, const char *const *words) {
   return *words != NULL;
 }
 
+static int sli_line_ends(const char *s, const char *e) {
+  while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
+    s++;
+  }
+  return s == e;
+}
+
+/* src/impl/matrix/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+
+#define SLI_ENTRIES_FIRST 65536
+
 static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
   static const char *const sli_formats[] = {"coordinate", "array", NULL};
   static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
@@ -6989,13 +7000,6 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
            (*symmetric || sli_token_is(token[4], "general"))
          ? SL_OK
          : SL_ERR_UNSUPPORTED;
-}
-
-static int sli_line_ends(const char *s, const char *e) {
-  while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
-    s++;
-  }
-  return s == e;
 }
 
 typedef struct sli_triplets {
@@ -13441,7 +13445,7 @@ SLI_INLINE int sli_intersection_next(sli_intersection *m) {
 }
 
 /* factor: the numbers of L and D */
-/* src/impl/factor/factor_types.h: the factor object, and what both methods share: panel loading, pivot checks */
+/* src/impl/factor/factor_types.h: the factor object, what it says of itself, and the failures of a factorization */
 
 typedef struct sli_source {
   const sl_csc *A;
@@ -13629,8 +13633,22 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
                : (double *)F->values + (F->S->steps[s].panel >> sli_is_complex(F));
 }
 
+SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
+  return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
+}
+
+SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
+  return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+}
+
+SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
+  return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
+}
+
 #define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
 #define SLI_SINGLE_LEAST 7.888609052210118e-31
+
+/* src/impl/factor/panel_load.h: adds the entries of A to the panel of a supernode */
 
 SLI_INLINE float sli_single(double a) {
   const float x = (float)a;
@@ -13743,17 +13761,7 @@ static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_i
   return status;
 }
 
-SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
-  return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
-}
-
-SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-  return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
-}
-
-SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
-  return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
-}
+/* src/impl/factor/pivot_check.h: which pivots are refused, and what is recorded of the others */
 
 SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, double magnitude) {
   if (magnitude > F->extents[s].magnitude) {

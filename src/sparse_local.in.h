@@ -74,6 +74,7 @@ extern "C" {
 #include "impl/matrix/permute.h"
 #include "impl/matrix/sum.h"
 #include "impl/matrix/output_file.h"
+#include "impl/matrix/text_reader.h"
 #include "impl/matrix/matrix_market.h"
 /* ordering: fill-reducing orderings of a graph */
 #include "impl/ordering/graph.h"
@@ -113,6 +114,8 @@ extern "C" {
 #include "impl/analysis/reach.h"
 /* factor: the numbers of L and D */
 #include "impl/factor/factor_types.h"
+#include "impl/factor/panel_load.h"
+#include "impl/factor/pivot_check.h"
 #include "impl/factor/storage.h"
 #include "impl/factor/pivot_search.h"
 #include "impl/factor/pivoted.h"

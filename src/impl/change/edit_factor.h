@@ -5,6 +5,7 @@
 #include "../../public/edit.h"
 #include "choose.h"
 #include "edit_match.h"
+#include "../factor/panel_load.h"
 
 /* Seconds of a flop and of a front that are computed; to copy a supernode and each entry of it. */
 #define SLI_REUSE_FLOP 0.1e-9

@@ -6,6 +6,7 @@
 #include "../analysis/structure.h"
 #include "factor_setup.h"
 #include "front_tasks.h"
+#include "pivot_check.h"
 #include "uplooking.h"
 
 /* Checks that A has the size of the matrix that S was made from. */

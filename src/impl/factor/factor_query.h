@@ -3,6 +3,7 @@
 #define SLI_FACTOR_FACTOR_QUERY_H
 
 #include "factor.h"
+#include "pivot_check.h"
 #include "storage.h"
 
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {

@@ -2,6 +2,8 @@
 #ifndef SLI_FACTOR_MULTIFRONTAL_H
 #define SLI_FACTOR_MULTIFRONTAL_H
 
+#include "panel_load.h"
+#include "pivot_check.h"
 #include "storage.h"
 
 /* The update matrix of supernode s, doubles or floats, which this worker factors if it is within a

@@ -3,7 +3,7 @@
 #define SLI_FACTOR_NULL_PRODUCT_H
 
 #include "../analysis/structure.h"
-#include "factor_types.h"
+#include "panel_load.h"
 
 /* The rows of A z. A matrix is walked column by column, in the caller's numbering: neighbors are
  * mostly close to each other there. A sum exists only as the map, and duplicates are neighbors only

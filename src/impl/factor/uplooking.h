@@ -2,7 +2,8 @@
 #ifndef SLI_FACTOR_UPLOOKING_H
 #define SLI_FACTOR_UPLOOKING_H
 
-#include "factor_types.h"
+#include "panel_load.h"
+#include "pivot_check.h"
 #include "../base/sort.h"
 
 /* Links supernode s into the list of its next row below, if it has one. */
