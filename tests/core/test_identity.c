@@ -147,13 +147,28 @@ static void a_region_of_a_released_factor(void **state) {
         for (int k = 0; k < 6; k++) {
             assert_true(fabs(x[k] - y[k]) <= 1e-12 * fabs(y[k]));
         }
-        /* another region at the address of this one */
+        /* other regions at the address of this one: of the same set, then of other sets */
         const uintptr_t region = (uintptr_t)R;
-        sl_region_free(R);
-        SL_CHECK(sl_region_create(&R, F, set + 1, 5, NULL, &opt, NULL));
-        if ((uintptr_t)R == region) {
-            SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, F, x, 6, b, 6, 1, NULL));
+        int found = 0;
+        for (sl_int shift = 0; shift < 20; shift++) {
+            sl_int other[6];
+            for (int k = 0; k < 6; k++) {
+                other[k] = set[k] + shift;
+            }
+            sl_region_free(R);
+            SL_CHECK(sl_region_create(&R, F, other, 6, NULL, &opt, NULL));
+            if ((uintptr_t)R == region) { /* not where its size is another */
+                memset(x, 0, sizeof x);
+                SL_EXPECT(shift == 0 ? SL_OK : SL_ERR_STATE,
+                          sl_plan_solve(P, F, x, 6, b, 6, 1, NULL));
+                for (int k = 0; k < 6; k++) {
+                    const double wanted = shift == 0 ? y[k] : 0.0;
+                    assert_true(fabs(x[k] - wanted) <= 1e-12 * fabs(wanted));
+                }
+                found++;
+            }
         }
+        assert_true(found > 1);
         sl_plan_free(P);
         sl_region_free(R);
         sl_factor_free(F);
