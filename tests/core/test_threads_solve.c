@@ -90,27 +90,45 @@ static void check_workers(const sl_factor *F, const sl_plan *P, size_t n, sl_int
     free(Y);
 }
 
+/* The factor of grids that are not joined, grid k of side[k] x side[k] rows. */
+static factored_t grids(const sl_int *side, sl_int count) {
+    factored_t y = {{0}, NULL, NULL};
+    sl_options opt = options_none();
+    sl_int rows = 0;
+    for (sl_int k = 0; k < count; k++) {
+        rows += side[k] * side[k];
+    }
+    gen_list_t t = gen_list(rows);
+    for (sl_int k = 0, first = 0; k < count; first += side[k] * side[k], k++) {
+        for (sl_int i = 0; i < side[k] * side[k]; i++) {
+            gen_add(&t, first + i, first + i, 5.0);
+            if (i % side[k] != 0) {
+                gen_add(&t, first + i, first + i - 1, -1.0);
+            }
+            if (i >= side[k]) {
+                gen_add(&t, first + i, first + i - side[k], -1.0);
+            }
+        }
+    }
+    y.M = gen_store(&t, gen_style(0), 1);
+    opt.relaxation = SL_RELAXATION_NONE;
+    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
+    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
+    gen_list_free(&t);
+    return y;
+}
+
 /* As many subtrees as are kept, of which some could be divided; one worker where a set is given;
  * blocks of 32 right-hand sides. */
 static void many_trees_give_the_same_bits(void **state) {
     (void)state;
     enum { TREES = 100, SIDE = 4, ROWS = TREES * SIDE * SIDE };
     static const sl_int set[3] = {5, 700, 8};
-    gen_list_t t = gen_list(ROWS);
-    for (sl_int k = 0; k < ROWS; k++) {
-        gen_add(&t, k, k, 5.0);
-        if (k % SIDE != 0) {
-            gen_add(&t, k, k - 1, -1.0);
-        }
-        if (k % (SIDE * SIDE) >= SIDE) {
-            gen_add(&t, k, k - SIDE, -1.0);
-        }
+    sl_int side[TREES];
+    for (int k = 0; k < TREES; k++) {
+        side[k] = SIDE;
     }
-    factored_t y = {gen_store(&t, gen_style(0), 1), NULL, NULL};
-    sl_options opt = options_none();
-    opt.relaxation = SL_RELAXATION_NONE;
-    SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, &opt, NULL));
-    SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
+    factored_t y = grids(side, TREES);
     check_workers(y.F, NULL, ROWS, 1, 8);
     check_workers(y.F, NULL, ROWS, 130, 2);
     for (int k = 0; k < 2; k++) {
@@ -120,8 +138,18 @@ static void many_trees_give_the_same_bits(void **state) {
         check_workers(y.F, P, ROWS, 1, 8);
         sl_plan_free(P);
     }
-    gen_list_free(&t);
     factored_free(&y);
+}
+
+/* The larger of two trees is divided first, whether it comes first or last. */
+static void two_trees_give_the_same_bits(void **state) {
+    (void)state;
+    static const sl_int sides[2][2] = {{20, 19}, {19, 20}};
+    for (int k = 0; k < 2; k++) {
+        factored_t y = grids(sides[k], 2);
+        check_workers(y.F, NULL, (size_t)y.M.view.n_cols, 1, 8);
+        factored_free(&y);
+    }
 }
 
 /* Blocks of any size have the bits of blocks of 8. */
@@ -232,6 +260,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solves_give_the_same_bits),
         cmocka_unit_test(many_trees_give_the_same_bits),
+        cmocka_unit_test(two_trees_give_the_same_bits),
         cmocka_unit_test(some_systems_are_left_to_one_worker),
         cmocka_unit_test(large_vectors_give_the_same_bits),
     };
