@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: adb345434bd61462
+ * FNV-1a of the lines after this comment, without the license: 3eb6419d6d81e1c2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -54,39 +54,39 @@
  *  14018 pivot_search.h  14364 pivoted.h  14433 scatter.h  14591 uplooking.h  14663 null_product.h
  *  14867 null_dense.h  14944 null_basis.h  15264 null_vectors.h  15406 multifrontal.h
  *  15600 gather.h  15648 kept.h  15818 front_tasks.h  16161 null_center.h  16285 nullspace.h
- *  16472 growth.h  16550 factor_setup.h  16876 factor.h  17091 leftlooking.h  17245 factor_query.h
- *  17380 combination.h
+ *  16492 growth.h  16570 factor_setup.h  16896 factor.h  17111 leftlooking.h  17265 factor_query.h
+ *  17400 combination.h
  * (solve: full and local solves)
- *  17441 region_types.h  17545 work.h  17645 query.h  17863 singular.h  18123 backward.h
- *  18153 sweep_tasks.h  18484 sweep.h  18692 compile.h  18885 plan.h  18992 local.h  19144 parts.h
- *  19433 refine.h  19612 refine_local.h  19828 rcond.h  19987 defects.h
+ *  17461 region_types.h  17565 work.h  17665 query.h  17883 singular.h  18143 backward.h
+ *  18173 sweep_tasks.h  18504 sweep.h  18712 compile.h  18905 plan.h  19012 local.h  19164 parts.h
+ *  19453 refine.h  19632 refine_local.h  19848 rcond.h  20007 defects.h
  * (inverse: entries of the inverse, regions)
- *  20046 traversal.h  20295 traversal_run.h  20488 row_sets.h  20522 unit_vectors.h
- *  20749 bilinear.h  20921 entries.h  21198 block.h  21433 reserve.h  21625 selected.h
- *  21835 selected_query.h  21937 region_choose.h  22164 region.h
+ *  20066 traversal.h  20315 traversal_run.h  20508 row_sets.h  20542 unit_vectors.h
+ *  20769 bilinear.h  20941 entries.h  21218 block.h  21453 reserve.h  21645 selected.h
+ *  21855 selected_query.h  21957 region_choose.h  22184 region.h
  * (change: a factor that follows changes of its matrix)
- *  22412 update.h  22780 path.h  22899 rank.h  23277 edges.h  23431 choose.h  23678 pins_types.h
- *  23744 pins_nulls.h  23927 pins_capacitance.h  24181 pins_balance.h  24360 pins_held.h
- *  24576 pins_choose.h  24638 pins_rebuild.h  24856 pins_matrix.h  25007 pins.h  25276 pins_solve.h
- *  25549 subset.h  25677 restrict_kept.h  25875 restrict_analysis.h  26121 restrict_symbolic.h
- *  26316 restrict.h  26547 edit_match.h  26746 edit_place.h  26995 edit_separate.h
- *  27309 edit_order.h  27464 edit_graph.h  27546 edit_join.h  27822 edit.h  27985 edit_factor.h
+ *  22432 update.h  22800 path.h  22919 rank.h  23297 edges.h  23451 choose.h  23698 pins_types.h
+ *  23764 pins_nulls.h  23947 pins_capacitance.h  24201 pins_balance.h  24380 pins_held.h
+ *  24596 pins_choose.h  24658 pins_rebuild.h  24876 pins_matrix.h  25027 pins.h  25296 pins_solve.h
+ *  25569 subset.h  25697 restrict_kept.h  25895 restrict_analysis.h  26141 restrict_symbolic.h
+ *  26336 restrict.h  26567 edit_match.h  26766 edit_place.h  27015 edit_separate.h
+ *  27329 edit_order.h  27484 edit_graph.h  27566 edit_join.h  27842 edit.h  28005 edit_factor.h
  * (save: factors in files)
- *  28270 format.h  28567 decode.h  28715 check.h  29045 write.h  29350 load.h  29618 load_inverse.h
- *  29948 load_calls.h
+ *  28290 format.h  28587 decode.h  28735 check.h  29065 write.h  29370 load.h  29638 load_inverse.h
+ *  29968 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30147 batch_solve.h  30356 batch_factor.h  30557 batch_diagonal.h
+ *  30167 batch_solve.h  30376 batch_factor.h  30577 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30697 hermitian.h  30859 complex_rows.h
+ *  30717 hermitian.h  30879 complex_rows.h
  * (last: undefine every internal macro)
- *  31027 undef.h
+ *  31047 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31315 front.inl.h  31317 product.inl.h  31828 copy_rows.inl.h  31866 sweeps.inl.h
- *  31868 unit_triangle.inl.h  31905 two_rhs.inl.h  32079 small_supernode.inl.h
- *  32281 single_rhs.inl.h  32521 multi_rhs.inl.h  32540 complex_groups.inl.h
- *  32679 multi_rhs_small.inl.h  32851 multi_rhs_tiles.inl.h  33128 kernel_set.inl.h
- *  33130 complex_small.inl.h  33320 complex_rows.inl.h  33535 inverse_front.inl.h  33820 row.inl.h
- *  33850 change.inl.h  34093 interleave.inl.h  34227 lanes_undef.inl.h  34246 words_undef.inl.h
+ *  31335 front.inl.h  31337 product.inl.h  31848 copy_rows.inl.h  31886 sweeps.inl.h
+ *  31888 unit_triangle.inl.h  31925 two_rhs.inl.h  32099 small_supernode.inl.h
+ *  32301 single_rhs.inl.h  32541 multi_rhs.inl.h  32560 complex_groups.inl.h
+ *  32699 multi_rhs_small.inl.h  32871 multi_rhs_tiles.inl.h  33148 kernel_set.inl.h
+ *  33150 complex_small.inl.h  33340 complex_rows.inl.h  33555 inverse_front.inl.h  33840 row.inl.h
+ *  33870 change.inl.h  34113 interleave.inl.h  34247 lanes_undef.inl.h  34266 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1207,12 +1207,12 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
- *           pivot in its component, or one whose null vectors the weights do not fix (z' m = 0,
- *           Z' M Z not definite); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an
- *           entry of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its
- *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
- *           that pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the
- *           entry of A at error.row, error.column;
+ *           pivot in its component or in one that explicit zeros join to it, or one whose null
+ *           vectors the weights do not fix (z' m = 0, Z' M Z not definite); SL_ERR_NOT_FINITE: at
+ *           error.row, and error.column if it is an entry of A; with mass, also a mean that
+ *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
+ *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
+ *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
  *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
  *           than columns;
@@ -16334,6 +16334,22 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   return SL_OK;
 }
 
+static void sli_anchor_weights(const sl_factor *F, double *weights) {
+  sl_int m, k = 0, first;
+  memset(weights, 0, (size_t)F->S->n * sizeof(double));
+  for (m = 0; m < F->n_anchors; m++) {
+    const sl_int last = F->last[F->anchors[m]];
+    int any = 0;
+    for (first = k; k <= last; k++) {
+      weights[k] = F->last[k] == last ? F->mass[k] : 0.0;
+      any |= weights[k] != 0.0;
+    }
+    for (; first <= last && !any; first++) {
+      weights[first] = F->last[first] == last ? 1.0 : 0.0;
+    }
+  }
+}
+
 static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
                  sli_failure *failure) {
   const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
@@ -16350,7 +16366,8 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   F->ratios[m] = 1.0;
   if (F->g[anchor] != 0.0) {
     for (k = first; k <= root; k++) {
-      const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
+      const double m_k = F->divisors[k];
+      const double term = m_k != 0.0 ? F->z[k] / F->z[anchor] * m_k : 0.0;
       z_m += term;
       size += fabs(term);
     }
@@ -16364,7 +16381,6 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
     sum += w * v[k];
   }
-  F->divisors[anchor] = 1.0;
   F->squares[m] = sum;
   if (!sli_is_finite(sum + F->ratios[m])) {
     return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
@@ -16382,17 +16398,21 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     return sli_center_several(F, failure);
   }
   status = sli_anchors_find(F, failure);
-  memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
-  memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
+  sli_anchor_weights(F, F->divisors);
+  memcpy(F->center, F->divisors, (size_t)S->n * sizeof(double));
   sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
   for (k = 0; k < S->n && status == SL_OK; k++) {
-    total += fabs(F->mass[k]);
+    total += fabs(F->divisors[k]);
     if (S->parent[k] == -1) {
       status = sli_center_tree(F, first, k, total, m, failure);
       m += m < F->n_anchors && F->anchors[m] <= k;
       total = 0.0;
       first = k + 1;
     }
+  }
+  memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
+  for (m = 0; m < F->n_anchors; m++) {
+    F->divisors[F->anchors[m]] = 1.0;
   }
   return status;
 }

@@ -146,12 +146,12 @@
  *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
  *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
  *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
- *           pivot in its component, or one whose null vectors the weights do not fix (z' m = 0,
- *           Z' M Z not definite); SL_ERR_NOT_FINITE: at error.row, and error.column if it is an
- *           entry of A; with mass, also a mean that overflows; SL_ERR_INACCURATE: growth above its
- *           limit, caused by the pivot error.value of error.row, or an entry of L in the column of
- *           that pivot that float cannot hold, or with SL_STORAGE_FLOAT_FRONTS that pivot or the
- *           entry of A at error.row, error.column;
+ *           pivot in its component or in one that explicit zeros join to it, or one whose null
+ *           vectors the weights do not fix (z' m = 0, Z' M Z not definite); SL_ERR_NOT_FINITE: at
+ *           error.row, and error.column if it is an entry of A; with mass, also a mean that
+ *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
+ *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
+ *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
  *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
  *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
  *           than columns;

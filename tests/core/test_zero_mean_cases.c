@@ -163,6 +163,50 @@ static void a_row_of_zeros_shifts_no_other_row(void **state) {
     sl_symbolic_free(S);
 }
 
+/* An explicit zero joins a regular component to the tree of a singular one: the weights apply to
+ * the singular one alone, and count as 1 there if all of them are 0. */
+static void weights_stay_in_their_component(void **state) {
+    (void)state;
+    gen_matrix_t M = path(6, 2.0, 3);
+    const sl_int orders[2][6] = {{0, 1, 2, 3, 4, 5}, {5, 4, 3, 2, 1, 0}};
+    const double b[6] = {1, -1, 2, 0, 3, 1};
+    variant_list_t variants = variants_present();
+    for (int k = 0; k < 4 * variants.count; k++) {
+        sl_options opt = options_skip_null(&variants, k / 4), order = options_none();
+        double m[6] = {1, 2, 3, 4, 5, 6}, x[6], rhs[6], r[6], eta, mean = 0.0;
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        order.ordering = SL_ORDERING_GIVEN;
+        order.perm = orders[k % 2];
+        opt.mass = m;
+        if (k & 2) {
+            m[3] = m[4] = m[5] = 0.0;
+        }
+        SL_CHECK(sl_symbolic_create(&S, &M.view, &order, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
+        SL_CHECK(sl_factor_solve(F, x, 6, b, 6, 1, NULL));
+        memcpy(rhs, b, sizeof rhs);
+        for (int i = 3; i < 6; i++) {
+            rhs[i] -= k & 2 ? 4.0 / 3.0 : m[i] * 4.0 / 15.0;
+            mean += k & 2 ? x[i] : m[i] * x[i];
+        }
+        SL_CHECK(sl_csc_residual(&M.view, r, 6, &eta, x, 6, rhs, 6, 1));
+        assert_true(eta <= 1e-14 && fabs(mean) <= 1e-13);
+        for (sl_int i = 0; i < 6; i++) {
+            double unit[6] = {0}, one = 1.0, y;
+            unit[i] = 1.0;
+            SL_CHECK(sl_factor_solve(F, x, 6, unit, 6, 1, NULL));
+            for (sl_int j = 0; j < 6; j++) {
+                SL_CHECK(sl_local_solve(F, &i, 1, &j, 1, &y, 1, &one, 1, 1, NULL, NULL));
+                assert_true(y == x[j]);
+            }
+        }
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+    gen_matrix_free(&M);
+}
+
 /* A null vector that is not constant: that of S A S is S^-1 1. z' b decides whether b is
  * consistent, and the weights still select x. */
 static void a_null_vector_need_not_be_constant(void **state) {
@@ -262,6 +306,7 @@ int main(void) {
         cmocka_unit_test(invalid_weights_are_refused),
         cmocka_unit_test(rows_of_zeros_are_components),
         cmocka_unit_test(a_row_of_zeros_shifts_no_other_row),
+        cmocka_unit_test(weights_stay_in_their_component),
         cmocka_unit_test(a_null_vector_need_not_be_constant),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -14,7 +14,8 @@
  * by O(1). Where the null vector z is known, z' b is therefore computed from it before the forward
  * sweep, a dot product over its columns, and replaces y(k) after the sweep.
  *
- * Centered solves. Take a component (a tree) with one null pivot, and weights m. Wanted is the x
+ * Centered solves. Take a component with one null pivot, the only one of its tree, and weights m
+ * that are 0 in all other rows: explicit zeros may join other components to it. Wanted is the x
  * with m' x = 0 that solves A x = b - c m, where c = z' b / z' m makes the right-hand side
  * consistent. With
  *
@@ -82,9 +83,28 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
     return SL_OK;
 }
 
-/* Computes v on the columns first .. root of one tree, where F->center holds z' m w on entry. total
- * is the sum of |m| in the tree. m is the number of its anchor, or that of a later tree's if it has
- * none. Where z' m is 0 the weights do not fix the null vector, and the null pivot is refused. */
+/* weights := the weights in the component of each anchor, or 1 if all are 0 there, and 0 in other
+ * components: explicit zeros may put several into one tree. */
+static void sli_anchor_weights(const sl_factor *F, double *weights) {
+    sl_int m, k = 0, first;
+    memset(weights, 0, (size_t)F->S->n * sizeof(double));
+    for (m = 0; m < F->n_anchors; m++) {
+        const sl_int last = F->last[F->anchors[m]];
+        int any = 0;
+        for (first = k; k <= last; k++) {
+            weights[k] = F->last[k] == last ? F->mass[k] : 0.0;
+            any |= weights[k] != 0.0;
+        }
+        for (; first <= last && !any; first++) {
+            weights[first] = F->last[first] == last ? 1.0 : 0.0;
+        }
+    }
+}
+
+/* Computes v on the columns first .. root of one tree, where F->center holds z' m w on entry, and
+ * F->divisors the weights. total is the sum of |m| in the tree. m is the number of its anchor, or
+ * that of a later tree's if it has none. Where z' m is 0 the weights do not fix the null vector,
+ * and the null pivot is refused. */
 static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
                                  sli_failure *failure) {
     const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
@@ -101,7 +121,8 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     F->ratios[m] = 1.0;
     if (F->g[anchor] != 0.0) {
         for (k = first; k <= root; k++) {
-            const double term = F->last[k] == anchor ? F->z[k] / F->z[anchor] * F->mass[k] : 0.0;
+            const double m_k = F->divisors[k];
+            const double term = m_k != 0.0 ? F->z[k] / F->z[anchor] * m_k : 0.0;
             z_m += term;
             size += fabs(term);
         }
@@ -115,7 +136,6 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
         v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
         sum += w * v[k];
     }
-    F->divisors[anchor] = 1.0;
     F->squares[m] = sum;
     if (!sli_is_finite(sum + F->ratios[m])) { /* of pivots or weights near 0 */
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
@@ -134,17 +154,21 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
         return sli_center_several(F, failure);
     }
     status = sli_anchors_find(F, failure);
-    memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
-    memcpy(F->center, F->mass, (size_t)S->n * sizeof(double));
+    sli_anchor_weights(F, F->divisors);
+    memcpy(F->center, F->divisors, (size_t)S->n * sizeof(double));
     sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
     for (k = 0; k < S->n && status == SL_OK; k++) {
-        total += fabs(F->mass[k]);
+        total += fabs(F->divisors[k]);
         if (S->parent[k] == -1) {
             status = sli_center_tree(F, first, k, total, m, failure);
             m += m < F->n_anchors && F->anchors[m] <= k;
             total = 0.0;
             first = k + 1;
         }
+    }
+    memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
+    for (m = 0; m < F->n_anchors; m++) {
+        F->divisors[F->anchors[m]] = 1.0;
     }
     return status;
 }
