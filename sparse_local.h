@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3eb6419d6d81e1c2
+ * FNV-1a of the lines after this comment, without the license: eb5006f05fa21373
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,46 +47,46 @@
  *   9981 metis_refined.h  10096 nd.h  10296 compress.h  10417 levels.h  10470 border.h
  *  10523 forest.h  10610 peel.h  10810 quotient.h  11227 graph_kind.h  11298 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11623 symbolic_types.h  11660 etree.h  11852 supernodes.h  12092 pattern.h  12166 structure.h
- *  12425 schedule.h  12705 symbolic.h  13172 reach.h
+ *  11623 symbolic_types.h  11660 etree.h  11853 supernodes.h  12093 pattern.h  12175 structure.h
+ *  12443 schedule.h  12723 symbolic.h  13190 reach.h
  * (factor: the numbers of L and D)
- *  13448 factor_types.h  13651 panel_load.h  13764 pivot_check.h  13880 storage.h
- *  14018 pivot_search.h  14364 pivoted.h  14433 scatter.h  14591 uplooking.h  14663 null_product.h
- *  14867 null_dense.h  14944 null_basis.h  15264 null_vectors.h  15406 multifrontal.h
- *  15600 gather.h  15648 kept.h  15818 front_tasks.h  16161 null_center.h  16285 nullspace.h
- *  16492 growth.h  16570 factor_setup.h  16896 factor.h  17111 leftlooking.h  17265 factor_query.h
- *  17400 combination.h
+ *  13466 factor_types.h  13669 panel_load.h  13782 pivot_check.h  13898 storage.h
+ *  14036 pivot_search.h  14382 pivoted.h  14451 scatter.h  14609 uplooking.h  14681 null_product.h
+ *  14885 null_dense.h  14962 null_basis.h  15282 null_vectors.h  15424 multifrontal.h
+ *  15618 gather.h  15666 kept.h  15836 front_tasks.h  16179 null_center.h  16303 nullspace.h
+ *  16510 growth.h  16588 factor_setup.h  16914 factor.h  17129 leftlooking.h  17283 factor_query.h
+ *  17418 combination.h
  * (solve: full and local solves)
- *  17461 region_types.h  17565 work.h  17665 query.h  17883 singular.h  18143 backward.h
- *  18173 sweep_tasks.h  18504 sweep.h  18712 compile.h  18905 plan.h  19012 local.h  19164 parts.h
- *  19453 refine.h  19632 refine_local.h  19848 rcond.h  20007 defects.h
+ *  17479 region_types.h  17583 work.h  17683 query.h  17901 singular.h  18161 backward.h
+ *  18191 sweep_tasks.h  18522 sweep.h  18730 compile.h  18923 plan.h  19030 local.h  19182 parts.h
+ *  19471 refine.h  19650 refine_local.h  19866 rcond.h  20025 defects.h
  * (inverse: entries of the inverse, regions)
- *  20066 traversal.h  20315 traversal_run.h  20508 row_sets.h  20542 unit_vectors.h
- *  20769 bilinear.h  20941 entries.h  21218 block.h  21453 reserve.h  21645 selected.h
- *  21855 selected_query.h  21957 region_choose.h  22184 region.h
+ *  20084 traversal.h  20333 traversal_run.h  20526 row_sets.h  20560 unit_vectors.h
+ *  20787 bilinear.h  20959 entries.h  21236 block.h  21471 reserve.h  21663 selected.h
+ *  21873 selected_query.h  21975 region_choose.h  22202 region.h
  * (change: a factor that follows changes of its matrix)
- *  22432 update.h  22800 path.h  22919 rank.h  23297 edges.h  23451 choose.h  23698 pins_types.h
- *  23764 pins_nulls.h  23947 pins_capacitance.h  24201 pins_balance.h  24380 pins_held.h
- *  24596 pins_choose.h  24658 pins_rebuild.h  24876 pins_matrix.h  25027 pins.h  25296 pins_solve.h
- *  25569 subset.h  25697 restrict_kept.h  25895 restrict_analysis.h  26141 restrict_symbolic.h
- *  26336 restrict.h  26567 edit_match.h  26766 edit_place.h  27015 edit_separate.h
- *  27329 edit_order.h  27484 edit_graph.h  27566 edit_join.h  27842 edit.h  28005 edit_factor.h
+ *  22450 update.h  22818 path.h  22937 rank.h  23315 edges.h  23469 choose.h  23716 pins_types.h
+ *  23782 pins_nulls.h  23965 pins_capacitance.h  24219 pins_balance.h  24398 pins_held.h
+ *  24614 pins_choose.h  24676 pins_rebuild.h  24894 pins_matrix.h  25045 pins.h  25314 pins_solve.h
+ *  25587 subset.h  25715 restrict_kept.h  25913 restrict_analysis.h  26159 restrict_symbolic.h
+ *  26354 restrict.h  26585 edit_match.h  26784 edit_place.h  27033 edit_separate.h
+ *  27347 edit_order.h  27502 edit_graph.h  27584 edit_join.h  27860 edit.h  28023 edit_factor.h
  * (save: factors in files)
- *  28290 format.h  28587 decode.h  28735 check.h  29065 write.h  29370 load.h  29638 load_inverse.h
- *  29968 load_calls.h
+ *  28308 format.h  28605 decode.h  28753 check.h  29083 write.h  29388 load.h  29656 load_inverse.h
+ *  29986 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30167 batch_solve.h  30376 batch_factor.h  30577 batch_diagonal.h
+ *  30185 batch_solve.h  30394 batch_factor.h  30595 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30717 hermitian.h  30879 complex_rows.h
+ *  30735 hermitian.h  30897 complex_rows.h
  * (last: undefine every internal macro)
- *  31047 undef.h
+ *  31065 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31335 front.inl.h  31337 product.inl.h  31848 copy_rows.inl.h  31886 sweeps.inl.h
- *  31888 unit_triangle.inl.h  31925 two_rhs.inl.h  32099 small_supernode.inl.h
- *  32301 single_rhs.inl.h  32541 multi_rhs.inl.h  32560 complex_groups.inl.h
- *  32699 multi_rhs_small.inl.h  32871 multi_rhs_tiles.inl.h  33148 kernel_set.inl.h
- *  33150 complex_small.inl.h  33340 complex_rows.inl.h  33555 inverse_front.inl.h  33840 row.inl.h
- *  33870 change.inl.h  34113 interleave.inl.h  34247 lanes_undef.inl.h  34266 words_undef.inl.h
+ *  31353 front.inl.h  31355 product.inl.h  31866 copy_rows.inl.h  31904 sweeps.inl.h
+ *  31906 unit_triangle.inl.h  31943 two_rhs.inl.h  32117 small_supernode.inl.h
+ *  32319 single_rhs.inl.h  32559 multi_rhs.inl.h  32578 complex_groups.inl.h
+ *  32717 multi_rhs_small.inl.h  32889 multi_rhs_tiles.inl.h  33166 kernel_set.inl.h
+ *  33168 complex_small.inl.h  33358 complex_rows.inl.h  33573 inverse_front.inl.h  33858 row.inl.h
+ *  33888 change.inl.h  34131 interleave.inl.h  34265 lanes_undef.inl.h  34284 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11673,32 +11673,33 @@ typedef struct sli_merge {
   uint32_t *from;
   sl_int *waiting;
   sl_int count;
+  sl_int gaps;
 } sli_merge;
 
-static void sli_merge_compact(sli_merge *m, sl_int last, const sl_int *counts) {
+static void sli_merge_compact(sli_merge *m, const sl_int *counts) {
   sl_int q, kept = 0;
-  size_t to = 0;
+  m->end = 0;
   for (q = 0; q < m->count; q++) {
     const sl_int c = m->waiting[q];
     if (m->from[c] != SLI_MERGED) {
-      const size_t length = c == last ? m->end - m->from[c] : (size_t)counts[c] - 1;
-      memmove(m->list + to, m->list + m->from[c], length * sizeof(sl_int));
-      m->from[c] = (uint32_t)to;
+      const size_t length = (size_t)counts[c] - 1;
+      memmove(m->list + m->end, m->list + m->from[c], length * sizeof(sl_int));
+      m->from[c] = (uint32_t)m->end;
       m->waiting[kept++] = c;
-      to += length;
+      m->end += length;
     }
   }
   m->count = kept;
-  m->end = to;
+  m->gaps = 0;
 }
 
-SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_int id, sl_int *mark,
+SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int id, sl_int *mark,
                     const sl_int *rows, sl_int count, size_t stride) {
   const sl_int *last = rows + (size_t)count * stride;
   for (; rows < last; rows += stride) {
     const sl_int r = *rows;
     list[end] = r;
-    end += (size_t)((r > k) & (mark[r] != id));
+    end += (size_t)(mark[r] != id);
     mark[r] = id;
   }
   return end;
@@ -11712,80 +11713,80 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
   const uint64_t most =
     sequence == NULL ? SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n) : UINT64_MAX;
   uint64_t moved = 0;
-  sl_int t, k = -1, c, id = -1, size = 0, gaps = 0;
-  int is_in_order = sequence == NULL;
-  sli_merge m = {list, 0, NULL, NULL, 0};
+  size_t start = 0, end = 0;
+  sl_int t, id = -1, size = 0;
+  int is_in_order = sequence == NULL, continues = 0;
+  sli_merge m = {list, 0, NULL, NULL, 0, 0};
   m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
   m.waiting = scratch + 4 * (size_t)n;
   memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int));
   for (t = 0; t < n; t++) {
-    const sl_int last = k, next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
-    size_t start, end, to, q;
-    sl_int up = n;
-    if (moved > most) {
-      return -1;
+    const sl_int k = sequence == NULL ? t : sequence[t];
+    const sl_int next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
+    sl_int up = n, c;
+    size_t before = end;
+    if (before > 2 * entries) {
+      sli_merge_compact(&m, counts);
+      memmove(list + m.end, list + start, (before - start) * sizeof(sl_int));
+      before += m.end - start;
+      start = m.end;
     }
-    if (m.end > 2 * entries) {
-      sli_merge_compact(&m, last, counts);
-      gaps = 0;
-    }
-    start = end = m.end;
-    k = sequence == NULL ? t : sequence[t];
-    c = child[k];
-    if (c != -1 && c == last) {
-      start = m.from[c];
-      m.from[c] = SLI_MERGED;
-      size--;
-      gaps++;
-      c = sibling[c];
-    } else {
+    if (!continues) {
       id = k;
-      size = 0;
+      mark[k] = id;
     }
-    end = sli_merge_rows(list, end, k, id, mark,
+    size -= continues;
+    end = sli_merge_rows(list, before, id, mark,
                columns->entry + 2 * (size_t)columns->begin[k],
                columns->begin[k + 1] - columns->begin[k], 2);
-    for (; c != -1; c = sibling[c]) {
-      end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1, 1);
+    for (c = child[k]; c != -1; c = sibling[c]) {
+      end = sli_merge_rows(list, end, id, mark, list + m.from[c], counts[c] - 1, 1);
       moved += (uint64_t)counts[c];
       m.from[c] = SLI_MERGED;
-      gaps++;
+      m.gaps++;
     }
-    size += (sl_int)(end - m.end);
+    size += (sl_int)(end - before);
     counts[k] = size + 1;
-    while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
-      m.count--;
-      gaps--;
-    }
-    c = m.count == 0 ? -1 : m.waiting[m.count - 1];
-    m.end = to = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
-    if (size > 0 && mark[next] == id) {
-      up = next;
-      if (start - to >= end - start) {
-        memmove(list + to, list + start, (end - start) * sizeof(sl_int));
-        end -= start - to;
-        start = to;
+    c = child[k];
+    if (c != -1) {
+      is_in_order &= !keeps_order || continues || sibling[c] != -1 || counts[c] != size + 2;
+      while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
+        m.count--;
+        m.gaps--;
       }
-      to = start;
-      m.end = end;
-    } else {
+      c = m.count == 0 ? -1 : m.waiting[m.count - 1];
+      m.end = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
+      is_in_order &= keeps_order || m.gaps == 0;
+      if (start - m.end >= end - start) {
+        memmove(list + m.end, list + start, (end - start) * sizeof(sl_int));
+        end -= start - m.end;
+        start = m.end;
+      }
+    }
+    continues = size > 0 && mark[next] == id;
+    parent[k] = next;
+    if (!continues) {
+      const size_t from = m.end;
       moved += end - start;
-      for (q = start; q < end; q++) {
-        const sl_int r = list[q];
+      for (; start < end; start++) {
+        const sl_int r = list[start];
         list[m.end] = r;
         m.end += r > k;
         up = r > k ? sli_min(r, up) : up;
       }
-    }
-    is_in_order &= keeps_order ? id != k || child[k] == -1 || sibling[child[k]] != -1 ||
-                     counts[child[k]] != counts[k] + 1
-                   : gaps == 0 && (up < n || m.count == 0);
-    parent[k] = up == n ? -1 : up;
-    if (up < n) {
-      m.from[k] = (uint32_t)to;
-      m.waiting[m.count++] = k;
-      sibling[k] = child[up];
-      child[up] = k;
+      start = end = m.end;
+      parent[k] = up == n ? -1 : up;
+      is_in_order &= keeps_order || up < n || m.count == 0;
+      if (up < n) {
+        m.from[k] = (uint32_t)from;
+        m.waiting[m.count++] = k;
+        sibling[k] = child[up];
+        child[up] = k;
+      }
+      if (moved > most) {
+        return -1;
+      }
+      size = 0;
     }
   }
   return is_in_order;
@@ -12121,7 +12122,7 @@ typedef struct sli_analysis {
   sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
 
-#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 16 + 8))
+#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
 
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
@@ -12129,19 +12130,20 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
   sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
   sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
+  sl_int *moved = w->spare + 2 * (size_t)p;
   if (!is_counted) {
-    memset(at, 0, (size_t)w->n * sizeof(sl_int));
+    memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
   }
-  for (; p < end && !is_counted; p++) {
-    at[sli_min(iperm[row[p]], iperm[column[p]])] += side * (row[p] - column[p]) >= 0;
+  for (; p < end && !is_counted; p++, moved += 2) {
+    const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
+    moved[1] = a + b - k;
+    moved[0] = side * (row[p] - column[p]) >= 0 ? k : w->n;
+    at[moved[0]]++;
   }
-  for (; p < end; p++) {
-    if (side * (row[p] - column[p]) >= 0) {
-      const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-      sl_int *entry = w->columns.entry + 2 * (size_t)at[k]++;
-      entry[0] = a + b - k;
-      entry[1] = p;
-    }
+  for (; p < end; p++, moved += 2) {
+    sl_int *entry = w->columns.entry + 2 * (size_t)at[moved[0]]++;
+    entry[0] = moved[1];
+    entry[1] = p;
   }
 }
 
@@ -12157,9 +12159,16 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
 
 static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
   const sl_int ranges = sli_max(w->workers, 1);
+  sl_int r, unread;
   w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
   sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
   sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
+  unread = w->columns.begin[w->n];
+  for (r = 0; r < ranges; r++) {
+    sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n) + w->n;
+    unread += *at;
+    *at = unread - *at;
+  }
   sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
 }
 
@@ -12178,17 +12187,16 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
   S->scatter_begin[S->n_supers] = total;
 }
 
-SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r,
-                       sl_int end) {
+SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r) {
   const uint32_t at = (uint32_t)r / 64;
-  const uint64_t before = bits[at], bit = (uint64_t)(r >= end) << ((uint32_t)r % 64);
+  const uint64_t before = bits[at];
   word[count] = (uint64_t)at << 32;
-  bits[at] = before | bit;
-  return count + ((before == 0) & (r >= end));
+  bits[at] = before | (uint64_t)1 << ((uint32_t)r % 64);
+  return count + (before == 0);
 }
 
-static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, uint64_t *bits,
-                   uint64_t *word, sl_int *copy) {
+static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, uint64_t *bits, uint64_t *word,
+                   sl_int *copy) {
   const sl_symbolic *S = w->S;
   const sl_int *new_of = w->new_of;
   sl_int k, count = 0;
@@ -12201,7 +12209,7 @@ static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, 
       copy[0] = row;
       copy[1] = entry[1];
       copy[2] = k - S->super_first[s];
-      count = sli_structure_set(bits, word, count, row, end);
+      count = sli_structure_set(bits, word, count, row);
     }
   }
   return count;
@@ -12210,13 +12218,16 @@ static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, 
 static void sli_structure_rows(const sl_symbolic *S, sl_int s, sl_int count, uint64_t *bits,
                  uint64_t *word, uint64_t *scratch) {
   const sl_int end = S->super_first[s + 1];
+  const sl_int first = S->super_first[s];
   sl_off at = S->rows_begin[s], r;
   sl_int c, q;
   for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
     for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
-      count = sli_structure_set(bits, word, count, S->rows[r], end);
+      count = sli_structure_set(bits, word, count, S->rows[r]);
     }
   }
+  memset(bits + first / 64, 0, (size_t)(end / 64 - first / 64) * sizeof *bits);
+  bits[end / 64] &= ~(uint64_t)0 << (end % 64);
   sli_sort(word, count, scratch);
   for (q = 0; q < count; q++) {
     uint64_t *here = bits + sli_key(word[q]), left = *here;
@@ -12264,7 +12275,7 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
 }
 
 static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entry,
-                const sl_int *local, sl_int *next) {
+                const sl_int *local, sl_int *next, sl_off *tile) {
   const sl_int width = S->super_first[s + 1] - S->super_first[s];
   const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
   const sl_int count = (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]);
@@ -12278,10 +12289,14 @@ static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entr
     next[r] = total;
     total += here;
   }
+  for (r = 0; r < sli_tiles(height); r++) {
+    tile[r] = S->panel_begin[s] + sli_tile_offset(width, r);
+  }
   for (e = 0; e < count; e++, entry += 3) {
     const sl_int row = local[entry[0]], to = next[row]++;
     S->scatter_from[to] = entry[1];
-    S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
+    S->scatter_to[to] = tile[(uint32_t)row / SLI_TILE] + (uint32_t)row % SLI_TILE +
+              SLI_TILE * (sl_off)entry[2];
   }
 }
 
@@ -12290,17 +12305,20 @@ static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, 
   const size_t words = (size_t)w->n / 64 + 1;
   sl_int *local = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
   uint64_t *bits = (uint64_t *)(void *)(local + 2 * (size_t)w->n), *word = bits + words;
-  sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s;
+  sl_off *tile = (sl_off *)(void *)(word + 2 * words);
+  sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s, q;
   memset(bits, 0, words * sizeof(uint64_t));
   for (s = first; s <= last; s++) {
-    const sl_int end = w->has_rows ? w->n : S->super_first[s + 1];
-    const sl_int count = sli_structure_gather(w, s, end, bits, word, copy);
+    const sl_int count = sli_structure_gather(w, s, bits, word, copy);
     if (!w->has_rows) {
       sli_structure_rows(S, s, count, bits, word, word + words);
     }
+    for (q = 0; q < count && w->has_rows; q++) {
+      bits[sli_key(word[q])] = 0;
+    }
     if (w->has_rows || w->earlier == NULL) {
       sli_fill_relative_of(S, s, local);
-      sli_structure_map(S, s, copy, local, local + w->n);
+      sli_structure_map(S, s, copy, local, local + w->n, tile);
     }
   }
 }

@@ -15,43 +15,44 @@
 #define SLI_MERGE_MOST 8
 #endif
 
-/* The lists of rows below columns whose parents are still to come: each row once, in any order. The
- * lists of disjoint subtrees have together no more rows than A has entries. */
+/* The lists of rows below columns whose parents are not the next columns: each row once, in any
+ * order. The lists of disjoint subtrees have together no more rows than A has entries. */
 typedef struct sli_merge {
     sl_int *list;    /* the lists */
     size_t end;      /* of the last list */
     uint32_t *from;  /* n: where the list of a column begins, or SLI_MERGED */
     sl_int *waiting; /* the columns that have a list, in the order of the lists */
     sl_int count;
+    sl_int gaps; /* lists among them that were merged */
 } sli_merge;
 
-/* Removes the gaps between the lists. The list of column `last` may still hold rows up to it. */
-static void sli_merge_compact(sli_merge *m, sl_int last, const sl_int *counts) {
+/* Removes the gaps between the lists. */
+static void sli_merge_compact(sli_merge *m, const sl_int *counts) {
     sl_int q, kept = 0;
-    size_t to = 0;
+    m->end = 0;
     for (q = 0; q < m->count; q++) {
         const sl_int c = m->waiting[q];
         if (m->from[c] != SLI_MERGED) {
-            const size_t length = c == last ? m->end - m->from[c] : (size_t)counts[c] - 1;
-            memmove(m->list + to, m->list + m->from[c], length * sizeof(sl_int));
-            m->from[c] = (uint32_t)to;
+            const size_t length = (size_t)counts[c] - 1;
+            memmove(m->list + m->end, m->list + m->from[c], length * sizeof(sl_int));
+            m->from[c] = (uint32_t)m->end;
             m->waiting[kept++] = c;
-            to += length;
+            m->end += length;
         }
     }
     m->count = kept;
-    m->end = to;
+    m->gaps = 0;
 }
 
-/* Appends the rows after k that are not marked with `id`, and marks them. Without a branch, which
- * nothing would predict. Returns the end of the list. */
-SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_int id, sl_int *mark,
+/* Appends the rows that are not marked with `id`, and marks them. Without a branch, which nothing
+ * would predict. Returns the end of the list. */
+SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int id, sl_int *mark,
                                         const sl_int *rows, sl_int count, size_t stride) {
     const sl_int *last = rows + (size_t)count * stride;
     for (; rows < last; rows += stride) {
         const sl_int r = *rows;
         list[end] = r;
-        end += (size_t)((r > k) & (mark[r] != id));
+        end += (size_t)(mark[r] != id);
         mark[r] = id;
     }
     return end;
@@ -62,93 +63,93 @@ SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int k, sl_i
  * `keeps_order`, whether each only child with the same rows is numbered before its parent. -1: they
  * are numbered so that this would take too long, and nothing is known.
  *
- * A column has the rows of its column of A and of its children. The list of a child that was the
- * last column becomes that of its parent. So in a postorder only entries of A are read, and the
+ * A column has the rows of its column of A and of its children. The list of a column whose parent is
+ * the next one becomes that of its parent. So in a postorder only entries of A are read, and the
  * lists of the other children. sequence: another order of the columns, each after its children, or
  * NULL. list: room for three times the entries of A and one; scratch: 5n. [Liu90] */
 static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
                                sl_int *list, sl_int *scratch, int keeps_order,
                                const sl_int *sequence) {
-    /* mark: the last list with the row; child: the last child so far; sibling: the one before */
+    /* mark: the last list with the row; child, sibling: lists of the children that have lists */
     sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
     const size_t entries = (size_t)columns->begin[n];
     const uint64_t most =
         sequence == NULL ? SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n) : UINT64_MAX;
     uint64_t moved = 0;
-    sl_int t, k = -1, c, id = -1, size = 0, gaps = 0;
-    int is_in_order = sequence == NULL;
-    sli_merge m = {list, 0, NULL, NULL, 0};
+    size_t start = 0, end = 0; /* the list of this column; it may hold rows up to the last one */
+    sl_int t, id = -1, size = 0;
+    int is_in_order = sequence == NULL, continues = 0;
+    sli_merge m = {list, 0, NULL, NULL, 0, 0};
     m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
     m.waiting = scratch + 4 * (size_t)n;
     memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int)); /* -1, also in child */
     for (t = 0; t < n; t++) {
-        const sl_int last = k, next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
-        size_t start, end, to, q;
-        sl_int up = n;
-        if (moved > most) {
-            return -1;
+        const sl_int k = sequence == NULL ? t : sequence[t];
+        const sl_int next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
+        sl_int up = n, c;
+        size_t before = end;
+        if (before > 2 * entries) {
+            sli_merge_compact(&m, counts);
+            memmove(list + m.end, list + start, (before - start) * sizeof(sl_int));
+            before += m.end - start;
+            start = m.end;
         }
-        if (m.end > 2 * entries) {
-            sli_merge_compact(&m, last, counts);
-            gaps = 0;
-        }
-        start = end = m.end;
-        k = sequence == NULL ? t : sequence[t];
-        c = child[k];
-        if (c != -1 && c == last) { /* its list is the last one and holds k */
-            start = m.from[c];
-            m.from[c] = SLI_MERGED;
-            size--;
-            gaps++;
-            c = sibling[c];
-        } else {
+        if (!continues) {
             id = k;
-            size = 0;
+            mark[k] = id; /* the other rows come after it */
         }
-        end = sli_merge_rows(list, end, k, id, mark,
+        size -= continues;
+        end = sli_merge_rows(list, before, id, mark,
                              columns->entry + 2 * (size_t)columns->begin[k],
                              columns->begin[k + 1] - columns->begin[k], 2);
-        for (; c != -1; c = sibling[c]) {
-            end = sli_merge_rows(list, end, k, id, mark, list + m.from[c], counts[c] - 1, 1);
+        for (c = child[k]; c != -1; c = sibling[c]) {
+            end = sli_merge_rows(list, end, id, mark, list + m.from[c], counts[c] - 1, 1);
             moved += (uint64_t)counts[c];
             m.from[c] = SLI_MERGED;
-            gaps++;
+            m.gaps++;
         }
-        size += (sl_int)(end - m.end);
+        size += (sl_int)(end - before);
         counts[k] = size + 1;
-        while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
-            m.count--;
-            gaps--;
-        }
-        c = m.count == 0 ? -1 : m.waiting[m.count - 1];
-        m.end = to = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
-        if (size > 0 && mark[next] == id) {
-            up = next;
-            if (start - to >= end - start) { /* otherwise the gap stays, which is short */
-                memmove(list + to, list + start, (end - start) * sizeof(sl_int));
-                end -= start - to;
-                start = to;
+        c = child[k];
+        if (c != -1) {
+            is_in_order &= !keeps_order || continues || sibling[c] != -1 || counts[c] != size + 2;
+            while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
+                m.count--;
+                m.gaps--;
             }
-            to = start;
-            m.end = end;
-        } else {
+            c = m.count == 0 ? -1 : m.waiting[m.count - 1];
+            m.end = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
+            is_in_order &= keeps_order || m.gaps == 0;
+            if (start - m.end >= end - start) { /* otherwise the gap stays, which is short */
+                memmove(list + m.end, list + start, (end - start) * sizeof(sl_int));
+                end -= start - m.end;
+                start = m.end;
+            }
+        }
+        continues = size > 0 && mark[next] == id;
+        parent[k] = next;
+        if (!continues) {
+            const size_t from = m.end;
             moved += end - start;
-            for (q = start; q < end; q++) {
-                const sl_int r = list[q];
+            for (; start < end; start++) {
+                const sl_int r = list[start];
                 list[m.end] = r;
                 m.end += r > k;
                 up = r > k ? sli_min(r, up) : up;
             }
-        }
-        is_in_order &= keeps_order ? id != k || child[k] == -1 || sibling[child[k]] != -1 ||
-                                         counts[child[k]] != counts[k] + 1
-                                   : gaps == 0 && (up < n || m.count == 0);
-        parent[k] = up == n ? -1 : up;
-        if (up < n) {
-            m.from[k] = (uint32_t)to;
-            m.waiting[m.count++] = k;
-            sibling[k] = child[up];
-            child[up] = k;
+            start = end = m.end;
+            parent[k] = up == n ? -1 : up;
+            is_in_order &= keeps_order || up < n || m.count == 0;
+            if (up < n) {
+                m.from[k] = (uint32_t)from;
+                m.waiting[m.count++] = k;
+                sibling[k] = child[up];
+                child[up] = k;
+            }
+            if (moved > most) {
+                return -1;
+            }
+            size = 0;
         }
     }
     return is_in_order;

@@ -39,28 +39,30 @@ typedef struct sli_analysis {
 } sli_analysis;
 
 /* The memory of one worker, in sl_int: an even number. */
-#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 16 + 8))
+#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
 
-/* Counts or fills the range of entries of one worker. */
+/* Counts or fills the range of entries of one worker. Counting keeps row and column of each entry in
+ * the spare memory; n: the column of those that are not read. */
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
     const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
     const sl_int ranges = sli_max(w->workers, 1);
     const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
     sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
     sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
+    sl_int *moved = w->spare + 2 * (size_t)p;
     if (!is_counted) {
-        memset(at, 0, (size_t)w->n * sizeof(sl_int));
+        memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
     }
-    for (; p < end && !is_counted; p++) {
-        at[sli_min(iperm[row[p]], iperm[column[p]])] += side * (row[p] - column[p]) >= 0;
+    for (; p < end && !is_counted; p++, moved += 2) {
+        const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
+        moved[1] = a + b - k;
+        moved[0] = side * (row[p] - column[p]) >= 0 ? k : w->n;
+        at[moved[0]]++;
     }
-    for (; p < end; p++) {
-        if (side * (row[p] - column[p]) >= 0) {
-            const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-            sl_int *entry = w->columns.entry + 2 * (size_t)at[k]++;
-            entry[0] = a + b - k;
-            entry[1] = p;
-        }
+    for (; p < end; p++, moved += 2) {
+        sl_int *entry = w->columns.entry + 2 * (size_t)at[moved[0]]++;
+        entry[0] = moved[1];
+        entry[1] = p;
     }
 }
 
@@ -78,9 +80,16 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
  * counting sort. Each range has counters of its own. scratch: the inverse of perm. */
 static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
     const sl_int ranges = sli_max(w->workers, 1);
+    sl_int r, unread;
     w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
     sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
     sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));
+    unread = w->columns.begin[w->n];
+    for (r = 0; r < ranges; r++) {
+        sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n) + w->n;
+        unread += *at;
+        *at = unread - *at;
+    }
     sli_team_loop(team, ranges, NULL, sli_pattern_fill_item, w);
 }
 

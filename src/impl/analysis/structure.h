@@ -18,21 +18,19 @@ static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
     S->scatter_begin[S->n_supers] = total;
 }
 
-/* Sets the bit of row r if it is at least `end`. The words with bits are listed, as keys. Without a
- * branch, which nothing would predict. Returns their number. */
-SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r,
-                                           sl_int end) {
+/* Sets the bit of row r. The words with bits are listed, as keys. Returns their number. */
+SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r) {
     const uint32_t at = (uint32_t)r / 64;
-    const uint64_t before = bits[at], bit = (uint64_t)(r >= end) << ((uint32_t)r % 64);
+    const uint64_t before = bits[at];
     word[count] = (uint64_t)at << 32;
-    bits[at] = before | bit;
-    return count + ((before == 0) & (r >= end));
+    bits[at] = before | (uint64_t)1 << ((uint32_t)r % 64);
+    return count + (before == 0);
 }
 
 /* Copies the entries of A in the columns of supernode s: each with its row, its position in A and
- * its column in the supernode. Sets the bits of rows that are at least `end`. */
-static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, uint64_t *bits,
-                                   uint64_t *word, sl_int *copy) {
+ * its column in the supernode. Sets the bits of the rows. */
+static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, uint64_t *bits, uint64_t *word,
+                                   sl_int *copy) {
     const sl_symbolic *S = w->S;
     const sl_int *new_of = w->new_of;
     sl_int k, count = 0;
@@ -45,7 +43,7 @@ static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, 
             copy[0] = row;
             copy[1] = entry[1];
             copy[2] = k - S->super_first[s];
-            count = sli_structure_set(bits, word, count, row, end);
+            count = sli_structure_set(bits, word, count, row);
         }
     }
     return count;
@@ -59,13 +57,17 @@ static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, sl_int end, 
 static void sli_structure_rows(const sl_symbolic *S, sl_int s, sl_int count, uint64_t *bits,
                                uint64_t *word, uint64_t *scratch) {
     const sl_int end = S->super_first[s + 1];
+    const sl_int first = S->super_first[s];
     sl_off at = S->rows_begin[s], r;
     sl_int c, q;
     for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
         for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
-            count = sli_structure_set(bits, word, count, S->rows[r], end);
+            count = sli_structure_set(bits, word, count, S->rows[r]);
         }
     }
+    /* without its own columns */
+    memset(bits + first / 64, 0, (size_t)(end / 64 - first / 64) * sizeof *bits);
+    bits[end / 64] &= ~(uint64_t)0 << (end % 64);
     sli_sort(word, count, scratch);
     for (q = 0; q < count; q++) {
         uint64_t *here = bits + sli_key(word[q]), left = *here;
@@ -116,9 +118,10 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
 }
 
 /* Fills the scatter map of supernode s, sorted by rows. Entries of one position are neighbors, in
- * the order of A. local: the local row of each row; next: scratch, as many as s has local rows. */
+ * the order of A. local: the local row of each row; next, tile: scratch, as many as s has local rows
+ * and row tiles. */
 static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entry,
-                              const sl_int *local, sl_int *next) {
+                              const sl_int *local, sl_int *next, sl_off *tile) {
     const sl_int width = S->super_first[s + 1] - S->super_first[s];
     const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
     const sl_int count = (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]);
@@ -132,10 +135,14 @@ static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entr
         next[r] = total;
         total += here;
     }
+    for (r = 0; r < sli_tiles(height); r++) {
+        tile[r] = S->panel_begin[s] + sli_tile_offset(width, r);
+    }
     for (e = 0; e < count; e++, entry += 3) {
         const sl_int row = local[entry[0]], to = next[row]++;
         S->scatter_from[to] = entry[1];
-        S->scatter_to[to] = S->panel_begin[s] + sli_panel_at(width, row, entry[2]);
+        S->scatter_to[to] = tile[(uint32_t)row / SLI_TILE] + (uint32_t)row % SLI_TILE +
+                            SLI_TILE * (sl_off)entry[2];
     }
 }
 
@@ -146,17 +153,20 @@ static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, 
     const size_t words = (size_t)w->n / 64 + 1;
     sl_int *local = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
     uint64_t *bits = (uint64_t *)(void *)(local + 2 * (size_t)w->n), *word = bits + words;
-    sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s;
+    sl_off *tile = (sl_off *)(void *)(word + 2 * words);
+    sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s, q;
     memset(bits, 0, words * sizeof(uint64_t));
     for (s = first; s <= last; s++) {
-        const sl_int end = w->has_rows ? w->n : S->super_first[s + 1];
-        const sl_int count = sli_structure_gather(w, s, end, bits, word, copy);
+        const sl_int count = sli_structure_gather(w, s, bits, word, copy);
         if (!w->has_rows) {
             sli_structure_rows(S, s, count, bits, word, word + words);
         }
+        for (q = 0; q < count && w->has_rows; q++) {
+            bits[sli_key(word[q])] = 0;
+        }
         if (w->has_rows || w->earlier == NULL) {
             sli_fill_relative_of(S, s, local);
-            sli_structure_map(S, s, copy, local, local + w->n);
+            sli_structure_map(S, s, copy, local, local + w->n, tile);
         }
     }
 }
