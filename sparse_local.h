@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: eb5006f05fa21373
+ * FNV-1a of the lines after this comment, without the license: da7f03a607a818a4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,46 +47,46 @@
  *   9981 metis_refined.h  10096 nd.h  10296 compress.h  10417 levels.h  10470 border.h
  *  10523 forest.h  10610 peel.h  10810 quotient.h  11227 graph_kind.h  11298 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11623 symbolic_types.h  11660 etree.h  11853 supernodes.h  12093 pattern.h  12175 structure.h
- *  12443 schedule.h  12723 symbolic.h  13190 reach.h
+ *  11623 symbolic_types.h  11660 etree.h  11853 supernodes.h  12107 pattern.h  12189 structure.h
+ *  12457 schedule.h  12737 symbolic.h  13205 reach.h
  * (factor: the numbers of L and D)
- *  13466 factor_types.h  13669 panel_load.h  13782 pivot_check.h  13898 storage.h
- *  14036 pivot_search.h  14382 pivoted.h  14451 scatter.h  14609 uplooking.h  14681 null_product.h
- *  14885 null_dense.h  14962 null_basis.h  15282 null_vectors.h  15424 multifrontal.h
- *  15618 gather.h  15666 kept.h  15836 front_tasks.h  16179 null_center.h  16303 nullspace.h
- *  16510 growth.h  16588 factor_setup.h  16914 factor.h  17129 leftlooking.h  17283 factor_query.h
- *  17418 combination.h
+ *  13481 factor_types.h  13684 panel_load.h  13797 pivot_check.h  13913 storage.h
+ *  14051 pivot_search.h  14397 pivoted.h  14466 scatter.h  14624 uplooking.h  14696 null_product.h
+ *  14900 null_dense.h  14977 null_basis.h  15297 null_vectors.h  15439 multifrontal.h
+ *  15633 gather.h  15681 kept.h  15851 front_tasks.h  16194 null_center.h  16318 nullspace.h
+ *  16525 growth.h  16603 factor_setup.h  16929 factor.h  17144 leftlooking.h  17298 factor_query.h
+ *  17433 combination.h
  * (solve: full and local solves)
- *  17479 region_types.h  17583 work.h  17683 query.h  17901 singular.h  18161 backward.h
- *  18191 sweep_tasks.h  18522 sweep.h  18730 compile.h  18923 plan.h  19030 local.h  19182 parts.h
- *  19471 refine.h  19650 refine_local.h  19866 rcond.h  20025 defects.h
+ *  17494 region_types.h  17598 work.h  17698 query.h  17916 singular.h  18176 backward.h
+ *  18206 sweep_tasks.h  18537 sweep.h  18745 compile.h  18938 plan.h  19045 local.h  19197 parts.h
+ *  19486 refine.h  19665 refine_local.h  19881 rcond.h  20040 defects.h
  * (inverse: entries of the inverse, regions)
- *  20084 traversal.h  20333 traversal_run.h  20526 row_sets.h  20560 unit_vectors.h
- *  20787 bilinear.h  20959 entries.h  21236 block.h  21471 reserve.h  21663 selected.h
- *  21873 selected_query.h  21975 region_choose.h  22202 region.h
+ *  20099 traversal.h  20348 traversal_run.h  20541 row_sets.h  20575 unit_vectors.h
+ *  20802 bilinear.h  20974 entries.h  21251 block.h  21486 reserve.h  21678 selected.h
+ *  21888 selected_query.h  21990 region_choose.h  22217 region.h
  * (change: a factor that follows changes of its matrix)
- *  22450 update.h  22818 path.h  22937 rank.h  23315 edges.h  23469 choose.h  23716 pins_types.h
- *  23782 pins_nulls.h  23965 pins_capacitance.h  24219 pins_balance.h  24398 pins_held.h
- *  24614 pins_choose.h  24676 pins_rebuild.h  24894 pins_matrix.h  25045 pins.h  25314 pins_solve.h
- *  25587 subset.h  25715 restrict_kept.h  25913 restrict_analysis.h  26159 restrict_symbolic.h
- *  26354 restrict.h  26585 edit_match.h  26784 edit_place.h  27033 edit_separate.h
- *  27347 edit_order.h  27502 edit_graph.h  27584 edit_join.h  27860 edit.h  28023 edit_factor.h
+ *  22465 update.h  22833 path.h  22952 rank.h  23330 edges.h  23484 choose.h  23731 pins_types.h
+ *  23797 pins_nulls.h  23980 pins_capacitance.h  24234 pins_balance.h  24413 pins_held.h
+ *  24629 pins_choose.h  24691 pins_rebuild.h  24909 pins_matrix.h  25060 pins.h  25329 pins_solve.h
+ *  25602 subset.h  25730 restrict_kept.h  25928 restrict_analysis.h  26174 restrict_symbolic.h
+ *  26369 restrict.h  26600 edit_match.h  26799 edit_place.h  27048 edit_separate.h
+ *  27362 edit_order.h  27517 edit_graph.h  27599 edit_join.h  27875 edit.h  28038 edit_factor.h
  * (save: factors in files)
- *  28308 format.h  28605 decode.h  28753 check.h  29083 write.h  29388 load.h  29656 load_inverse.h
- *  29986 load_calls.h
+ *  28323 format.h  28620 decode.h  28768 check.h  29098 write.h  29403 load.h  29671 load_inverse.h
+ *  30001 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30185 batch_solve.h  30394 batch_factor.h  30595 batch_diagonal.h
+ *  30200 batch_solve.h  30409 batch_factor.h  30610 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30735 hermitian.h  30897 complex_rows.h
+ *  30750 hermitian.h  30912 complex_rows.h
  * (last: undefine every internal macro)
- *  31065 undef.h
+ *  31080 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31353 front.inl.h  31355 product.inl.h  31866 copy_rows.inl.h  31904 sweeps.inl.h
- *  31906 unit_triangle.inl.h  31943 two_rhs.inl.h  32117 small_supernode.inl.h
- *  32319 single_rhs.inl.h  32559 multi_rhs.inl.h  32578 complex_groups.inl.h
- *  32717 multi_rhs_small.inl.h  32889 multi_rhs_tiles.inl.h  33166 kernel_set.inl.h
- *  33168 complex_small.inl.h  33358 complex_rows.inl.h  33573 inverse_front.inl.h  33858 row.inl.h
- *  33888 change.inl.h  34131 interleave.inl.h  34265 lanes_undef.inl.h  34284 words_undef.inl.h
+ *  31368 front.inl.h  31370 product.inl.h  31881 copy_rows.inl.h  31919 sweeps.inl.h
+ *  31921 unit_triangle.inl.h  31958 two_rhs.inl.h  32132 small_supernode.inl.h
+ *  32334 single_rhs.inl.h  32574 multi_rhs.inl.h  32593 complex_groups.inl.h
+ *  32732 multi_rhs_small.inl.h  32904 multi_rhs_tiles.inl.h  33181 kernel_set.inl.h
+ *  33183 complex_small.inl.h  33373 complex_rows.inl.h  33588 inverse_front.inl.h  33873 row.inl.h
+ *  33903 change.inl.h  34146 interleave.inl.h  34280 lanes_undef.inl.h  34299 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11876,9 +11876,9 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     }
   }
   for (j = 0; j < n; j++) {
-    const sl_int last = sli_max(j - 1, 0);
+    const sl_int last = j - (j > 0);
     g->first[s + 1] = j;
-    s += (parent[last] != j) | (children[j] != 1) | (counts[last] != counts[j] + 1);
+    s += ((parent[last] ^ j) | (children[j] ^ 1) | (counts[last] ^ (counts[j] + 1))) != 0;
     super_of[j] = s;
   }
   g->count = s + 1;
@@ -11969,10 +11969,14 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
   for (s = g->count - 1; s >= 0; s--) {
     g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
   }
-  for (k = 0; k < n; k++) {
-    const sl_int column = sequence == NULL ? k : sequence[k];
-    s = super_of[column];
-    if (g->merged_into[s] == s && column == g->first[s + 1] - 1) {
+  for (s = 0; s < g->count && sequence == NULL; s++) {
+    top[count] = s;
+    number[s] = count;
+    count += g->merged_into[s] == s;
+  }
+  for (k = 0; k < n && sequence != NULL; k++) {
+    s = super_of[sequence[k]];
+    if (g->merged_into[s] == s && sequence[k] == g->first[s + 1] - 1) {
       number[s] = count;
       top[count++] = s;
     }
@@ -11987,21 +11991,29 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
   return count;
 }
 
-static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
-                  sl_int *order, sl_int *super_of, sl_int *scratch) {
+static int sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
+                 sl_int *order, sl_int *super_of, sl_int *scratch) {
   sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
        *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
   const sl_int count = sli_find_tops(g, n, sequence, super_of, top, tree, at);
-  sl_int k, c, column = 0;
+  sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
   sli_postorder(tree, NULL, count, post, at, number);
   for (k = 0; k < count; k++) {
     number[post[k]] = k;
-    at[post[k]] = column;
+    at[k] = column;
     column += g->width[top[post[k]]];
   }
-  for (k = 0; k < n; k++) {
+  for (s = 0; s < g->count; s++) {
+    g->merged_into[s] = number[g->merged_into[s]];
+    moves |= g->merged_into[s] < before;
+    before = g->merged_into[s];
+  }
+  for (k = 0; k < n && moves; k++) {
     const sl_int from = sequence == NULL ? k : sequence[k];
     order[at[g->merged_into[super_of[from]]]++] = from;
+  }
+  for (k = 0; k < n && !moves; k++) {
+    super_of[k] = g->merged_into[super_of[k]];
   }
   for (k = 0; k < count; k++) {
     at[k] = g->width[top[post[k]]];
@@ -12013,12 +12025,14 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
     g->width[k] = at[k];
     g->below[k] = g->merged_into[k];
     g->parent[k] = tree[post[k]] == -1 ? -1 : number[tree[post[k]]];
-    for (c = 0; c < at[k]; c++) {
-      super_of[column++] = k;
+    column += at[k];
+    for (s = column; moves && s > g->first[k];) {
+      super_of[--s] = k;
     }
   }
   g->first[count] = n;
   g->count = count;
+  return moves;
 }
 
 SLI_INLINE sl_int sli_part_end(const unsigned char *is_first, sl_int from, sl_int end) {
@@ -12841,7 +12855,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   const int keeps_order =
     opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
   sl_int *order = (sl_int *)(void *)w->list;
-  sl_int *child = w->scratch, *more = w->scratch + n, k;
+  sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
   sli_order_natural(n, w->old_of);
   sli_order_natural(n, w->new_of);
   for (k = 0; k < n && w->choice.has_tree; k++) {
@@ -12850,6 +12864,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
     sli_analysis_reorder(w, order);
+    sequence = keeps_order ? w->new_of : NULL;
   }
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;
@@ -12861,9 +12876,9 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   if (w->amalgamation.relaxes || w->pairs != NULL) {
     sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
   }
-  sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
-              w->scratch);
-  sli_analysis_reorder(w, order);
+  if (sli_number_supernodes(&w->amalgamation, n, sequence, order, w->super_of, w->scratch)) {
+    sli_analysis_reorder(w, order);
+  }
   if (w->pairs != NULL) {
     sli_analysis_split(w, order);
   }

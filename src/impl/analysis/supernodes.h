@@ -37,9 +37,9 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
         }
     }
     for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
-        const sl_int last = sli_max(j - 1, 0);
+        const sl_int last = j - (j > 0);
         g->first[s + 1] = j;
-        s += (parent[last] != j) | (children[j] != 1) | (counts[last] != counts[j] + 1);
+        s += ((parent[last] ^ j) | (children[j] ^ 1) | (counts[last] ^ (counts[j] + 1))) != 0;
         super_of[j] = s;
     }
     g->count = s + 1;
@@ -150,10 +150,14 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
     for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
         g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
     }
-    for (k = 0; k < n; k++) {
-        const sl_int column = sequence == NULL ? k : sequence[k];
-        s = super_of[column];
-        if (g->merged_into[s] == s && column == g->first[s + 1] - 1) {
+    for (s = 0; s < g->count && sequence == NULL; s++) { /* without a branch */
+        top[count] = s;
+        number[s] = count;
+        count += g->merged_into[s] == s;
+    }
+    for (k = 0; k < n && sequence != NULL; k++) {
+        s = super_of[sequence[k]];
+        if (g->merged_into[s] == s && sequence[k] == g->first[s + 1] - 1) {
             number[s] = count;
             top[count++] = s;
         }
@@ -170,27 +174,36 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
 
 /* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
  * = the old number of the new column k. On return super_of and the arrays of g refer to the new
- * numbers, and g->count is the number of supernodes.
+ * numbers, and g->count is the number of supernodes. Returns whether columns move; if not, there is no
+ * order.
  *
  * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
  * by their last columns in the sequence, and the columns of a supernode keep its order. So a
  * sequence that is a postorder of the supernodes is kept as it is. scratch: 5n.
  */
-static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
-                                  sl_int *order, sl_int *super_of, sl_int *scratch) {
+static int sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
+                                 sl_int *order, sl_int *super_of, sl_int *scratch) {
     sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
            *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
     const sl_int count = sli_find_tops(g, n, sequence, super_of, top, tree, at);
-    sl_int k, c, column = 0;
+    sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
     sli_postorder(tree, NULL, count, post, at, number);
     for (k = 0; k < count; k++) {
         number[post[k]] = k;
-        at[post[k]] = column; /* where the next column of the supernode goes */
+        at[k] = column; /* where the next column of the supernode goes */
         column += g->width[top[post[k]]];
     }
-    for (k = 0; k < n; k++) {
+    for (s = 0; s < g->count; s++) {
+        g->merged_into[s] = number[g->merged_into[s]];
+        moves |= g->merged_into[s] < before;
+        before = g->merged_into[s];
+    }
+    for (k = 0; k < n && moves; k++) {
         const sl_int from = sequence == NULL ? k : sequence[k];
         order[at[g->merged_into[super_of[from]]]++] = from;
+    }
+    for (k = 0; k < n && !moves; k++) {
+        super_of[k] = g->merged_into[super_of[k]];
     }
     /* merged_into and at are free now: they hold the sizes by new number. */
     for (k = 0; k < count; k++) {
@@ -203,12 +216,14 @@ static void sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *s
         g->width[k] = at[k];
         g->below[k] = g->merged_into[k];
         g->parent[k] = tree[post[k]] == -1 ? -1 : number[tree[post[k]]];
-        for (c = 0; c < at[k]; c++) {
-            super_of[column++] = k;
+        column += at[k];
+        for (s = column; moves && s > g->first[k];) {
+            super_of[--s] = k;
         }
     }
     g->first[count] = n;
     g->count = count;
+    return moves;
 }
 
 /* The end of the part of a supernode that begins at column `from`: a 2x2 pivot that would be in two

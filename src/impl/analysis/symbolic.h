@@ -132,7 +132,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     const int keeps_order =
         opt != NULL && (opt->ordering == SL_ORDERING_GIVEN || opt->ordering == SL_ORDERING_NATURAL);
     sl_int *order = (sl_int *)(void *)w->list; /* the numbering needs all of scratch */
-    sl_int *child = w->scratch, *more = w->scratch + n, k;
+    sl_int *child = w->scratch, *more = w->scratch + n, *sequence = NULL, k;
     sli_order_natural(n, w->old_of);
     sli_order_natural(n, w->new_of);
     for (k = 0; k < n && w->choice.has_tree; k++) {
@@ -141,6 +141,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
         sli_postorder(w->parent, NULL, n, order, child, more);
         sli_analysis_reorder(w, order);
+        sequence = keeps_order ? w->new_of : NULL;
     }
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
@@ -152,9 +153,9 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     if (w->amalgamation.relaxes || w->pairs != NULL) {
         sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
     }
-    sli_number_supernodes(&w->amalgamation, n, keeps_order ? w->new_of : NULL, order, w->super_of,
-                          w->scratch);
-    sli_analysis_reorder(w, order);
+    if (sli_number_supernodes(&w->amalgamation, n, sequence, order, w->super_of, w->scratch)) {
+        sli_analysis_reorder(w, order);
+    }
     if (w->pairs != NULL) {
         sli_analysis_split(w, order);
     }
