@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: da7f03a607a818a4
+ * FNV-1a of the lines after this comment, without the license: 9318b0cb32f51627
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,69 +24,69 @@
  *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2634 change.h     a factor that follows small changes of its matrix
- *   2724 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2875 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3006 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3061 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2728 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2879 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3010 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3065 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3154 base.h   3450 status.h   3511 options.h   3570 alloc.h   3733 hash.h   3863 file_map.h
- *   3960 sort.h   4024 parallel.h
+ *   3158 base.h   3454 status.h   3515 options.h   3574 alloc.h   3737 hash.h   3867 file_map.h
+ *   3964 sort.h   4028 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4220 panel.h   4245 step.h   4324 pivot_rule.h   4398 front.h   4459 pairs.h
- *   4666 inverse_front.h   4738 table.h   4787 simd.h   4883 simd_scalar_single.h
- *   4927 simd_scalar.h   5053 simd_avx2_single.h   5105 simd_avx2.h   5331 simd_avx512_single.h
- *   5385 simd_avx512.h   5551 simd_neon_single.h   5591 simd_neon.h   5811 dispatch.h
+ *   4224 panel.h   4249 step.h   4328 pivot_rule.h   4402 front.h   4463 pairs.h
+ *   4670 inverse_front.h   4742 table.h   4791 simd.h   4887 simd_scalar_single.h
+ *   4931 simd_scalar.h   5057 simd_avx2_single.h   5109 simd_avx2.h   5335 simd_avx512_single.h
+ *   5389 simd_avx512.h   5555 simd_neon_single.h   5595 simd_neon.h   5815 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5904 csc.h   6047 csc_build.h   6181 csc64.h   6252 csc_triangle.h   6317 csc_products.h
- *   6434 permute.h   6500 sum.h   6582 output_file.h   6791 text_reader.h   6972 matrix_market.h
+ *   5908 csc.h   6051 csc_build.h   6185 csc64.h   6256 csc_triangle.h   6321 csc_products.h
+ *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 text_reader.h   6976 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7240 graph.h   7357 contract.h   7611 coarsen.h   7775 labels.h   7997 subgraph.h   8191 heap.h
- *   8253 bisect.h   8461 separator.h   8723 mindeg.h   8906 dissect.h   9241 tree_cost.h
- *   9293 levelset.h   9401 geometric.h   9576 cells.h   9756 septree.h   9832 metis.h
- *   9981 metis_refined.h  10096 nd.h  10296 compress.h  10417 levels.h  10470 border.h
- *  10523 forest.h  10610 peel.h  10810 quotient.h  11227 graph_kind.h  11298 order.h
+ *   7244 graph.h   7361 contract.h   7615 coarsen.h   7779 labels.h   8001 subgraph.h   8195 heap.h
+ *   8257 bisect.h   8465 separator.h   8727 mindeg.h   8910 dissect.h   9245 tree_cost.h
+ *   9297 levelset.h   9405 geometric.h   9580 cells.h   9760 septree.h   9836 metis.h
+ *   9985 metis_refined.h  10100 nd.h  10300 compress.h  10421 levels.h  10474 border.h
+ *  10527 forest.h  10614 peel.h  10814 quotient.h  11231 graph_kind.h  11302 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11623 symbolic_types.h  11660 etree.h  11853 supernodes.h  12107 pattern.h  12189 structure.h
- *  12457 schedule.h  12737 symbolic.h  13205 reach.h
+ *  11627 symbolic_types.h  11664 etree.h  11857 supernodes.h  12111 pattern.h  12193 structure.h
+ *  12461 schedule.h  12741 symbolic.h  13209 reach.h
  * (factor: the numbers of L and D)
- *  13481 factor_types.h  13684 panel_load.h  13797 pivot_check.h  13913 storage.h
- *  14051 pivot_search.h  14397 pivoted.h  14466 scatter.h  14624 uplooking.h  14696 null_product.h
- *  14900 null_dense.h  14977 null_basis.h  15297 null_vectors.h  15439 multifrontal.h
- *  15633 gather.h  15681 kept.h  15851 front_tasks.h  16194 null_center.h  16318 nullspace.h
- *  16525 growth.h  16603 factor_setup.h  16929 factor.h  17144 leftlooking.h  17298 factor_query.h
- *  17433 combination.h
+ *  13485 factor_types.h  13688 panel_load.h  13801 pivot_check.h  13917 storage.h
+ *  14055 pivot_search.h  14401 pivoted.h  14470 scatter.h  14628 uplooking.h  14700 null_product.h
+ *  14904 null_dense.h  14981 null_basis.h  15301 null_vectors.h  15443 multifrontal.h
+ *  15637 gather.h  15685 kept.h  15855 front_tasks.h  16198 null_center.h  16322 nullspace.h
+ *  16529 growth.h  16607 factor_setup.h  16933 factor.h  17148 leftlooking.h  17302 factor_query.h
+ *  17437 combination.h
  * (solve: full and local solves)
- *  17494 region_types.h  17598 work.h  17698 query.h  17916 singular.h  18176 backward.h
- *  18206 sweep_tasks.h  18537 sweep.h  18745 compile.h  18938 plan.h  19045 local.h  19197 parts.h
- *  19486 refine.h  19665 refine_local.h  19881 rcond.h  20040 defects.h
+ *  17498 region_types.h  17602 work.h  17702 query.h  17920 singular.h  18180 backward.h
+ *  18210 sweep_tasks.h  18541 sweep.h  18749 compile.h  18942 plan.h  19049 local.h  19201 parts.h
+ *  19490 refine.h  19669 refine_local.h  19885 rcond.h  20044 defects.h
  * (inverse: entries of the inverse, regions)
- *  20099 traversal.h  20348 traversal_run.h  20541 row_sets.h  20575 unit_vectors.h
- *  20802 bilinear.h  20974 entries.h  21251 block.h  21486 reserve.h  21678 selected.h
- *  21888 selected_query.h  21990 region_choose.h  22217 region.h
+ *  20103 traversal.h  20352 traversal_run.h  20545 row_sets.h  20579 unit_vectors.h
+ *  20806 bilinear.h  20978 entries.h  21255 block.h  21490 reserve.h  21682 selected.h
+ *  21892 selected_query.h  21994 region_choose.h  22221 region.h
  * (change: a factor that follows changes of its matrix)
- *  22465 update.h  22833 path.h  22952 rank.h  23330 edges.h  23484 choose.h  23731 pins_types.h
- *  23797 pins_nulls.h  23980 pins_capacitance.h  24234 pins_balance.h  24413 pins_held.h
- *  24629 pins_choose.h  24691 pins_rebuild.h  24909 pins_matrix.h  25060 pins.h  25329 pins_solve.h
- *  25602 subset.h  25730 restrict_kept.h  25928 restrict_analysis.h  26174 restrict_symbolic.h
- *  26369 restrict.h  26600 edit_match.h  26799 edit_place.h  27048 edit_separate.h
- *  27362 edit_order.h  27517 edit_graph.h  27599 edit_join.h  27875 edit.h  28038 edit_factor.h
+ *  22469 update.h  22860 path.h  22979 rank.h  23364 edges.h  23518 choose.h  23769 pins_types.h
+ *  23835 pins_nulls.h  24018 pins_capacitance.h  24272 pins_balance.h  24451 pins_held.h
+ *  24667 pins_choose.h  24729 pins_rebuild.h  24947 pins_matrix.h  25098 pins.h  25367 pins_solve.h
+ *  25640 subset.h  25768 restrict_kept.h  25966 restrict_analysis.h  26212 restrict_symbolic.h
+ *  26407 restrict.h  26638 edit_match.h  26837 edit_place.h  27086 edit_separate.h
+ *  27400 edit_order.h  27555 edit_graph.h  27637 edit_join.h  27913 edit.h  28076 edit_factor.h
  * (save: factors in files)
- *  28323 format.h  28620 decode.h  28768 check.h  29098 write.h  29403 load.h  29671 load_inverse.h
- *  30001 load_calls.h
+ *  28361 format.h  28658 decode.h  28806 check.h  29136 write.h  29441 load.h  29709 load_inverse.h
+ *  30039 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30200 batch_solve.h  30409 batch_factor.h  30610 batch_diagonal.h
+ *  30238 batch_solve.h  30447 batch_factor.h  30648 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30750 hermitian.h  30912 complex_rows.h
+ *  30788 hermitian.h  30950 complex_rows.h
  * (last: undefine every internal macro)
- *  31080 undef.h
+ *  31118 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31368 front.inl.h  31370 product.inl.h  31881 copy_rows.inl.h  31919 sweeps.inl.h
- *  31921 unit_triangle.inl.h  31958 two_rhs.inl.h  32132 small_supernode.inl.h
- *  32334 single_rhs.inl.h  32574 multi_rhs.inl.h  32593 complex_groups.inl.h
- *  32732 multi_rhs_small.inl.h  32904 multi_rhs_tiles.inl.h  33181 kernel_set.inl.h
- *  33183 complex_small.inl.h  33373 complex_rows.inl.h  33588 inverse_front.inl.h  33873 row.inl.h
- *  33903 change.inl.h  34146 interleave.inl.h  34280 lanes_undef.inl.h  34299 words_undef.inl.h
+ *  31406 front.inl.h  31408 product.inl.h  31919 copy_rows.inl.h  31957 sweeps.inl.h
+ *  31959 unit_triangle.inl.h  31996 two_rhs.inl.h  32170 small_supernode.inl.h
+ *  32372 single_rhs.inl.h  32612 multi_rhs.inl.h  32631 complex_groups.inl.h
+ *  32770 multi_rhs_small.inl.h  32942 multi_rhs_tiles.inl.h  33219 kernel_set.inl.h
+ *  33221 complex_small.inl.h  33411 complex_rows.inl.h  33626 inverse_front.inl.h  33911 row.inl.h
+ *  33941 change.inl.h  34184 interleave.inl.h  34318 lanes_undef.inl.h  34337 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2644,7 +2644,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *
  *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
  *  first, and the others fail only if the changed matrix is not definite, up to rounding. With
- *  pivots of both signs a change may also fail because it meets a null pivot on its way.
+ *  SL_NULL_PIVOT_SKIP they also fail where a pivot shrinks to what rounding of the heaviest rows
+ *  leaves of a null one: refactor then. With pivots of both signs a change may also fail because it
+ *  meets a null pivot on its way.
  *
  *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
  *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
@@ -2700,8 +2702,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
  *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
- *  has reached 1e-11, which takes some 40,000 changes of moderate size. Where they are refused
- *  because a pivot changes its sign, a refactorization decides whether A can be factored.
+ *  has reached 1e-11, which takes some 40,000 changes of moderate size. If one change has this
+ *  effect, as where the largest entry goes, a refactorization follows it. Where they are refused
+ *  because a pivot changes its sign, or may be null, a refactorization decides whether A can be
+ *  factored.
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
@@ -22476,6 +22480,7 @@ typedef struct sli_update {
   int kind;
   double most;
   double fall;
+  double least;
   double top;
   double entry;
   double growth;
@@ -22571,7 +22576,8 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_ERR_NOT_FINITE;
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-    (fabs(e) < fabs(d) && sli_update_is_null(F, k, e, magnitude))) {
+    (fabs(e) < fabs(d) &&
+     (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
     return SL_ERR_PIVOT;
   }
   if (!u->is_trial) {
@@ -22600,7 +22606,8 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     }
     if ((e[j] < 0.0) == (d < 0.0) && size >= DBL_MIN && size <= DBL_MAX &&
       size <= 4.0 * fabs(d) &&
-      (size >= fabs(d) || u->is_tried || !sli_is_null(e[j], magnitude + known, tolerance))) {
+      (size >= fabs(d) || u->is_tried ||
+       (size > u->least && !sli_is_null(e[j], magnitude + known, tolerance)))) {
       if (!u->is_trial) {
         most = magnitude > most ? magnitude : most;
         least = size < least ? size : least;
@@ -22760,6 +22767,25 @@ static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) 
   return first;
 }
 
+static double sli_update_largest(const sli_update *u, sl_int count) {
+  double first[SLI_TILE] = {0.0}, second[SLI_TILE] = {0.0}, most = 0.0;
+  sl_int k, r;
+  for (k = 0; k < u->R.columns; k++) {
+    double sum = 0.0;
+    for (r = 0; r < count; r++) {
+      const double x = fabs(u->x[(ptrdiff_t)k * u->lanes + r]);
+      sum += u->state->alpha[r] * x * x;
+      second[r] = fmax(second[r], fmin(first[r], x));
+      first[r] = fmax(first[r], x);
+    }
+    most = fmax(most, fabs(sum));
+  }
+  for (r = 0; r < count; r++) {
+    most = fmax(most, fabs(u->state->alpha[r]) * first[r] * second[r]);
+  }
+  return most;
+}
+
 static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   const sl_symbolic *S = u->F->S;
   const sl_csc *V = u->V;
@@ -22790,6 +22816,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     }
     u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
   }
+  u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
 }
 
 static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count) {
@@ -23261,6 +23288,12 @@ static sl_status sli_rank_run(sli_rank *q) {
   return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
 }
 
+static double sli_rank_least(const sl_factor *F) {
+  return F->rule.null_tolerance < 0.0 || F->rule.regularization != 0.0
+         ? 0.0
+         : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
+}
+
 static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   const sl_factor_info *info = &F->stats.factor;
   memset(q, 0, sizeof *q);
@@ -23268,6 +23301,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   q->stats = stats;
   q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
   q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
+  q->u.least = F->null_pivots == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
 }
 
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
@@ -23673,6 +23707,9 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
       c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
+    } else if (status == SL_OK && F->drift > SLI_CHANGE_DRIFT) {
+      c->reason = SL_CHANGE_DRIFT;
+      *method = SL_CHANGE_REFACTOR;
     }
   }
   if (*method == SL_CHANGE_REACH) {
@@ -23703,6 +23740,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   }
   memset(&c, 0, sizeof c);
   sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+  q.u.least = sli_rank_least(F);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     c.seeds = SLI_TAKE(&b, uint64_t, count);
     c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);

@@ -184,6 +184,104 @@ static void a_pivot_of_rounding_is_null(void **state) {
 }
 
 /* A vector of two rows is accepted if L has their entry, and only then. */
+/* The largest entry of a component goes: most of what its pivots were computed from is rounding. */
+static void a_large_entry_may_go(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1}, row = 1, column = 0;
+    const double b[2] = {1.0, 1.0};
+    for (int takes = 0; takes < 2; takes++) {
+        double a[3] = {-0.36, 46545.14, 0.28}, x[2], r[2], eta;
+        const sl_csc A = {2, 2, p, i, a};
+        const double delta = 0.62 - a[1];
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+        a[1] += delta;
+        SL_CHECK(takes ? sl_factor_change(F, &A, &row, &column, &delta, 1, NULL, &stats)
+                       : sl_factor_update_entries(F, &row, &column, &delta, 1, NULL, &stats));
+        SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
+        SL_CHECK(sl_csc_residual(&A, r, 2, &eta, x, 2, b, 2, 1));
+        assert_true(eta <= stats.change.drift + 1e-15);
+        assert_true(!takes || eta <= 1e-11);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
+/* Sets the weights of a tree's edges, k to parent[k], and what holds row 0. Appends changes. */
+static void tree_set(gen_matrix_t *M, const sl_int *parent, const double *w, double held,
+                     double *deltas) {
+    const sl_int n = M->view.n_cols;
+    double *dense = test_reals((size_t)n);
+    dense[0] = held;
+    for (sl_int k = 1; k < n; k++) {
+        dense[k] += w[k];
+        dense[parent[k]] += w[k];
+    }
+    for (sl_int j = 0; j < n; j++) {
+        for (sl_int p = M->p[j]; p < M->p[j + 1]; p++) {
+            const sl_int i = M->i[p];
+            const double a = i == j ? dense[j] : -w[i > j ? i : j];
+            deltas[p] = a - M->x[p];
+            M->x[p] = a;
+        }
+    }
+    free(dense);
+}
+
+/* What holds a Laplacian goes while weights change. Rounding leaves a last pivot of 1e-15 or so, of
+ * either sign. */
+static void a_laplacian_may_become_singular(void **state) {
+    (void)state;
+    enum { N = 19, ENTRIES = 2 * N - 1 };
+    for (int k = 0; k < 300; k++) {
+        uint64_t random = (uint64_t)(k / 3);
+        sl_int parent[N] = {0}, rows[ENTRIES], columns[ENTRIES];
+        double w[N], deltas[ENTRIES];
+        gen_list_t list = gen_list(N);
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        sl_options opt = options_none();
+        opt.null_pivots = k % 3 > 0 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        for (sl_int i = 0; i < N; i++) {
+            parent[i] = gen_below(&random, i > 0 ? i : 1);
+            w[i] = exp(4.0 * gen_real(&random));
+            gen_add(&list, i, i, 0.0);
+            if (i > 0) {
+                gen_add(&list, i, parent[i], 0.0);
+            }
+        }
+        gen_matrix_t M = gen_store(&list, gen_style(0), 1);
+        gen_list_free(&list);
+        for (sl_int j = 0; j < N; j++) {
+            for (sl_int p = M.p[j]; p < M.p[j + 1]; p++) {
+                rows[p] = M.i[p];
+                columns[p] = j;
+            }
+        }
+        tree_set(&M, parent, w, 0.18, deltas);
+        S = analyze_natural(&M.view, SL_RELAXATION_DEFAULT);
+        SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
+        assert_int_equal(stats.factor.null, 0);
+        w[3] *= 2.0;
+        w[7] *= 0.02;
+        tree_set(&M, parent, w, 0.0, deltas);
+        if (k % 3 == 2) {
+            SL_EXPECT(SL_ERR_PIVOT,
+                      sl_factor_update_entries(F, rows, columns, deltas, ENTRIES, NULL, &stats));
+        }
+        SL_EXPECT(k % 3 > 0 ? SL_OK : SL_ERR_PIVOT,
+                  sl_factor_change(F, &M.view, rows, columns, deltas, ENTRIES, NULL, &stats));
+        assert_true(k % 3 == 0 || stats.factor.null == 1);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
 static void entries_outside_of_L_are_refused(void **state) {
     (void)state;
     enum { N = 64 };
@@ -219,6 +317,8 @@ int main(void) {
         cmocka_unit_test(matrices_of_zeros_have_no_scale),
         cmocka_unit_test(two_vectors_may_store_zeros),
         cmocka_unit_test(a_pivot_of_rounding_is_null),
+        cmocka_unit_test(a_large_entry_may_go),
+        cmocka_unit_test(a_laplacian_may_become_singular),
         cmocka_unit_test(entries_outside_of_L_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

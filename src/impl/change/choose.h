@@ -214,6 +214,9 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
         if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
             c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
             *method = SL_CHANGE_REFACTOR;
+        } else if (status == SL_OK && F->drift > SLI_CHANGE_DRIFT) {
+            c->reason = SL_CHANGE_DRIFT;
+            *method = SL_CHANGE_REFACTOR;
         }
     }
     if (*method == SL_CHANGE_REACH) {
@@ -244,6 +247,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     }
     memset(&c, 0, sizeof c);
     sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+    q.u.least = sli_rank_least(F); /* A decides */
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         c.seeds = SLI_TAKE(&b, uint64_t, count);
         c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);

@@ -337,6 +337,13 @@ static sl_status sli_rank_run(sli_rank *q) {
     return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
 }
 
+/* The largest pivot that the rounding of heavier rows may have made of a null one. */
+static double sli_rank_least(const sl_factor *F) {
+    return F->rule.null_tolerance < 0.0 || F->rule.regularization != 0.0
+               ? 0.0
+               : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
+}
+
 /* Starts a change of F. */
 static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
     const sl_factor_info *info = &F->stats.factor;
@@ -345,6 +352,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
     q->stats = stats;
     q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
     q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
+    q->u.least = F->null_pivots == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
 }
 
 /* Reports a change. */

@@ -27,7 +27,8 @@ typedef struct sli_update {
     sl_int lanes;    /* that hold the vectors of the pass */
     int kind;
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
-    double fall;   /* by at most this much the pass reduces the largest |a| */
+    double fall;   /* by at most this much the pass changes the largest |a| */
+    double least;  /* a smaller pivot may be null, and is refused where it was larger */
     double top;    /* the largest new pivot */
     double entry;  /* the largest |a| that is known of the columns of the pass */
     double growth; /* the largest growth of rows in them */
@@ -134,7 +135,8 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         return SL_ERR_NOT_FINITE;
     }
     if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-        (fabs(e) < fabs(d) && sli_update_is_null(F, k, e, magnitude))) {
+        (fabs(e) < fabs(d) &&
+         (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
         return SL_ERR_PIVOT;
     }
     if (!u->is_trial) {
@@ -165,7 +167,8 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
         }
         if ((e[j] < 0.0) == (d < 0.0) && size >= DBL_MIN && size <= DBL_MAX &&
             size <= 4.0 * fabs(d) &&
-            (size >= fabs(d) || u->is_tried || !sli_is_null(e[j], magnitude + known, tolerance))) {
+            (size >= fabs(d) || u->is_tried ||
+             (size > u->least && !sli_is_null(e[j], magnitude + known, tolerance)))) {
             if (!u->is_trial) {
                 most = magnitude > most ? magnitude : most;
                 least = size < least ? size : least;
@@ -336,6 +339,27 @@ static sl_int sli_update_first(const sl_symbolic *S, const sl_csc *V, sl_int v) 
     return first;
 }
 
+/* The largest change of an entry of A by the vectors that are loaded, where pivots have both signs.
+ * What two vectors change in one entry off the diagonal is not added up. */
+static double sli_update_largest(const sli_update *u, sl_int count) {
+    double first[SLI_TILE] = {0.0}, second[SLI_TILE] = {0.0}, most = 0.0;
+    sl_int k, r;
+    for (k = 0; k < u->R.columns; k++) {
+        double sum = 0.0;
+        for (r = 0; r < count; r++) {
+            const double x = fabs(u->x[(ptrdiff_t)k * u->lanes + r]);
+            sum += u->state->alpha[r] * x * x;
+            second[r] = fmax(second[r], fmin(first[r], x));
+            first[r] = fmax(first[r], x);
+        }
+        most = fmax(most, fabs(sum));
+    }
+    for (r = 0; r < count; r++) {
+        most = fmax(most, fabs(u->state->alpha[r]) * first[r] * second[r]);
+    }
+    return most;
+}
+
 /* Loads the vectors of a pass, whose reach is compiled. group: their numbers. */
 static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     const sl_symbolic *S = u->F->S;
@@ -367,6 +391,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
         }
         u->fall += u->sign * alpha > 0.0 ? 0.0 : fabs(alpha) * most;
     }
+    u->fall = u->sign == 0.0 ? sli_update_largest(u, count) : u->fall;
 }
 
 /* Checks the pivots of a pass that is loaded, with F as it is: they depend on L^-1 W alone. A
