@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9318b0cb32f51627
+ * FNV-1a of the lines after this comment, without the license: 7a3a03e46c812b75
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -54,39 +54,39 @@
  *  14055 pivot_search.h  14401 pivoted.h  14470 scatter.h  14628 uplooking.h  14700 null_product.h
  *  14904 null_dense.h  14981 null_basis.h  15301 null_vectors.h  15443 multifrontal.h
  *  15637 gather.h  15685 kept.h  15855 front_tasks.h  16198 null_center.h  16322 nullspace.h
- *  16529 growth.h  16607 factor_setup.h  16933 factor.h  17148 leftlooking.h  17302 factor_query.h
- *  17437 combination.h
+ *  16529 growth.h  16607 factor_setup.h  16947 factor.h  17162 leftlooking.h  17316 factor_query.h
+ *  17451 combination.h
  * (solve: full and local solves)
- *  17498 region_types.h  17602 work.h  17702 query.h  17920 singular.h  18180 backward.h
- *  18210 sweep_tasks.h  18541 sweep.h  18749 compile.h  18942 plan.h  19049 local.h  19201 parts.h
- *  19490 refine.h  19669 refine_local.h  19885 rcond.h  20044 defects.h
+ *  17512 region_types.h  17616 work.h  17716 query.h  17934 singular.h  18194 backward.h
+ *  18224 sweep_tasks.h  18555 sweep.h  18763 compile.h  18956 plan.h  19063 local.h  19215 parts.h
+ *  19504 refine.h  19683 refine_local.h  19899 rcond.h  20058 defects.h
  * (inverse: entries of the inverse, regions)
- *  20103 traversal.h  20352 traversal_run.h  20545 row_sets.h  20579 unit_vectors.h
- *  20806 bilinear.h  20978 entries.h  21255 block.h  21490 reserve.h  21682 selected.h
- *  21892 selected_query.h  21994 region_choose.h  22221 region.h
+ *  20117 traversal.h  20366 traversal_run.h  20559 row_sets.h  20593 unit_vectors.h
+ *  20820 bilinear.h  20992 entries.h  21269 block.h  21504 reserve.h  21696 selected.h
+ *  21906 selected_query.h  22008 region_choose.h  22235 region.h
  * (change: a factor that follows changes of its matrix)
- *  22469 update.h  22860 path.h  22979 rank.h  23364 edges.h  23518 choose.h  23769 pins_types.h
- *  23835 pins_nulls.h  24018 pins_capacitance.h  24272 pins_balance.h  24451 pins_held.h
- *  24667 pins_choose.h  24729 pins_rebuild.h  24947 pins_matrix.h  25098 pins.h  25367 pins_solve.h
- *  25640 subset.h  25768 restrict_kept.h  25966 restrict_analysis.h  26212 restrict_symbolic.h
- *  26407 restrict.h  26638 edit_match.h  26837 edit_place.h  27086 edit_separate.h
- *  27400 edit_order.h  27555 edit_graph.h  27637 edit_join.h  27913 edit.h  28076 edit_factor.h
+ *  22483 update.h  22874 path.h  22993 rank.h  23378 edges.h  23532 choose.h  23783 pins_types.h
+ *  23849 pins_nulls.h  24032 pins_capacitance.h  24286 pins_balance.h  24465 pins_held.h
+ *  24681 pins_choose.h  24743 pins_rebuild.h  24961 pins_matrix.h  25112 pins.h  25381 pins_solve.h
+ *  25654 subset.h  25782 restrict_kept.h  25980 restrict_analysis.h  26226 restrict_symbolic.h
+ *  26421 restrict.h  26652 edit_match.h  26851 edit_place.h  27100 edit_separate.h
+ *  27414 edit_order.h  27569 edit_graph.h  27651 edit_join.h  27927 edit.h  28090 edit_factor.h
  * (save: factors in files)
- *  28361 format.h  28658 decode.h  28806 check.h  29136 write.h  29441 load.h  29709 load_inverse.h
- *  30039 load_calls.h
+ *  28375 format.h  28672 decode.h  28820 check.h  29150 write.h  29455 load.h  29723 load_inverse.h
+ *  30053 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30238 batch_solve.h  30447 batch_factor.h  30648 batch_diagonal.h
+ *  30252 batch_solve.h  30461 batch_factor.h  30662 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30788 hermitian.h  30950 complex_rows.h
+ *  30802 hermitian.h  30964 complex_rows.h
  * (last: undefine every internal macro)
- *  31118 undef.h
+ *  31132 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31406 front.inl.h  31408 product.inl.h  31919 copy_rows.inl.h  31957 sweeps.inl.h
- *  31959 unit_triangle.inl.h  31996 two_rhs.inl.h  32170 small_supernode.inl.h
- *  32372 single_rhs.inl.h  32612 multi_rhs.inl.h  32631 complex_groups.inl.h
- *  32770 multi_rhs_small.inl.h  32942 multi_rhs_tiles.inl.h  33219 kernel_set.inl.h
- *  33221 complex_small.inl.h  33411 complex_rows.inl.h  33626 inverse_front.inl.h  33911 row.inl.h
- *  33941 change.inl.h  34184 interleave.inl.h  34318 lanes_undef.inl.h  34337 words_undef.inl.h
+ *  31420 front.inl.h  31422 product.inl.h  31933 copy_rows.inl.h  31971 sweeps.inl.h
+ *  31973 unit_triangle.inl.h  32010 two_rhs.inl.h  32184 small_supernode.inl.h
+ *  32386 single_rhs.inl.h  32626 multi_rhs.inl.h  32645 complex_groups.inl.h
+ *  32784 multi_rhs_small.inl.h  32956 multi_rhs_tiles.inl.h  33233 kernel_set.inl.h
+ *  33235 complex_small.inl.h  33425 complex_rows.inl.h  33640 inverse_front.inl.h  33925 row.inl.h
+ *  33955 change.inl.h  34198 interleave.inl.h  34332 lanes_undef.inl.h  34351 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -342,7 +342,7 @@ typedef enum sl_isa {
 
 /** Factorization methods. Both compute the same L up to rounding. */
 typedef enum sl_method {
-    SL_METHOD_AUTO = 0,   /* the faster one, judged by flops per supernode */
+    SL_METHOD_AUTO = 0,   /* the faster one, judged by flops and memory of fronts */
     SL_METHOD_UP_LOOKING, /* row by row, little memory beyond L: nearly diagonal patterns, stars */
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
@@ -16836,6 +16836,19 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
   return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
+static int sli_updates_exceed(const sl_symbolic *S) {
+  const sl_off most = (sl_off)fmax(8.0 * (double)S->panel_begin[S->n_supers], 1e6);
+  sl_off sum = 0;
+  sl_int s, c;
+  for (s = 0; s < S->n_supers && sum <= most; s++) {
+    sum = 0;
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+      sum += sli_update_size(&S->steps[c]);
+    }
+  }
+  return sum > most;
+}
+
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
   if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
     return SL_METHOD_SUPERNODAL;
@@ -16843,8 +16856,9 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
     return opt->method;
   }
-  return S->stats.symbolic.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING
-                             : SL_METHOD_SUPERNODAL;
+  return S->stats.symbolic.flops < 8.0 * S->n_supers || sli_updates_exceed(S)
+         ? SL_METHOD_UP_LOOKING
+         : SL_METHOD_SUPERNODAL;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {

@@ -105,7 +105,7 @@ typedef enum sl_isa {
 
 /** Factorization methods. Both compute the same L up to rounding. */
 typedef enum sl_method {
-    SL_METHOD_AUTO = 0,   /* the faster one, judged by flops per supernode */
+    SL_METHOD_AUTO = 0,   /* the faster one, judged by flops and memory of fronts */
     SL_METHOD_UP_LOOKING, /* row by row, little memory beyond L: nearly diagonal patterns, stars */
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;

@@ -187,6 +187,31 @@ static void the_automatic_method_fits_the_matrix(void **state) {
     }
 }
 
+/* Rows that are joined to 32 others alone: update matrices would take 20 times as much as L. */
+static void dense_rows_do_not_fill_the_memory(void **state) {
+    (void)state;
+    const sl_int n = 20000, dense = 32;
+    gen_list_t list = gen_list(n);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_stats stats;
+    for (sl_int i = 0; i < n; i++) {
+        gen_add(&list, i, i, i < n - dense ? dense + 1.0 : 2.0 * n);
+        for (sl_int k = n - dense; k < n && i < n - dense; k++) {
+            gen_add(&list, k, i, -1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&list, gen_style(0), 1);
+    gen_list_free(&list);
+    memset(&stats, 0, sizeof stats);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, &stats));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, &stats));
+    assert_true((double)stats.factor.bytes <= 16.0 * (double)stats.symbolic.nnz_panels + 200.0 * n);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_methods_agree_to_rounding),
@@ -194,6 +219,7 @@ int main(void) {
         cmocka_unit_test(update_matrices_with_gaps_are_assembled),
         cmocka_unit_test(extreme_pivots_agree),
         cmocka_unit_test(the_automatic_method_fits_the_matrix),
+        cmocka_unit_test(dense_rows_do_not_fill_the_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -258,9 +258,25 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
     return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
+/* Do more than 8 MB of update matrices wait for one parent, and 8 times as much as L has? */
+static int sli_updates_exceed(const sl_symbolic *S) {
+    const sl_off most = (sl_off)fmax(8.0 * (double)S->panel_begin[S->n_supers], 1e6);
+    sl_off sum = 0;
+    sl_int s, c;
+    for (s = 0; s < S->n_supers && sum <= most; s++) {
+        sum = 0;
+        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+            sum += sli_update_size(&S->steps[c]);
+        }
+    }
+    return sum > most;
+}
+
 /* Chooses the method. A front costs about 50 ns of overhead. Below 8 flops a supernode, as in
  * diagonal matrices and stars, the up-looking method is up to 3.5 times faster; above that, the
- * supernodal method is 1.1 to 6 times faster. */
+ * supernodal method is 1.1 to 6 times faster, unless update matrices fill the memory: with 64 dense
+ * rows beside 1e5 rows of a diagonal, they take 42 times as much as L, and the first factor takes 8
+ * times as long. */
 static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
         return SL_METHOD_SUPERNODAL; /* only fronts have 2x2 pivots, and L before it is stored */
@@ -268,8 +284,9 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
         return opt->method;
     }
-    return S->stats.symbolic.flops < 8.0 * S->n_supers ? SL_METHOD_UP_LOOKING
-                                                       : SL_METHOD_SUPERNODAL;
+    return S->stats.symbolic.flops < 8.0 * S->n_supers || sli_updates_exceed(S)
+               ? SL_METHOD_UP_LOOKING
+               : SL_METHOD_SUPERNODAL;
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
