@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7a3a03e46c812b75
+ * FNV-1a of the lines after this comment, without the license: 68f9835b9b928854
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -65,28 +65,28 @@
  *  20820 bilinear.h  20992 entries.h  21269 block.h  21504 reserve.h  21696 selected.h
  *  21906 selected_query.h  22008 region_choose.h  22235 region.h
  * (change: a factor that follows changes of its matrix)
- *  22483 update.h  22874 path.h  22993 rank.h  23378 edges.h  23532 choose.h  23783 pins_types.h
- *  23849 pins_nulls.h  24032 pins_capacitance.h  24286 pins_balance.h  24465 pins_held.h
- *  24681 pins_choose.h  24743 pins_rebuild.h  24961 pins_matrix.h  25112 pins.h  25381 pins_solve.h
- *  25654 subset.h  25782 restrict_kept.h  25980 restrict_analysis.h  26226 restrict_symbolic.h
- *  26421 restrict.h  26652 edit_match.h  26851 edit_place.h  27100 edit_separate.h
- *  27414 edit_order.h  27569 edit_graph.h  27651 edit_join.h  27927 edit.h  28090 edit_factor.h
+ *  22483 update.h  22874 path.h  22993 rank.h  23380 edges.h  23534 choose.h  23785 pins_types.h
+ *  23851 pins_nulls.h  24034 pins_capacitance.h  24288 pins_balance.h  24467 pins_held.h
+ *  24683 pins_choose.h  24745 pins_rebuild.h  24963 pins_matrix.h  25114 pins.h  25383 pins_solve.h
+ *  25656 subset.h  25784 restrict_kept.h  25982 restrict_analysis.h  26228 restrict_symbolic.h
+ *  26423 restrict.h  26654 edit_match.h  26853 edit_place.h  27102 edit_separate.h
+ *  27416 edit_order.h  27571 edit_graph.h  27653 edit_join.h  27929 edit.h  28092 edit_factor.h
  * (save: factors in files)
- *  28375 format.h  28672 decode.h  28820 check.h  29150 write.h  29455 load.h  29723 load_inverse.h
- *  30053 load_calls.h
+ *  28377 format.h  28674 decode.h  28822 check.h  29152 write.h  29457 load.h  29725 load_inverse.h
+ *  30055 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30252 batch_solve.h  30461 batch_factor.h  30662 batch_diagonal.h
+ *  30254 batch_solve.h  30463 batch_factor.h  30664 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30802 hermitian.h  30964 complex_rows.h
+ *  30804 hermitian.h  30966 complex_rows.h
  * (last: undefine every internal macro)
- *  31132 undef.h
+ *  31134 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31420 front.inl.h  31422 product.inl.h  31933 copy_rows.inl.h  31971 sweeps.inl.h
- *  31973 unit_triangle.inl.h  32010 two_rhs.inl.h  32184 small_supernode.inl.h
- *  32386 single_rhs.inl.h  32626 multi_rhs.inl.h  32645 complex_groups.inl.h
- *  32784 multi_rhs_small.inl.h  32956 multi_rhs_tiles.inl.h  33233 kernel_set.inl.h
- *  33235 complex_small.inl.h  33425 complex_rows.inl.h  33640 inverse_front.inl.h  33925 row.inl.h
- *  33955 change.inl.h  34198 interleave.inl.h  34332 lanes_undef.inl.h  34351 words_undef.inl.h
+ *  31422 front.inl.h  31424 product.inl.h  31935 copy_rows.inl.h  31973 sweeps.inl.h
+ *  31975 unit_triangle.inl.h  32012 two_rhs.inl.h  32186 small_supernode.inl.h
+ *  32388 single_rhs.inl.h  32628 multi_rhs.inl.h  32647 complex_groups.inl.h
+ *  32786 multi_rhs_small.inl.h  32958 multi_rhs_tiles.inl.h  33235 kernel_set.inl.h
+ *  33237 complex_small.inl.h  33427 complex_rows.inl.h  33642 inverse_front.inl.h  33927 row.inl.h
+ *  33957 change.inl.h  34200 interleave.inl.h  34334 lanes_undef.inl.h  34353 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22924,7 +22924,7 @@ static sl_status sli_path_take(sli_update *u, sl_int k, sl_int count, const doub
   sl_int j;
   for (j = 0; j < count; j++) {
     const double d = fabs(D[j]), size = fabs(e[j]);
-    if (!(size >= d && size <= 4.0 * d && size >= DBL_MIN && size <= DBL_MAX)) {
+    if (!(size >= d && 0.25 * size <= d)) {
       break;
     }
     top = size > top && size != d ? size : top;
@@ -23106,6 +23106,7 @@ static void sli_rank_sort(void *data) {
   const sl_symbolic *S = q->u.F->S;
   const sl_csc *V = q->u.V;
   sl_int v, rest = 0;
+  int may_fail;
   q->count = 0;
   for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
     const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
@@ -23135,9 +23136,10 @@ static void sli_rank_sort(void *data) {
   }
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-  q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE) ||
+  may_fail = rest > 0 || q->u.F->stats.factor.pivot_min < DBL_MIN;
+  q->has_log = q->u.sign == 0.0 || (may_fail && q->count > SLI_TILE) ||
          q->u.F->growth_limit < 2.0;
-  q->has_trial = rest > 0 && !q->has_log;
+  q->has_trial = may_fail && !q->has_log;
   sli_rank_measure(q);
 }
 

@@ -183,7 +183,6 @@ static void a_pivot_of_rounding_is_null(void **state) {
     sl_symbolic_free(S);
 }
 
-/* A vector of two rows is accepted if L has their entry, and only then. */
 /* The largest entry of a component goes: most of what its pivots were computed from is rounding. */
 static void a_large_entry_may_go(void **state) {
     (void)state;
@@ -282,6 +281,7 @@ static void a_laplacian_may_become_singular(void **state) {
     }
 }
 
+/* A vector of two rows is accepted if L has their entry, and only then. */
 static void entries_outside_of_L_are_refused(void **state) {
     (void)state;
     enum { N = 64 };
@@ -308,6 +308,69 @@ static void entries_outside_of_L_are_refused(void **state) {
     factored_free(&y);
 }
 
+/* Changes a 1 x 1 matrix by `count` equal vectors. An update whose pivot stays subnormal is refused
+ * and changes no bit; one that overflows leaves no numbers. */
+static void check_tiny_and_huge(sl_int count, sl_isa isa) {
+    static const struct {
+        double pivot, entry;
+        sl_status status;
+    } cases[4] = {{1e-310, 1e-156, SL_ERR_PIVOT},
+                  {1e-310, 2e-154, SL_OK},
+                  {1e307, 1e152, SL_OK},
+                  {1e308, 1.2e154, SL_ERR_NOT_FINITE}};
+    const sl_int p[2] = {0, 1}, i[1] = {0};
+    sl_int *q = test_ints((size_t)count + 1), *rows = test_ints((size_t)count);
+    double *x = test_reals((size_t)count);
+    for (sl_int k = 0; k < count; k++) {
+        q[k + 1] = k + 1;
+    }
+    for (int k = 0; k < 4; k++) {
+        const sl_csc A = {1, 1, p, i, &cases[k].pivot}, V = {1, count, q, rows, x};
+        const double w = cases[k].entry, wanted = cases[k].pivot + (double)count * (w * w);
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        sl_stats stats;
+        for (sl_int m = 0; m < count; m++) {
+            x[m] = w;
+        }
+        opt.isa = isa;
+        SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+        const double *D = sl_factor_view(F).D;
+        SL_EXPECT(cases[k].status, sl_factor_update(F, &V, NULL, NULL, &stats));
+        double b = D[0], y = 0.0;
+        if (cases[k].status == SL_OK) {
+            assert_true(fabs(D[0] - wanted) <= 16.0 * DBL_EPSILON * wanted);
+        } else {
+            assert_int_equal(stats.error.row, 0);
+        }
+        if (cases[k].status == SL_ERR_NOT_FINITE) {
+            SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, &y, 1, &b, 1, 1, NULL));
+            SL_CHECK(sl_factor_refactor(F, &A, NULL));
+            b = D[0];
+        }
+        assert_true(cases[k].status == SL_OK || D[0] == cases[k].pivot);
+        SL_CHECK(sl_factor_solve(F, &y, 1, &b, 1, 1, NULL));
+        assert_true(fabs(y - 1.0) <= 4.0 * DBL_EPSILON);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+    free(q);
+    free(rows);
+    free(x);
+}
+
+static void tiny_and_huge_pivots_change(void **state) {
+    (void)state;
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        check_tiny_and_huge(1, isas.isa[k]);
+        check_tiny_and_huge(2, isas.isa[k]);
+        check_tiny_and_huge(9, isas.isa[k]); /* two passes */
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drift_is_relative_to_what_remains),
@@ -319,6 +382,7 @@ int main(void) {
         cmocka_unit_test(a_pivot_of_rounding_is_null),
         cmocka_unit_test(a_large_entry_may_go),
         cmocka_unit_test(a_laplacian_may_become_singular),
+        cmocka_unit_test(tiny_and_huge_pivots_change),
         cmocka_unit_test(entries_outside_of_L_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -131,6 +131,7 @@ static void sli_rank_sort(void *data) {
     const sl_symbolic *S = q->u.F->S;
     const sl_csc *V = q->u.V;
     sl_int v, rest = 0;
+    int may_fail;
     q->count = 0;
     for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
         const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
@@ -160,9 +161,11 @@ static void sli_rank_sort(void *data) {
     }
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-    q->has_log = q->u.sign == 0.0 || (rest > 0 && q->count > SLI_TILE) ||
+    /* pivots that grow are refused only where they stay subnormal */
+    may_fail = rest > 0 || q->u.F->stats.factor.pivot_min < DBL_MIN;
+    q->has_log = q->u.sign == 0.0 || (may_fail && q->count > SLI_TILE) ||
                  q->u.F->growth_limit < 2.0; /* else pivots of one sign do not exceed it */
-    q->has_trial = rest > 0 && !q->has_log;
+    q->has_trial = may_fail && !q->has_log;
     sli_rank_measure(q);
 }
 
