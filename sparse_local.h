@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 68f9835b9b928854
+ * FNV-1a of the lines after this comment, without the license: 45c1e591897be485
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,69 +24,69 @@
  *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2634 change.h     a factor that follows small changes of its matrix
- *   2728 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2879 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3010 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3065 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2726 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2877 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3008 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3063 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3158 base.h   3454 status.h   3515 options.h   3574 alloc.h   3737 hash.h   3867 file_map.h
- *   3964 sort.h   4028 parallel.h
+ *   3156 base.h   3452 status.h   3513 options.h   3572 alloc.h   3735 hash.h   3865 file_map.h
+ *   3962 sort.h   4026 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4224 panel.h   4249 step.h   4328 pivot_rule.h   4402 front.h   4463 pairs.h
- *   4670 inverse_front.h   4742 table.h   4791 simd.h   4887 simd_scalar_single.h
- *   4931 simd_scalar.h   5057 simd_avx2_single.h   5109 simd_avx2.h   5335 simd_avx512_single.h
- *   5389 simd_avx512.h   5555 simd_neon_single.h   5595 simd_neon.h   5815 dispatch.h
+ *   4222 panel.h   4247 step.h   4326 pivot_rule.h   4400 front.h   4461 pairs.h
+ *   4668 inverse_front.h   4740 table.h   4789 simd.h   4885 simd_scalar_single.h
+ *   4929 simd_scalar.h   5055 simd_avx2_single.h   5107 simd_avx2.h   5333 simd_avx512_single.h
+ *   5387 simd_avx512.h   5553 simd_neon_single.h   5593 simd_neon.h   5813 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5908 csc.h   6051 csc_build.h   6185 csc64.h   6256 csc_triangle.h   6321 csc_products.h
- *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 text_reader.h   6976 matrix_market.h
+ *   5906 csc.h   6049 csc_build.h   6183 csc64.h   6254 csc_triangle.h   6319 csc_products.h
+ *   6436 permute.h   6502 sum.h   6584 output_file.h   6793 text_reader.h   6974 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7244 graph.h   7361 contract.h   7615 coarsen.h   7779 labels.h   8001 subgraph.h   8195 heap.h
- *   8257 bisect.h   8465 separator.h   8727 mindeg.h   8910 dissect.h   9245 tree_cost.h
- *   9297 levelset.h   9405 geometric.h   9580 cells.h   9760 septree.h   9836 metis.h
- *   9985 metis_refined.h  10100 nd.h  10300 compress.h  10421 levels.h  10474 border.h
- *  10527 forest.h  10614 peel.h  10814 quotient.h  11231 graph_kind.h  11302 order.h
+ *   7242 graph.h   7359 contract.h   7613 coarsen.h   7777 labels.h   7999 subgraph.h   8193 heap.h
+ *   8255 bisect.h   8463 separator.h   8725 mindeg.h   8908 dissect.h   9243 tree_cost.h
+ *   9295 levelset.h   9403 geometric.h   9578 cells.h   9758 septree.h   9834 metis.h
+ *   9983 metis_refined.h  10098 nd.h  10298 compress.h  10419 levels.h  10472 border.h
+ *  10525 forest.h  10612 peel.h  10812 quotient.h  11229 graph_kind.h  11300 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11627 symbolic_types.h  11664 etree.h  11857 supernodes.h  12111 pattern.h  12193 structure.h
- *  12461 schedule.h  12741 symbolic.h  13209 reach.h
+ *  11625 symbolic_types.h  11662 etree.h  11855 supernodes.h  12109 pattern.h  12191 structure.h
+ *  12459 schedule.h  12739 symbolic.h  13207 reach.h
  * (factor: the numbers of L and D)
- *  13485 factor_types.h  13688 panel_load.h  13801 pivot_check.h  13917 storage.h
- *  14055 pivot_search.h  14401 pivoted.h  14470 scatter.h  14628 uplooking.h  14700 null_product.h
- *  14904 null_dense.h  14981 null_basis.h  15301 null_vectors.h  15443 multifrontal.h
- *  15637 gather.h  15685 kept.h  15855 front_tasks.h  16198 null_center.h  16322 nullspace.h
- *  16529 growth.h  16607 factor_setup.h  16947 factor.h  17162 leftlooking.h  17316 factor_query.h
- *  17451 combination.h
+ *  13483 factor_types.h  13686 panel_load.h  13799 pivot_check.h  13915 storage.h
+ *  14053 pivot_search.h  14399 pivoted.h  14468 scatter.h  14626 uplooking.h  14698 null_product.h
+ *  14902 null_dense.h  14979 null_basis.h  15299 null_vectors.h  15441 multifrontal.h
+ *  15635 gather.h  15683 kept.h  15853 front_tasks.h  16196 null_center.h  16320 nullspace.h
+ *  16527 growth.h  16605 factor_setup.h  16945 factor.h  17160 leftlooking.h  17314 factor_query.h
+ *  17449 combination.h
  * (solve: full and local solves)
- *  17512 region_types.h  17616 work.h  17716 query.h  17934 singular.h  18194 backward.h
- *  18224 sweep_tasks.h  18555 sweep.h  18763 compile.h  18956 plan.h  19063 local.h  19215 parts.h
- *  19504 refine.h  19683 refine_local.h  19899 rcond.h  20058 defects.h
+ *  17510 region_types.h  17614 work.h  17714 query.h  17932 singular.h  18192 backward.h
+ *  18222 sweep_tasks.h  18553 sweep.h  18761 compile.h  18954 plan.h  19061 local.h  19213 parts.h
+ *  19502 refine.h  19681 refine_local.h  19897 rcond.h  20056 defects.h
  * (inverse: entries of the inverse, regions)
- *  20117 traversal.h  20366 traversal_run.h  20559 row_sets.h  20593 unit_vectors.h
- *  20820 bilinear.h  20992 entries.h  21269 block.h  21504 reserve.h  21696 selected.h
- *  21906 selected_query.h  22008 region_choose.h  22235 region.h
+ *  20115 traversal.h  20364 traversal_run.h  20557 row_sets.h  20591 unit_vectors.h
+ *  20818 bilinear.h  20990 entries.h  21267 block.h  21502 reserve.h  21694 selected.h
+ *  21904 selected_query.h  22006 region_choose.h  22233 region.h
  * (change: a factor that follows changes of its matrix)
- *  22483 update.h  22874 path.h  22993 rank.h  23380 edges.h  23534 choose.h  23785 pins_types.h
- *  23851 pins_nulls.h  24034 pins_capacitance.h  24288 pins_balance.h  24467 pins_held.h
- *  24683 pins_choose.h  24745 pins_rebuild.h  24963 pins_matrix.h  25114 pins.h  25383 pins_solve.h
- *  25656 subset.h  25784 restrict_kept.h  25982 restrict_analysis.h  26228 restrict_symbolic.h
- *  26423 restrict.h  26654 edit_match.h  26853 edit_place.h  27102 edit_separate.h
- *  27416 edit_order.h  27571 edit_graph.h  27653 edit_join.h  27929 edit.h  28092 edit_factor.h
+ *  22481 update.h  22872 path.h  22991 rank.h  23382 edges.h  23536 choose.h  23787 pins_types.h
+ *  23853 pins_nulls.h  24036 pins_capacitance.h  24290 pins_balance.h  24469 pins_held.h
+ *  24685 pins_choose.h  24747 pins_rebuild.h  24965 pins_matrix.h  25116 pins.h  25385 pins_solve.h
+ *  25658 subset.h  25786 restrict_kept.h  25984 restrict_analysis.h  26230 restrict_symbolic.h
+ *  26425 restrict.h  26656 edit_match.h  26855 edit_place.h  27104 edit_separate.h
+ *  27418 edit_order.h  27573 edit_graph.h  27655 edit_join.h  27931 edit.h  28094 edit_factor.h
  * (save: factors in files)
- *  28377 format.h  28674 decode.h  28822 check.h  29152 write.h  29457 load.h  29725 load_inverse.h
- *  30055 load_calls.h
+ *  28379 format.h  28676 decode.h  28824 check.h  29154 write.h  29459 load.h  29727 load_inverse.h
+ *  30057 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30254 batch_solve.h  30463 batch_factor.h  30664 batch_diagonal.h
+ *  30256 batch_solve.h  30465 batch_factor.h  30666 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30804 hermitian.h  30966 complex_rows.h
+ *  30806 hermitian.h  30968 complex_rows.h
  * (last: undefine every internal macro)
- *  31134 undef.h
+ *  31136 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31422 front.inl.h  31424 product.inl.h  31935 copy_rows.inl.h  31973 sweeps.inl.h
- *  31975 unit_triangle.inl.h  32012 two_rhs.inl.h  32186 small_supernode.inl.h
- *  32388 single_rhs.inl.h  32628 multi_rhs.inl.h  32647 complex_groups.inl.h
- *  32786 multi_rhs_small.inl.h  32958 multi_rhs_tiles.inl.h  33235 kernel_set.inl.h
- *  33237 complex_small.inl.h  33427 complex_rows.inl.h  33642 inverse_front.inl.h  33927 row.inl.h
- *  33957 change.inl.h  34200 interleave.inl.h  34334 lanes_undef.inl.h  34353 words_undef.inl.h
+ *  31424 front.inl.h  31426 product.inl.h  31937 copy_rows.inl.h  31975 sweeps.inl.h
+ *  31977 unit_triangle.inl.h  32014 two_rhs.inl.h  32188 small_supernode.inl.h
+ *  32390 single_rhs.inl.h  32630 multi_rhs.inl.h  32649 complex_groups.inl.h
+ *  32788 multi_rhs_small.inl.h  32960 multi_rhs_tiles.inl.h  33237 kernel_set.inl.h
+ *  33239 complex_small.inl.h  33429 complex_rows.inl.h  33644 inverse_front.inl.h  33929 row.inl.h
+ *  33959 change.inl.h  34202 interleave.inl.h  34336 lanes_undef.inl.h  34355 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2643,10 +2643,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
  *
  *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
- *  first, and the others fail only if the changed matrix is not definite, up to rounding. With
- *  SL_NULL_PIVOT_SKIP they also fail where a pivot shrinks to what rounding of the heaviest rows
- *  leaves of a null one: refactor then. With pivots of both signs a change may also fail because it
- *  meets a null pivot on its way.
+ *  first, and the others fail only if the changed matrix is not definite, up to rounding: with
+ *  SL_NULL_PIVOT_SKIP that of the heaviest rows. With pivots of both signs a change may also fail
+ *  because it meets a null pivot on its way.
  *
  *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
  *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
@@ -2702,10 +2701,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
  *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
- *  has reached 1e-11, which takes some 40,000 changes of moderate size. If one change has this
- *  effect, as where the largest entry goes, a refactorization follows it. Where they are refused
- *  because a pivot changes its sign, or may be null, a refactorization decides whether A can be
- *  factored.
+ *  has reached 1e-11, which takes some 40,000 changes of moderate size, or one by which the largest
+ *  entry goes: then a refactorization follows it. Where they are refused because a pivot changes
+ *  its sign or may be null, a refactorization decides whether A can be factored.
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
@@ -16403,8 +16401,8 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   F->ratios[m] = 1.0;
   if (F->g[anchor] != 0.0) {
     for (k = first; k <= root; k++) {
-      const double m_k = F->divisors[k];
-      const double term = m_k != 0.0 ? F->z[k] / F->z[anchor] * m_k : 0.0;
+      const double weight = F->divisors[k];
+      const double term = weight != 0.0 ? F->z[k] / F->z[anchor] * weight : 0.0;
       z_m += term;
       size += fabs(term);
     }
@@ -23223,9 +23221,13 @@ static void sli_rank_note(const sli_update *u) {
   const double local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
+  double most = local > 0.0 ? u->most / local : 0.0;
+  if (u->sign == 0.0 && local > 0.0) {
+    most *= fmax(1.0, fmin(64.0, F->scale / local));
+  }
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
-  F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, local > 0.0 ? u->most / local : 0.0);
+  F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, most);
   F->lowest = fmin(F->lowest, scale);
   F->scale = scale;
 }

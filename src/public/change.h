@@ -15,10 +15,9 @@
  *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
  *
  *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
- *  first, and the others fail only if the changed matrix is not definite, up to rounding. With
- *  SL_NULL_PIVOT_SKIP they also fail where a pivot shrinks to what rounding of the heaviest rows
- *  leaves of a null one: refactor then. With pivots of both signs a change may also fail because it
- *  meets a null pivot on its way.
+ *  first, and the others fail only if the changed matrix is not definite, up to rounding: with
+ *  SL_NULL_PIVOT_SKIP that of the heaviest rows. With pivots of both signs a change may also fail
+ *  because it meets a null pivot on its way.
  *
  *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
  *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
@@ -74,10 +73,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *
  *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
  *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
- *  has reached 1e-11, which takes some 40,000 changes of moderate size. If one change has this
- *  effect, as where the largest entry goes, a refactorization follows it. Where they are refused
- *  because a pivot changes its sign, or may be null, a refactorization decides whether A can be
- *  factored.
+ *  has reached 1e-11, which takes some 40,000 changes of moderate size, or one by which the largest
+ *  entry goes: then a refactorization follows it. Where they are refused because a pivot changes
+ *  its sign or may be null, a refactorization decides whether A can be factored.
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.

@@ -121,8 +121,8 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     F->ratios[m] = 1.0;
     if (F->g[anchor] != 0.0) {
         for (k = first; k <= root; k++) {
-            const double m_k = F->divisors[k];
-            const double term = m_k != 0.0 ? F->z[k] / F->z[anchor] * m_k : 0.0;
+            const double weight = F->divisors[k];
+            const double term = weight != 0.0 ? F->z[k] / F->z[anchor] * weight : 0.0;
             z_m += term;
             size += fabs(term);
         }
