@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 45c1e591897be485
+ * FNV-1a of the lines after this comment, without the license: 8d233d3c4bf4a751
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,46 +47,46 @@
  *   9983 metis_refined.h  10098 nd.h  10298 compress.h  10419 levels.h  10472 border.h
  *  10525 forest.h  10612 peel.h  10812 quotient.h  11229 graph_kind.h  11300 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11625 symbolic_types.h  11662 etree.h  11855 supernodes.h  12109 pattern.h  12191 structure.h
- *  12459 schedule.h  12739 symbolic.h  13207 reach.h
+ *  11625 symbolic_types.h  11662 etree.h  11855 supernodes.h  12109 pattern.h  12192 structure.h
+ *  12460 schedule.h  12740 symbolic.h  13210 reach.h
  * (factor: the numbers of L and D)
- *  13483 factor_types.h  13686 panel_load.h  13799 pivot_check.h  13915 storage.h
- *  14053 pivot_search.h  14399 pivoted.h  14468 scatter.h  14626 uplooking.h  14698 null_product.h
- *  14902 null_dense.h  14979 null_basis.h  15299 null_vectors.h  15441 multifrontal.h
- *  15635 gather.h  15683 kept.h  15853 front_tasks.h  16196 null_center.h  16320 nullspace.h
- *  16527 growth.h  16605 factor_setup.h  16945 factor.h  17160 leftlooking.h  17314 factor_query.h
- *  17449 combination.h
+ *  13486 factor_types.h  13689 panel_load.h  13802 pivot_check.h  13918 storage.h
+ *  14056 pivot_search.h  14402 pivoted.h  14471 scatter.h  14629 uplooking.h  14701 null_product.h
+ *  14905 null_dense.h  14982 null_basis.h  15302 null_vectors.h  15444 multifrontal.h
+ *  15638 gather.h  15686 kept.h  15856 front_tasks.h  16199 null_center.h  16323 nullspace.h
+ *  16530 growth.h  16608 factor_setup.h  16948 factor.h  17163 leftlooking.h  17317 factor_query.h
+ *  17452 combination.h
  * (solve: full and local solves)
- *  17510 region_types.h  17614 work.h  17714 query.h  17932 singular.h  18192 backward.h
- *  18222 sweep_tasks.h  18553 sweep.h  18761 compile.h  18954 plan.h  19061 local.h  19213 parts.h
- *  19502 refine.h  19681 refine_local.h  19897 rcond.h  20056 defects.h
+ *  17513 region_types.h  17617 work.h  17717 query.h  17935 singular.h  18195 backward.h
+ *  18225 sweep_tasks.h  18556 sweep.h  18764 compile.h  18957 plan.h  19064 local.h  19216 parts.h
+ *  19505 refine.h  19684 refine_local.h  19900 rcond.h  20059 defects.h
  * (inverse: entries of the inverse, regions)
- *  20115 traversal.h  20364 traversal_run.h  20557 row_sets.h  20591 unit_vectors.h
- *  20818 bilinear.h  20990 entries.h  21267 block.h  21502 reserve.h  21694 selected.h
- *  21904 selected_query.h  22006 region_choose.h  22233 region.h
+ *  20118 traversal.h  20367 traversal_run.h  20560 row_sets.h  20594 unit_vectors.h
+ *  20821 bilinear.h  20993 entries.h  21270 block.h  21505 reserve.h  21697 selected.h
+ *  21907 selected_query.h  22009 region_choose.h  22236 region.h
  * (change: a factor that follows changes of its matrix)
- *  22481 update.h  22872 path.h  22991 rank.h  23382 edges.h  23536 choose.h  23787 pins_types.h
- *  23853 pins_nulls.h  24036 pins_capacitance.h  24290 pins_balance.h  24469 pins_held.h
- *  24685 pins_choose.h  24747 pins_rebuild.h  24965 pins_matrix.h  25116 pins.h  25385 pins_solve.h
- *  25658 subset.h  25786 restrict_kept.h  25984 restrict_analysis.h  26230 restrict_symbolic.h
- *  26425 restrict.h  26656 edit_match.h  26855 edit_place.h  27104 edit_separate.h
- *  27418 edit_order.h  27573 edit_graph.h  27655 edit_join.h  27931 edit.h  28094 edit_factor.h
+ *  22484 update.h  22875 path.h  22994 rank.h  23385 edges.h  23539 choose.h  23790 pins_types.h
+ *  23856 pins_nulls.h  24039 pins_capacitance.h  24293 pins_balance.h  24472 pins_held.h
+ *  24688 pins_choose.h  24750 pins_rebuild.h  24968 pins_matrix.h  25119 pins.h  25388 pins_solve.h
+ *  25661 subset.h  25789 restrict_kept.h  25987 restrict_analysis.h  26233 restrict_symbolic.h
+ *  26428 restrict.h  26659 edit_match.h  26858 edit_place.h  27107 edit_separate.h
+ *  27421 edit_order.h  27576 edit_graph.h  27658 edit_join.h  27934 edit.h  28097 edit_factor.h
  * (save: factors in files)
- *  28379 format.h  28676 decode.h  28824 check.h  29154 write.h  29459 load.h  29727 load_inverse.h
- *  30057 load_calls.h
+ *  28382 format.h  28679 decode.h  28827 check.h  29157 write.h  29462 load.h  29730 load_inverse.h
+ *  30060 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30256 batch_solve.h  30465 batch_factor.h  30666 batch_diagonal.h
+ *  30259 batch_solve.h  30468 batch_factor.h  30669 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30806 hermitian.h  30968 complex_rows.h
+ *  30809 hermitian.h  30971 complex_rows.h
  * (last: undefine every internal macro)
- *  31136 undef.h
+ *  31139 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31424 front.inl.h  31426 product.inl.h  31937 copy_rows.inl.h  31975 sweeps.inl.h
- *  31977 unit_triangle.inl.h  32014 two_rhs.inl.h  32188 small_supernode.inl.h
- *  32390 single_rhs.inl.h  32630 multi_rhs.inl.h  32649 complex_groups.inl.h
- *  32788 multi_rhs_small.inl.h  32960 multi_rhs_tiles.inl.h  33237 kernel_set.inl.h
- *  33239 complex_small.inl.h  33429 complex_rows.inl.h  33644 inverse_front.inl.h  33929 row.inl.h
- *  33959 change.inl.h  34202 interleave.inl.h  34336 lanes_undef.inl.h  34355 words_undef.inl.h
+ *  31427 front.inl.h  31429 product.inl.h  31940 copy_rows.inl.h  31978 sweeps.inl.h
+ *  31980 unit_triangle.inl.h  32017 two_rhs.inl.h  32191 small_supernode.inl.h
+ *  32393 single_rhs.inl.h  32633 multi_rhs.inl.h  32652 complex_groups.inl.h
+ *  32791 multi_rhs_small.inl.h  32963 multi_rhs_tiles.inl.h  33240 kernel_set.inl.h
+ *  33242 complex_small.inl.h  33432 complex_rows.inl.h  33647 inverse_front.inl.h  33932 row.inl.h
+ *  33962 change.inl.h  34205 interleave.inl.h  34339 lanes_undef.inl.h  34358 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12141,24 +12141,25 @@ typedef struct sli_analysis {
 #define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
 
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
-  const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
+  const sl_int *row = w->A->i, *iperm = w->scratch, side = w->side;
   const sl_int ranges = sli_max(w->workers, 1);
   const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
   sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
   sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-  sl_int *moved = w->spare + 2 * (size_t)p;
+  sl_int *column = w->column, *moved = w->spare;
   if (!is_counted) {
     memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
   }
-  for (; p < end && !is_counted; p++, moved += 2) {
+  for (; p < end && !is_counted; p++) {
     const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-    moved[1] = a + b - k;
-    moved[0] = side * (row[p] - column[p]) >= 0 ? k : w->n;
-    at[moved[0]]++;
+    const sl_int to = side * (row[p] - column[p]) >= 0 ? k : w->n;
+    moved[p] = a + b - k;
+    column[p] = to;
+    at[to]++;
   }
-  for (; p < end; p++, moved += 2) {
-    sl_int *entry = w->columns.entry + 2 * (size_t)at[moved[0]]++;
-    entry[0] = moved[1];
+  for (; p < end; p++) {
+    sl_int *entry = w->columns.entry + 2 * (size_t)at[column[p]]++;
+    entry[0] = moved[p];
     entry[1] = p;
   }
 }
@@ -12928,12 +12929,14 @@ static void sli_analyze_choice(sli_analysis *w, const sl_options *opt, sli_team 
   sl_int *first = w->perm;
   sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
   w->perm = w->choice.other;
+  (void)sli_csc_columns(w->A, w->column);
   sli_analyze_order(w, opt, team, stats);
   sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
   if (entries[1] < entries[0] && paths[1] < paths[0]) {
     w->septree.count = 0;
   } else {
     w->perm = first;
+    (void)sli_csc_columns(w->A, w->column);
     sli_analyze_order(w, opt, team, stats);
   }
 }

@@ -15,7 +15,7 @@ typedef struct sli_analysis {
     double clock;   /* when it was last read */
     const sl_csc *A;
     sli_hash pattern; /* of A */
-    sl_int *column;   /* nnz: of each entry of A */
+    sl_int *column;   /* nnz: of each entry of A; sli_pattern_fill changes them */
     sl_int side;      /* an entry of A is read if side (row - column) >= 0 */
     sli_pattern columns;
     sli_amalgamation amalgamation;
@@ -41,27 +41,28 @@ typedef struct sli_analysis {
 /* The memory of one worker, in sl_int: an even number. */
 #define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
 
-/* Counts or fills the range of entries of one worker. Counting keeps row and column of each entry in
- * the spare memory; n: the column of those that are not read. */
+/* Counts or fills the range of entries of one worker. Counting turns the column of each entry into
+ * that in P A P', or n if it is not read, and keeps its row in the spare memory. */
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
-    const sl_int *row = w->A->i, *column = w->column, *iperm = w->scratch, side = w->side;
+    const sl_int *row = w->A->i, *iperm = w->scratch, side = w->side;
     const sl_int ranges = sli_max(w->workers, 1);
     const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
     sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
     sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-    sl_int *moved = w->spare + 2 * (size_t)p;
+    sl_int *column = w->column, *moved = w->spare;
     if (!is_counted) {
         memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
     }
-    for (; p < end && !is_counted; p++, moved += 2) {
+    for (; p < end && !is_counted; p++) {
         const sl_int a = iperm[row[p]], b = iperm[column[p]], k = sli_min(a, b);
-        moved[1] = a + b - k;
-        moved[0] = side * (row[p] - column[p]) >= 0 ? k : w->n;
-        at[moved[0]]++;
+        const sl_int to = side * (row[p] - column[p]) >= 0 ? k : w->n;
+        moved[p] = a + b - k;
+        column[p] = to;
+        at[to]++;
     }
-    for (; p < end; p++, moved += 2) {
-        sl_int *entry = w->columns.entry + 2 * (size_t)at[moved[0]]++;
-        entry[0] = moved[1];
+    for (; p < end; p++) {
+        sl_int *entry = w->columns.entry + 2 * (size_t)at[column[p]]++;
+        entry[0] = moved[p];
         entry[1] = p;
     }
 }

@@ -207,12 +207,14 @@ static void sli_analyze_choice(sli_analysis *w, const sl_options *opt, sli_team 
     sl_int *first = w->perm;
     sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
     w->perm = w->choice.other;
+    (void)sli_csc_columns(w->A, w->column);
     sli_analyze_order(w, opt, team, stats);
     sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
     if (entries[1] < entries[0] && paths[1] < paths[0]) {
         w->septree.count = 0;
     } else {
         w->perm = first;
+        (void)sli_csc_columns(w->A, w->column);
         sli_analyze_order(w, opt, team, stats);
     }
 }
