@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8d233d3c4bf4a751
+ * FNV-1a of the lines after this comment, without the license: 12df595e18df6c46
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -47,46 +47,46 @@
  *   9983 metis_refined.h  10098 nd.h  10298 compress.h  10419 levels.h  10472 border.h
  *  10525 forest.h  10612 peel.h  10812 quotient.h  11229 graph_kind.h  11300 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11625 symbolic_types.h  11662 etree.h  11855 supernodes.h  12109 pattern.h  12192 structure.h
- *  12460 schedule.h  12740 symbolic.h  13210 reach.h
+ *  11625 symbolic_types.h  11662 etree.h  11859 supernodes.h  12121 pattern.h  12204 structure.h
+ *  12472 schedule.h  12752 symbolic.h  13225 reach.h
  * (factor: the numbers of L and D)
- *  13486 factor_types.h  13689 panel_load.h  13802 pivot_check.h  13918 storage.h
- *  14056 pivot_search.h  14402 pivoted.h  14471 scatter.h  14629 uplooking.h  14701 null_product.h
- *  14905 null_dense.h  14982 null_basis.h  15302 null_vectors.h  15444 multifrontal.h
- *  15638 gather.h  15686 kept.h  15856 front_tasks.h  16199 null_center.h  16323 nullspace.h
- *  16530 growth.h  16608 factor_setup.h  16948 factor.h  17163 leftlooking.h  17317 factor_query.h
- *  17452 combination.h
+ *  13501 factor_types.h  13704 panel_load.h  13817 pivot_check.h  13933 storage.h
+ *  14071 pivot_search.h  14417 pivoted.h  14486 scatter.h  14644 uplooking.h  14716 null_product.h
+ *  14920 null_dense.h  14997 null_basis.h  15317 null_vectors.h  15459 multifrontal.h
+ *  15653 gather.h  15701 kept.h  15871 front_tasks.h  16214 null_center.h  16338 nullspace.h
+ *  16545 growth.h  16623 factor_setup.h  16963 factor.h  17178 leftlooking.h  17332 factor_query.h
+ *  17467 combination.h
  * (solve: full and local solves)
- *  17513 region_types.h  17617 work.h  17717 query.h  17935 singular.h  18195 backward.h
- *  18225 sweep_tasks.h  18556 sweep.h  18764 compile.h  18957 plan.h  19064 local.h  19216 parts.h
- *  19505 refine.h  19684 refine_local.h  19900 rcond.h  20059 defects.h
+ *  17528 region_types.h  17632 work.h  17732 query.h  17950 singular.h  18210 backward.h
+ *  18240 sweep_tasks.h  18571 sweep.h  18779 compile.h  18972 plan.h  19079 local.h  19231 parts.h
+ *  19520 refine.h  19699 refine_local.h  19915 rcond.h  20074 defects.h
  * (inverse: entries of the inverse, regions)
- *  20118 traversal.h  20367 traversal_run.h  20560 row_sets.h  20594 unit_vectors.h
- *  20821 bilinear.h  20993 entries.h  21270 block.h  21505 reserve.h  21697 selected.h
- *  21907 selected_query.h  22009 region_choose.h  22236 region.h
+ *  20133 traversal.h  20382 traversal_run.h  20575 row_sets.h  20609 unit_vectors.h
+ *  20836 bilinear.h  21008 entries.h  21285 block.h  21520 reserve.h  21712 selected.h
+ *  21922 selected_query.h  22024 region_choose.h  22251 region.h
  * (change: a factor that follows changes of its matrix)
- *  22484 update.h  22875 path.h  22994 rank.h  23385 edges.h  23539 choose.h  23790 pins_types.h
- *  23856 pins_nulls.h  24039 pins_capacitance.h  24293 pins_balance.h  24472 pins_held.h
- *  24688 pins_choose.h  24750 pins_rebuild.h  24968 pins_matrix.h  25119 pins.h  25388 pins_solve.h
- *  25661 subset.h  25789 restrict_kept.h  25987 restrict_analysis.h  26233 restrict_symbolic.h
- *  26428 restrict.h  26659 edit_match.h  26858 edit_place.h  27107 edit_separate.h
- *  27421 edit_order.h  27576 edit_graph.h  27658 edit_join.h  27934 edit.h  28097 edit_factor.h
+ *  22499 update.h  22890 path.h  23009 rank.h  23400 edges.h  23554 choose.h  23805 pins_types.h
+ *  23871 pins_nulls.h  24054 pins_capacitance.h  24308 pins_balance.h  24487 pins_held.h
+ *  24703 pins_choose.h  24765 pins_rebuild.h  24983 pins_matrix.h  25134 pins.h  25403 pins_solve.h
+ *  25676 subset.h  25804 restrict_kept.h  26002 restrict_analysis.h  26248 restrict_symbolic.h
+ *  26443 restrict.h  26674 edit_match.h  26873 edit_place.h  27122 edit_separate.h
+ *  27436 edit_order.h  27591 edit_graph.h  27673 edit_join.h  27949 edit.h  28112 edit_factor.h
  * (save: factors in files)
- *  28382 format.h  28679 decode.h  28827 check.h  29157 write.h  29462 load.h  29730 load_inverse.h
- *  30060 load_calls.h
+ *  28397 format.h  28694 decode.h  28842 check.h  29172 write.h  29477 load.h  29745 load_inverse.h
+ *  30075 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30259 batch_solve.h  30468 batch_factor.h  30669 batch_diagonal.h
+ *  30274 batch_solve.h  30483 batch_factor.h  30684 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30809 hermitian.h  30971 complex_rows.h
+ *  30824 hermitian.h  30986 complex_rows.h
  * (last: undefine every internal macro)
- *  31139 undef.h
+ *  31154 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31427 front.inl.h  31429 product.inl.h  31940 copy_rows.inl.h  31978 sweeps.inl.h
- *  31980 unit_triangle.inl.h  32017 two_rhs.inl.h  32191 small_supernode.inl.h
- *  32393 single_rhs.inl.h  32633 multi_rhs.inl.h  32652 complex_groups.inl.h
- *  32791 multi_rhs_small.inl.h  32963 multi_rhs_tiles.inl.h  33240 kernel_set.inl.h
- *  33242 complex_small.inl.h  33432 complex_rows.inl.h  33647 inverse_front.inl.h  33932 row.inl.h
- *  33962 change.inl.h  34205 interleave.inl.h  34339 lanes_undef.inl.h  34358 words_undef.inl.h
+ *  31442 front.inl.h  31444 product.inl.h  31955 copy_rows.inl.h  31993 sweeps.inl.h
+ *  31995 unit_triangle.inl.h  32032 two_rhs.inl.h  32206 small_supernode.inl.h
+ *  32408 single_rhs.inl.h  32648 multi_rhs.inl.h  32667 complex_groups.inl.h
+ *  32806 multi_rhs_small.inl.h  32978 multi_rhs_tiles.inl.h  33255 kernel_set.inl.h
+ *  33257 complex_small.inl.h  33447 complex_rows.inl.h  33662 inverse_front.inl.h  33947 row.inl.h
+ *  33977 change.inl.h  34220 interleave.inl.h  34354 lanes_undef.inl.h  34373 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11725,7 +11725,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
   for (t = 0; t < n; t++) {
     const sl_int k = sequence == NULL ? t : sequence[t];
     const sl_int next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
-    sl_int up = n, c;
+    sl_int c;
     size_t before = end;
     if (before > 2 * entries) {
       sli_merge_compact(&m, counts);
@@ -11769,14 +11769,18 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     parent[k] = next;
     if (!continues) {
       const size_t from = m.end;
+      uint32_t least = UINT32_MAX;
+      sl_int up;
       moved += end - start;
       for (; start < end; start++) {
         const sl_int r = list[start];
+        const uint32_t beyond = (uint32_t)r - (uint32_t)k - 1;
         list[m.end] = r;
         m.end += r > k;
-        up = r > k ? sli_min(r, up) : up;
+        least = beyond < least ? beyond : least;
       }
       start = end = m.end;
+      up = size > 0 ? k + 1 + (sl_int)least : n;
       parent[k] = up == n ? -1 : up;
       is_in_order &= keeps_order || up < n || m.count == 0;
       if (up < n) {
@@ -11868,19 +11872,23 @@ typedef struct sli_amalgamation {
   int is_for_one_factor;
 } sli_amalgamation;
 
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
-              sl_int *super_of, sli_amalgamation *g) {
-  sl_int j, s = -1;
-  memset(children, 0, (size_t)n * sizeof(sl_int));
-  for (j = 0; j < n; j++) {
-    if (parent[j] != -1) {
-      children[parent[j]]++;
+static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *other) {
+  sl_int k;
+  memset(other, 0xff, (size_t)n * sizeof(sl_int));
+  for (k = 0; k < n; k++) {
+    if (parent[k] != -1 && parent[k] != k + 1) {
+      other[parent[k]] = k;
     }
   }
+}
+
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
+              const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+  sl_int j, s = -1;
   for (j = 0; j < n; j++) {
     const sl_int last = j - (j > 0);
     g->first[s + 1] = j;
-    s += ((parent[last] ^ j) | (children[j] ^ 1) | (counts[last] ^ (counts[j] + 1))) != 0;
+    s += ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1))) != 0;
     super_of[j] = s;
   }
   g->count = s + 1;
@@ -11951,7 +11959,11 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
       list[count++] =
         sli_keyed(zeros < INT32_MAX ? (sl_int)zeros : INT32_MAX, c); /* untested: 2^31 */
     }
-    if (count > 1) {
+    if (count == 2 && sli_key(list[0]) > sli_key(list[1])) {
+      const uint64_t first = list[0];
+      list[0] = list[1];
+      list[1] = first;
+    } else if (count > 2) {
       sli_sort(list, count, scratch);
     }
     for (k = 0; k < count; k++) {
@@ -12864,10 +12876,13 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   for (k = 0; k < n && w->choice.has_tree; k++) {
     w->counts[k] = 1 + (w->parent[k] != -1);
   }
-  if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
+  if (w->choice.has_tree) {
+    sli_find_other_children(n, w->parent, more);
+  } else if (!sli_analyze_columns(w, keeps_order)) {
     sli_postorder(w->parent, NULL, n, order, child, more);
     sli_analysis_reorder(w, order);
     sequence = keeps_order ? w->new_of : NULL;
+    sli_find_other_children(n, w->parent, more);
   }
   sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
   stats->symbolic.supernodes_fundamental = w->amalgamation.count;

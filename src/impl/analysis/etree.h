@@ -63,8 +63,8 @@ SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int id, sl_
  * `keeps_order`, whether each only child with the same rows is numbered before its parent. -1: they
  * are numbered so that this would take too long, and nothing is known.
  *
- * A column has the rows of its column of A and of its children. The list of a column whose parent is
- * the next one becomes that of its parent. So in a postorder only entries of A are read, and the
+ * A column has the rows of its column of A and of its children. The list of a column whose parent
+ * is the next one becomes that of its parent. So in a postorder only entries of A are read, and the
  * lists of the other children. sequence: another order of the columns, each after its children, or
  * NULL. list: room for three times the entries of A and one; scratch: 5n. [Liu90] */
 static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
@@ -86,7 +86,7 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     for (t = 0; t < n; t++) {
         const sl_int k = sequence == NULL ? t : sequence[t];
         const sl_int next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
-        sl_int up = n, c;
+        sl_int c;
         size_t before = end;
         if (before > 2 * entries) {
             sli_merge_compact(&m, counts);
@@ -130,14 +130,18 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
         parent[k] = next;
         if (!continues) {
             const size_t from = m.end;
+            uint32_t least = UINT32_MAX;
+            sl_int up;
             moved += end - start;
             for (; start < end; start++) {
                 const sl_int r = list[start];
+                const uint32_t beyond = (uint32_t)r - (uint32_t)k - 1; /* large for rows up to k */
                 list[m.end] = r;
                 m.end += r > k;
-                up = r > k ? sli_min(r, up) : up;
+                least = beyond < least ? beyond : least;
             }
             start = end = m.end;
+            up = size > 0 ? k + 1 + (sl_int)least : n;
             parent[k] = up == n ? -1 : up;
             is_in_order &= keeps_order || up < n || m.count == 0;
             if (up < n) {

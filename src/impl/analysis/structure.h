@@ -118,8 +118,8 @@ static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) 
 }
 
 /* Fills the scatter map of supernode s, sorted by rows. Entries of one position are neighbors, in
- * the order of A. local: the local row of each row; next, tile: scratch, as many as s has local rows
- * and row tiles. */
+ * the order of A. local: the local row of each row; next, tile: scratch, as many as s has local
+ * rows and row tiles. */
 static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entry,
                               const sl_int *local, sl_int *next, sl_off *tile) {
     const sl_int width = S->super_first[s + 1] - S->super_first[s];

@@ -25,21 +25,26 @@ typedef struct sli_amalgamation {
     int is_for_one_factor; /* by the costs of SL_PURPOSE_ONE_FACTOR */
 } sli_amalgamation;
 
-/* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
- * the next. The column count falls by one along a run. */
-static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts, sl_int *children,
-                            sl_int *super_of, sli_amalgamation *g) {
-    sl_int j, s = -1;
-    memset(children, 0, (size_t)n * sizeof(sl_int));
-    for (j = 0; j < n; j++) {
-        if (parent[j] != -1) {
-            children[parent[j]]++;
+/* other[k] := a child of k but k - 1, or -1. */
+static void sli_find_other_children(sl_int n, const sl_int *parent, sl_int *other) {
+    sl_int k;
+    memset(other, 0xff, (size_t)n * sizeof(sl_int));
+    for (k = 0; k < n; k++) {
+        if (parent[k] != -1 && parent[k] != k + 1) {
+            other[parent[k]] = k;
         }
     }
+}
+
+/* Finds the fundamental supernodes: runs of columns with the same structure, each the only child of
+ * the next. The column count falls by one along a run. other: by sli_find_other_children. */
+static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts,
+                            const sl_int *other, sl_int *super_of, sli_amalgamation *g) {
+    sl_int j, s = -1;
     for (j = 0; j < n; j++) { /* without branches, which nothing would predict */
         const sl_int last = j - (j > 0);
         g->first[s + 1] = j;
-        s += ((parent[last] ^ j) | (children[j] ^ 1) | (counts[last] ^ (counts[j] + 1))) != 0;
+        s += ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1))) != 0;
         super_of[j] = s;
     }
     g->count = s + 1;
@@ -126,7 +131,11 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
             list[count++] =
                 sli_keyed(zeros < INT32_MAX ? (sl_int)zeros : INT32_MAX, c); /* untested: 2^31 */
         }
-        if (count > 1) {
+        if (count == 2 && sli_key(list[0]) > sli_key(list[1])) {
+            const uint64_t first = list[0];
+            list[0] = list[1];
+            list[1] = first;
+        } else if (count > 2) {
             sli_sort(list, count, scratch);
         }
         for (k = 0; k < count; k++) {
@@ -174,8 +183,8 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
 
 /* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
  * = the old number of the new column k. On return super_of and the arrays of g refer to the new
- * numbers, and g->count is the number of supernodes. Returns whether columns move; if not, there is no
- * order.
+ * numbers, and g->count is the number of supernodes. Returns whether columns move; if not, there is
+ * no order.
  *
  * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
  * by their last columns in the sequence, and the columns of a supernode keep its order. So a

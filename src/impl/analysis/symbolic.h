@@ -138,10 +138,13 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     for (k = 0; k < n && w->choice.has_tree; k++) {
         w->counts[k] = 1 + (w->parent[k] != -1);
     }
-    if (!w->choice.has_tree && !sli_analyze_columns(w, keeps_order)) {
+    if (w->choice.has_tree) {
+        sli_find_other_children(n, w->parent, more);
+    } else if (!sli_analyze_columns(w, keeps_order)) { /* otherwise more is filled */
         sli_postorder(w->parent, NULL, n, order, child, more);
         sli_analysis_reorder(w, order);
         sequence = keeps_order ? w->new_of : NULL;
+        sli_find_other_children(n, w->parent, more);
     }
     sli_fundamental(n, w->parent, w->counts, more, w->super_of, &w->amalgamation);
     stats->symbolic.supernodes_fundamental = w->amalgamation.count;
