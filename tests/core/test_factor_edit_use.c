@@ -169,11 +169,57 @@ static void a_singular_matrix_is_noticed(void **state) {
     assert_true(suspected > 0);
 }
 
+/* The leaves of a star, each with an edge to row LEAVES, but leaf 0 to row `to`. */
+enum { LEAVES = 60 };
+
+static gen_matrix_t star(sl_int to) {
+    gen_list_t t = gen_list(LEAVES + 2);
+    for (sl_int k = 0; k < LEAVES + 2; k++) {
+        gen_add(&t, k, k, k < LEAVES ? 2.0 : LEAVES);
+    }
+    for (sl_int k = 0; k < LEAVES; k++) {
+        gen_add(&t, k == 0 ? to : LEAVES, k, -1.0);
+    }
+    gen_add(&t, LEAVES + 1, LEAVES, -1.0);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* A column whose entry is in another row than before, though its values are the same, is computed:
+ * in a row after those that it had, or before them. */
+static void another_row_is_noticed(void **state) {
+    (void)state;
+    for (int before = 0; before < 2; before++) {
+        gen_matrix_t A = star(LEAVES + before), B = star(LEAVES + 1 - before);
+        sl_options opt = options_none();
+        opt.method = SL_METHOD_SUPERNODAL;
+        factored_t y = {A, analyze_natural(&A.view, SL_RELAXATION_NONE), NULL};
+        sl_symbolic *S = analyze_natural(&B.view, SL_RELAXATION_NONE);
+        sl_factor *G = NULL;
+        sl_stats stats;
+        sl_int map[LEAVES + 2];
+        for (sl_int k = 0; k < LEAVES + 2; k++) {
+            map[k] = k;
+        }
+        SL_CHECK(sl_factor_create(&y.F, y.S, &A.view, &opt, NULL));
+        SL_CHECK(sl_factor_edit(&G, y.F, S, &B.view, map, &opt, &stats));
+        NOTHING_WRONG(check_factor(G, &B.view));
+        assert_int_equal(stats.reuse.kept + stats.reuse.computed, LEAVES + 2);
+        assert_true(stats.reuse.computed > 0);
+        sl_factor_free(G);
+        sl_symbolic_free(S);
+        gen_matrix_free(&B);
+        factored_free(&y);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_of_pivots_are_not_kept),
         cmocka_unit_test(other_rules_of_a_row_are_noticed),
         cmocka_unit_test(another_kind_of_a_pivot_is_noticed),
+        cmocka_unit_test(another_row_is_noticed),
         cmocka_unit_test(a_singular_matrix_is_noticed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
