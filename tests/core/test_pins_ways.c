@@ -299,10 +299,56 @@ static void new_numbers_are_taken(void **state) {
     pinned_free(&p);
 }
 
+/* Hundreds of pins on a path, whose columns of L all lead to the last row: pins keep their values,
+ * and the equations of the other rows hold. */
+static void many_pins_with_long_paths_hold(void **state) {
+    (void)state;
+    enum { N = 1600, PINS = 500 };
+    gen_list_t t = gen_list(N);
+    sl_int rows[PINS];
+    double *b = test_reals(N), *x = test_reals(N), *g = test_reals(PINS), *r = test_reals(N);
+    for (sl_int k = 0; k < N; k++) {
+        gen_add(&t, k, k, 3.0);
+        if (k > 0) {
+            gen_add(&t, k, k - 1, -1.0);
+        }
+    }
+    for (sl_int k = 0; k < PINS; k++) {
+        rows[k] = 2 * k;
+    }
+    gen_reals(b, N, 7);
+    gen_reals(g, PINS, 8);
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    factored_t y = {M, analyze_natural(&M.view, SL_RELAXATION_DEFAULT), NULL};
+    SL_CHECK(sl_factor_create(&y.F, y.S, &M.view, NULL, NULL));
+    for (int has_matrix = 0; has_matrix < 2; has_matrix++) { /* 0: no elimination */
+        sl_pins *P = NULL;
+        SL_CHECK(sl_pins_create(&P, y.F, NULL));
+        if (has_matrix) {
+            SL_CHECK(sl_pins_set_matrix(P, &M.view, NULL));
+        }
+        SL_CHECK(sl_pins_add_rows(P, rows, PINS, NULL));
+        SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
+        SL_CHECK(sl_csc_residual(&M.view, r, N, NULL, x, N, b, N, 1));
+        for (sl_int k = 0; k < N; k++) {
+            const int is_pin = k < 2 * PINS && k % 2 == 0;
+            assert_true(fabs(is_pin ? x[k] - g[k / 2] : r[k]) <= 1e-12);
+        }
+        sl_pins_free(P);
+    }
+    gen_list_free(&t);
+    factored_free(&y);
+    free(b);
+    free(x);
+    free(g);
+    free(r);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_ways_give_the_same),
         cmocka_unit_test(single_pins_are_eliminated),
+        cmocka_unit_test(many_pins_with_long_paths_hold),
         cmocka_unit_test(failing_allocations_leave_the_way),
         cmocka_unit_test(new_numbers_are_taken),
     };
