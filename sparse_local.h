@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 12df595e18df6c46
+ * FNV-1a of the lines after this comment, without the license: 60194a8111ff1480
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -69,24 +69,24 @@
  *  23871 pins_nulls.h  24054 pins_capacitance.h  24308 pins_balance.h  24487 pins_held.h
  *  24703 pins_choose.h  24765 pins_rebuild.h  24983 pins_matrix.h  25134 pins.h  25403 pins_solve.h
  *  25676 subset.h  25804 restrict_kept.h  26002 restrict_analysis.h  26248 restrict_symbolic.h
- *  26443 restrict.h  26674 edit_match.h  26873 edit_place.h  27122 edit_separate.h
- *  27436 edit_order.h  27591 edit_graph.h  27673 edit_join.h  27949 edit.h  28112 edit_factor.h
+ *  26443 restrict.h  26675 edit_match.h  26874 edit_place.h  27123 edit_separate.h
+ *  27437 edit_order.h  27592 edit_graph.h  27674 edit_join.h  27950 edit.h  28113 edit_factor.h
  * (save: factors in files)
- *  28397 format.h  28694 decode.h  28842 check.h  29172 write.h  29477 load.h  29745 load_inverse.h
- *  30075 load_calls.h
+ *  28398 format.h  28695 decode.h  28843 check.h  29173 write.h  29478 load.h  29746 load_inverse.h
+ *  30076 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30274 batch_solve.h  30483 batch_factor.h  30684 batch_diagonal.h
+ *  30275 batch_solve.h  30484 batch_factor.h  30685 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30824 hermitian.h  30986 complex_rows.h
+ *  30825 hermitian.h  30987 complex_rows.h
  * (last: undefine every internal macro)
- *  31154 undef.h
+ *  31155 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31442 front.inl.h  31444 product.inl.h  31955 copy_rows.inl.h  31993 sweeps.inl.h
- *  31995 unit_triangle.inl.h  32032 two_rhs.inl.h  32206 small_supernode.inl.h
- *  32408 single_rhs.inl.h  32648 multi_rhs.inl.h  32667 complex_groups.inl.h
- *  32806 multi_rhs_small.inl.h  32978 multi_rhs_tiles.inl.h  33255 kernel_set.inl.h
- *  33257 complex_small.inl.h  33447 complex_rows.inl.h  33662 inverse_front.inl.h  33947 row.inl.h
- *  33977 change.inl.h  34220 interleave.inl.h  34354 lanes_undef.inl.h  34373 words_undef.inl.h
+ *  31443 front.inl.h  31445 product.inl.h  31956 copy_rows.inl.h  31994 sweeps.inl.h
+ *  31996 unit_triangle.inl.h  32033 two_rhs.inl.h  32207 small_supernode.inl.h
+ *  32409 single_rhs.inl.h  32649 multi_rhs.inl.h  32668 complex_groups.inl.h
+ *  32807 multi_rhs_small.inl.h  32979 multi_rhs_tiles.inl.h  33256 kernel_set.inl.h
+ *  33258 complex_small.inl.h  33448 complex_rows.inl.h  33663 inverse_front.inl.h  33948 row.inl.h
+ *  33978 change.inl.h  34221 interleave.inl.h  34355 lanes_undef.inl.h  34374 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -26642,7 +26642,8 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   memset(&r, 0, sizeof r);
   r.S = F->S;
   r.A = A;
-  r.may_keep = F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1;
+  r.may_keep =
+    F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
   r.rows = rows;
   r.R.count = count;
   status = sli_restriction_begin(&r, &a, stats);

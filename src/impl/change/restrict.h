@@ -214,7 +214,8 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     memset(&r, 0, sizeof r);
     r.S = F->S;
     r.A = A;
-    r.may_keep = F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1;
+    r.may_keep =
+        F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
     r.rows = rows;
     r.R.count = count;
     status = sli_restriction_begin(&r, &a, stats);
