@@ -1,92 +1,93 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 60194a8111ff1480
+ * FNV-1a of the lines after this comment, without the license: 847e7ab4d06467b8
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     94 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    163 config.h     macros that a user may define before the include, the version, and the integer types
- *    242 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    412 options.h    options of all calls, threads, and the allocator
- *    554 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    751 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    923 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1067 factor.h     the numerical factorization P A P' = L D L'
- *   1356 solve.h      full solves, and the workspace of all solves
- *   1469 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1563 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1676 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1789 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1925 batch.h      many independent solves by one call, distributed over threads
- *   1975 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2153 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2273 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2377 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2516 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2634 change.h     a factor that follows small changes of its matrix
- *   2726 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2877 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3008 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3063 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *     95 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    164 config.h     macros that a user may define before the include, the version, and the integer types
+ *    243 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    413 options.h    options of all calls, threads, and the allocator
+ *    555 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    752 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    924 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1068 factor.h     the numerical factorization P A P' = L D L'
+ *   1357 solve.h      full solves, and the workspace of all solves
+ *   1470 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1564 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1677 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1790 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1926 batch.h      many independent solves by one call, distributed over threads
+ *   1976 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2154 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2274 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2378 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2517 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2635 change.h     a factor that follows small changes of its matrix
+ *   2727 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2879 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3010 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3065 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3156 base.h   3452 status.h   3513 options.h   3572 alloc.h   3735 hash.h   3865 file_map.h
- *   3962 sort.h   4026 parallel.h
+ *   3158 base.h   3454 status.h   3515 options.h   3574 alloc.h   3737 hash.h   3867 file_map.h
+ *   3964 sort.h   4028 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4222 panel.h   4247 step.h   4326 pivot_rule.h   4400 front.h   4461 pairs.h
- *   4668 inverse_front.h   4740 table.h   4789 simd.h   4885 simd_scalar_single.h
- *   4929 simd_scalar.h   5055 simd_avx2_single.h   5107 simd_avx2.h   5333 simd_avx512_single.h
- *   5387 simd_avx512.h   5553 simd_neon_single.h   5593 simd_neon.h   5813 dispatch.h
+ *   4224 panel.h   4249 step.h   4328 pivot_rule.h   4402 front.h   4463 pairs.h
+ *   4670 inverse_front.h   4742 table.h   4791 simd.h   4887 simd_scalar_single.h
+ *   4931 simd_scalar.h   5057 simd_avx2_single.h   5109 simd_avx2.h   5335 simd_avx512_single.h
+ *   5389 simd_avx512.h   5555 simd_neon_single.h   5595 simd_neon.h   5815 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5906 csc.h   6049 csc_build.h   6183 csc64.h   6254 csc_triangle.h   6319 csc_products.h
- *   6436 permute.h   6502 sum.h   6584 output_file.h   6793 text_reader.h   6974 matrix_market.h
+ *   5908 csc.h   6051 csc_build.h   6185 csc64.h   6256 csc_triangle.h   6321 csc_products.h
+ *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 text_reader.h   6976 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7242 graph.h   7359 contract.h   7613 coarsen.h   7777 labels.h   7999 subgraph.h   8193 heap.h
- *   8255 bisect.h   8463 separator.h   8725 mindeg.h   8908 dissect.h   9243 tree_cost.h
- *   9295 levelset.h   9403 geometric.h   9578 cells.h   9758 septree.h   9834 metis.h
- *   9983 metis_refined.h  10098 nd.h  10298 compress.h  10419 levels.h  10472 border.h
- *  10525 forest.h  10612 peel.h  10812 quotient.h  11229 graph_kind.h  11300 order.h
+ *   7244 graph.h   7361 contract.h   7615 coarsen.h   7779 labels.h   8001 subgraph.h   8195 heap.h
+ *   8257 bisect.h   8465 separator.h   8727 mindeg.h   8910 dissect.h   9245 tree_cost.h
+ *   9297 levelset.h   9405 geometric.h   9580 cells.h   9760 septree.h   9836 metis.h
+ *   9985 metis_refined.h  10100 nd.h  10300 compress.h  10421 levels.h  10474 border.h
+ *  10527 forest.h  10614 peel.h  10814 quotient.h  11231 graph_kind.h  11302 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11625 symbolic_types.h  11662 etree.h  11859 supernodes.h  12121 pattern.h  12204 structure.h
- *  12472 schedule.h  12752 symbolic.h  13225 reach.h
+ *  11627 symbolic_types.h  11664 etree.h  11861 supernodes.h  12123 pattern.h  12206 structure.h
+ *  12474 schedule.h  12754 symbolic.h  13227 reach.h
  * (factor: the numbers of L and D)
- *  13501 factor_types.h  13704 panel_load.h  13817 pivot_check.h  13933 storage.h
- *  14071 pivot_search.h  14417 pivoted.h  14486 scatter.h  14644 uplooking.h  14716 null_product.h
- *  14920 null_dense.h  14997 null_basis.h  15317 null_vectors.h  15459 multifrontal.h
- *  15653 gather.h  15701 kept.h  15871 front_tasks.h  16214 null_center.h  16338 nullspace.h
- *  16545 growth.h  16623 factor_setup.h  16963 factor.h  17178 leftlooking.h  17332 factor_query.h
- *  17467 combination.h
+ *  13503 factor_types.h  13706 panel_load.h  13819 pivot_check.h  13935 storage.h
+ *  14073 pivot_search.h  14419 pivoted.h  14488 scatter.h  14646 uplooking.h  14718 null_product.h
+ *  14922 null_dense.h  14999 null_basis.h  15319 null_vectors.h  15461 multifrontal.h
+ *  15655 gather.h  15703 kept.h  15873 front_tasks.h  16216 null_center.h  16340 nullspace.h
+ *  16547 growth.h  16625 factor_setup.h  16965 factor.h  17180 leftlooking.h  17334 factor_query.h
+ *  17469 combination.h
  * (solve: full and local solves)
- *  17528 region_types.h  17632 work.h  17732 query.h  17950 singular.h  18210 backward.h
- *  18240 sweep_tasks.h  18571 sweep.h  18779 compile.h  18972 plan.h  19079 local.h  19231 parts.h
- *  19520 refine.h  19699 refine_local.h  19915 rcond.h  20074 defects.h
+ *  17530 region_types.h  17634 work.h  17734 query.h  17952 singular.h  18212 backward.h
+ *  18242 sweep_tasks.h  18573 sweep.h  18781 compile.h  18974 plan.h  19081 local.h  19233 parts.h
+ *  19522 refine.h  19701 refine_local.h  19917 rcond.h  20076 defects.h
  * (inverse: entries of the inverse, regions)
- *  20133 traversal.h  20382 traversal_run.h  20575 row_sets.h  20609 unit_vectors.h
- *  20836 bilinear.h  21008 entries.h  21285 block.h  21520 reserve.h  21712 selected.h
- *  21922 selected_query.h  22024 region_choose.h  22251 region.h
+ *  20135 traversal.h  20384 traversal_run.h  20577 row_sets.h  20611 unit_vectors.h
+ *  20838 bilinear.h  21010 entries.h  21287 block.h  21522 reserve.h  21714 selected.h
+ *  21924 selected_query.h  22026 region_choose.h  22253 region.h
  * (change: a factor that follows changes of its matrix)
- *  22499 update.h  22890 path.h  23009 rank.h  23400 edges.h  23554 choose.h  23805 pins_types.h
- *  23871 pins_nulls.h  24054 pins_capacitance.h  24308 pins_balance.h  24487 pins_held.h
- *  24703 pins_choose.h  24765 pins_rebuild.h  24983 pins_matrix.h  25134 pins.h  25403 pins_solve.h
- *  25676 subset.h  25804 restrict_kept.h  26002 restrict_analysis.h  26248 restrict_symbolic.h
- *  26443 restrict.h  26675 edit_match.h  26874 edit_place.h  27123 edit_separate.h
- *  27437 edit_order.h  27592 edit_graph.h  27674 edit_join.h  27950 edit.h  28113 edit_factor.h
+ *  22501 update.h  22892 path.h  23011 rank.h  23402 edges.h  23556 choose.h  23807 pins_types.h
+ *  23873 pins_nulls.h  24054 pins_capacitance.h  24323 pins_rows.h  24443 pins_balance.h
+ *  24605 pins_held.h  24821 pins_choose.h  24887 pins_rebuild.h  25110 pins_matrix.h  25261 pins.h
+ *  25523 pins_solve.h  25796 subset.h  25924 restrict_kept.h  26122 restrict_analysis.h
+ *  26368 restrict_symbolic.h  26563 restrict.h  26795 edit_match.h  26994 edit_place.h
+ *  27243 edit_separate.h  27557 edit_order.h  27712 edit_graph.h  27794 edit_join.h  28070 edit.h
+ *  28233 edit_factor.h
  * (save: factors in files)
- *  28398 format.h  28695 decode.h  28843 check.h  29173 write.h  29478 load.h  29746 load_inverse.h
- *  30076 load_calls.h
+ *  28518 format.h  28815 decode.h  28963 check.h  29293 write.h  29598 load.h  29866 load_inverse.h
+ *  30196 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30275 batch_solve.h  30484 batch_factor.h  30685 batch_diagonal.h
+ *  30395 batch_solve.h  30604 batch_factor.h  30805 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30825 hermitian.h  30987 complex_rows.h
+ *  30945 hermitian.h  31107 complex_rows.h
  * (last: undefine every internal macro)
- *  31155 undef.h
+ *  31275 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31443 front.inl.h  31445 product.inl.h  31956 copy_rows.inl.h  31994 sweeps.inl.h
- *  31996 unit_triangle.inl.h  32033 two_rhs.inl.h  32207 small_supernode.inl.h
- *  32409 single_rhs.inl.h  32649 multi_rhs.inl.h  32668 complex_groups.inl.h
- *  32807 multi_rhs_small.inl.h  32979 multi_rhs_tiles.inl.h  33256 kernel_set.inl.h
- *  33258 complex_small.inl.h  33448 complex_rows.inl.h  33663 inverse_front.inl.h  33948 row.inl.h
- *  33978 change.inl.h  34221 interleave.inl.h  34355 lanes_undef.inl.h  34374 words_undef.inl.h
+ *  31563 front.inl.h  31565 product.inl.h  32076 copy_rows.inl.h  32114 sweeps.inl.h
+ *  32116 unit_triangle.inl.h  32153 two_rhs.inl.h  32327 small_supernode.inl.h
+ *  32529 single_rhs.inl.h  32769 multi_rhs.inl.h  32788 complex_groups.inl.h
+ *  32927 multi_rhs_small.inl.h  33099 multi_rhs_tiles.inl.h  33376 kernel_set.inl.h
+ *  33378 complex_small.inl.h  33568 complex_rows.inl.h  33783 inverse_front.inl.h  34068 row.inl.h
+ *  34098 change.inl.h  34341 interleave.inl.h  34475 lanes_undef.inl.h  34494 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2779,8 +2780,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *st
  *  rows   [in]   count >= 0 rows.
  *  stats  [out]  pins; error.row; may be NULL.
  *  Returns, Threads  as in sl_pins_add.
- *  Cost     by the capacitance matrix as in sl_pins_add; by elimination a copy of the factor if P
- *           has none yet, and a refactorization of the reach of the changed rows, or of all.
+ *  Cost     by the capacitance matrix as in sl_pins_add, but up to 8 nearby rows share a sweep; by
+ *           elimination a copy of the factor if P has none yet, and a refactorization of the reach
+ *           of the changed rows, or of all.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count,
                                                  sl_stats *stats);
@@ -24011,9 +24013,9 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
   }
 }
 
-static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
   const size_t count = (size_t)P->n_pins;
-  sl_int a, b, p, n_free = 0;
+  sl_int a, b, p;
   for (a = 0; a < w->count; a++) {
     double *x = w->W + (size_t)a * count;
     double after = sqrt(sli_dot(x, x, P->n_pins));
@@ -24031,15 +24033,13 @@ static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
       after = after > least ? after : 0.0;
     }
     w->is_free[a] = after == 0.0;
-    n_free += w->is_free[a];
     for (p = 0; p < P->n_pins; p++) {
       x[p] = after == 0.0 ? 0.0 : x[p] / after;
     }
   }
-  return n_free;
 }
 
-static sl_int sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
   sl_int m, at = 0;
   for (m = 0; at < w->count; m++) {
     if (P->uses[m] > 0) {
@@ -24048,19 +24048,27 @@ static sl_int sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
     }
   }
   sli_pins_nulls_load(w, P);
-  return sli_pins_nulls_mark(w, P);
+  sli_pins_nulls_mark(w, P);
 }
 
 /* src/impl/change/pins_capacitance.h: the sweeps of pins, and the factor of their capacitance matrix */
 
-static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
+static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_reach *R, double *y,
+                sl_int lanes) {
+  sl_int k;
+  for (k = 0; k < pin->n_nulls; k++) {
+    const ptrdiff_t at = sli_reach_index_of(R, P->base->nulls[pin->nulls[k]]);
+    if (at != -1) {
+      memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
+    }
+  }
+}
+
+static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
   const sl_factor *F = P->base;
   const sl_symbolic *S = F->S;
-  const sl_status status = sli_pin_find_nulls(P, pin, row);
-  sl_int s, k;
-  if (status != SL_OK) {
-    return status;
-  }
+  sli_forward f;
+  sl_int k;
   memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
   for (k = 0; k < pin->count; k++) {
     const sl_int column = S->iperm[pin->rows[k]];
@@ -24068,19 +24076,11 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
       sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
   }
   sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
-  for (k = 0; k < pin->n_nulls; k++) {
-    const sl_int at = sli_reach_index_of(&pin->R, F->nulls[pin->nulls[k]]);
-    if (at != -1) {
-      pin->y[at] = 0.0;
-    }
-  }
-  for (s = 0; s < pin->R.count; s++) {
-    const sli_step *step = &pin->R.steps[s];
-    for (k = step->base; k < step->base + sli_step_columns(step); k++) {
-      pin->u[k] = pin->y[k] / F->D[step->column + k - step->base];
-    }
-  }
-  return SL_OK;
+  sli_pin_clear_nulls(P, pin, &pin->R, pin->y, 1);
+  f.reach = pin->R;
+  f.lanes = 1;
+  f.y = pin->y;
+  sli_forward_divide(F, &f, pin->u);
 }
 
 static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
@@ -24089,7 +24089,8 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
 }
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
-                const double *values, sl_int count, sl_stats *stats) {
+                const double *values, sl_int count, int is_swept,
+                sl_stats *stats) {
   const sl_symbolic *S = P->base->S;
   sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sli_set set = sli_set_of(S, rows, count);
@@ -24103,7 +24104,8 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
   *out = NULL;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_set_layout_seeds(&set, &seeds);
-    scratch = SLI_TAKE(&seeds, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+    scratch = SLI_TAKE(&seeds, double,
+               is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
     status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
   }
   status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
@@ -24137,11 +24139,14 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
       pin->values[k] = values[sli_value(set.seeds[k])];
     }
     sli_set_fill(S, &set, &pin->R, &unused);
-    status = sli_pin_sweep(P, pin, scratch, &row);
+    status = sli_pin_find_nulls(P, pin, &row);
     if (status == SL_OK) {
       *out = pin;
     } else {
       sli_pin_free(P, pin);
+    }
+    if (status == SL_OK && is_swept) {
+      sli_pin_sweep(P, pin, scratch);
     }
   }
   sli_free(&P->allocator, seeds.base);
@@ -24172,29 +24177,26 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
   }
 }
 
-static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
-  const sl_int k = P->n_pins;
-  const size_t ld = (size_t)P->capacity;
-  double *row = P->K + (size_t)k * ld, own, d;
+static void sli_capacitance_factor(double *K, size_t ld, sl_int k) {
+  double *row = K + (size_t)k * ld;
   sl_int i;
-  sli_pin_dot(pin, &pin->R, pin->y, 1, &own);
-  own += sli_pin_nulls_dot(pin, pin) / P->delta;
-  d = own;
   for (i = 0; i < k; i++) {
-    sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, &row[i]);
-    row[i] += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
-    row[i] -= sli_dot(P->K + (size_t)i * ld, row, i);
+    row[i] -= sli_dot(K + (size_t)i * ld, row, i);
   }
   for (i = 0; i < k; i++) {
     const double x = row[i];
-    row[i] = x / P->K[(size_t)i * ld + (size_t)i];
-    d -= x * row[i];
+    row[i] = x / K[(size_t)i * ld + (size_t)i];
+    row[k] -= x * row[i];
   }
-  row[k] = d;
-  if (!sli_is_finite(d)) {
+}
+
+static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
+  const double *d = &P->K[(size_t)k * (size_t)P->capacity + (size_t)k], own = *d;
+  sli_capacitance_factor(P->K, (size_t)P->capacity, k);
+  if (!sli_is_finite(*d)) {
     return SL_ERR_NOT_FINITE;
   }
-  return d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
+  return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
 }
 
 static void sli_pins_remove(sl_pins *P, sl_int p) {
@@ -24225,15 +24227,15 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
   P->n_pins--;
 }
 
-static sl_status sli_pins_grow(sl_pins *P) {
-  const sl_int capacity = P->capacity < 4 ? 8 : 2 * P->capacity;
+static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
+  const sl_int capacity = sli_max(sli_max(8, 2 * P->capacity), P->n_pins + more);
   sli_block b = {NULL, 0, 0};
   sli_pin **pins = NULL;
   double *K = NULL, *scratch = NULL;
   sl_status status = SL_OK;
   sl_int i;
   int pass;
-  if (P->n_pins < P->capacity) {
+  if (P->n_pins + more <= P->capacity) {
     return SL_OK;
   }
   SLI_ASSERT(P->capacity <= INT32_MAX / 4);
@@ -24261,42 +24263,51 @@ static sl_status sli_pins_grow(sl_pins *P) {
 
 static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
                  sl_int count, sl_stats *stats) {
+  const sl_int at = P->n_pins;
   sli_pin *pin = NULL;
-  sl_status status = sli_pins_grow(P);
-  status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
+  sl_status status = sli_pins_grow(P, 1);
+  sl_int i;
+  status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, 1, stats) : status;
   if (status != SL_OK) {
     return status;
   }
-  status = sli_pins_append(P, pin);
+  P->pins[at] = pin;
+  for (i = 0; i <= at; i++) {
+    double *entry = P->K + (size_t)at * (size_t)P->capacity + (size_t)i;
+    sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, entry);
+    *entry += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
+  }
+  status = sli_pins_factor(P, at);
   if (status != SL_OK) {
     sli_pin_free(P, pin);
     return sli_fail_at(stats, status, rows[0], -1, 0.0);
   }
   pin->index = index;
   sli_pins_count_nulls(P, pin, 1);
-  P->pins[P->n_pins++] = pin;
+  P->n_pins++;
   return SL_OK;
 }
 
-static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
-  const size_t ld = (size_t)P->capacity;
+static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
+                  sl_int lanes) {
   sl_int i, j, r;
-  for (i = 1; i < P->n_pins; i++) {
-    const double *l = P->K + (size_t)i * ld;
+  for (i = 1; i < count; i++) {
     double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
-    sli_chains_add(chains, l, f, i, lanes);
+    sli_chains_add(chains, K + (size_t)i * ld, f, i, lanes);
     sli_chains_sum(chains, lanes, sums);
     for (r = 0; r < lanes; r++) {
       f[(ptrdiff_t)i * lanes + r] -= sums[r];
     }
   }
-  for (i = 0; i < P->n_pins; i++) {
+  for (i = count - 1; i >= 0; i--) {
+    const double *l = K + (size_t)i * ld;
+    double *x = f + (ptrdiff_t)i * lanes;
     for (r = 0; r < lanes; r++) {
-      f[(ptrdiff_t)i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
+      x[r] /= l[i];
     }
   }
-  for (i = P->n_pins - 1; i > 0; i--) {
-    const double *l = P->K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
+  for (i = count - 1; i > 0; i--) {
+    const double *l = K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
     for (j = 0; j < i; j++) {
       for (r = 0; r < lanes; r++) {
         f[(ptrdiff_t)j * lanes + r] -= l[j] * x[r];
@@ -24305,12 +24316,136 @@ static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
   }
 }
 
+static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
+  sli_capacitance_solve(P->K, (size_t)P->capacity, P->n_pins, f, lanes);
+}
+
+/* src/impl/change/pins_rows.h: rows pinned together: up to 8 of them share a sweep */
+
+#define SLI_PINS_SINGLY 4
+
+static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k, sl_int first,
+                    sl_stats *stats) {
+  const uint64_t *order = q->kept.order + first;
+  const sli_forward *f = &q->sweeps[k].forward;
+  const double one = 1.0;
+  sl_status status = SL_OK;
+  sl_int j, i;
+  sli_swept_block_make(&q->sweeps[k], q->F, &q->kept, first, (sl_int)q->kept.block_size[k], NULL);
+  for (j = 0; j < q->sweeps[k].block_size && status == SL_OK; j++) {
+    const sl_int *row = &q->kept.rows[sli_value(order[j])];
+    sli_pin **pin = &P->pins[P->n_pins + sli_value(order[j])];
+    status = j > 0 && sli_key(order[j]) == sli_key(order[j - 1])
+           ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0)
+           : sli_pin_create(pin, P, row, &one, 1, 0, stats);
+    if (status == SL_OK) {
+      sli_pin_clear_nulls(P, *pin, &f->reach, f->y, f->lanes);
+    }
+  }
+  sli_forward_divide(q->F, f, q->divided);
+  for (j = 0; j < q->sweeps[k].block_size && status == SL_OK; j++) {
+    sli_pin *pin = P->pins[P->n_pins + sli_value(order[j])];
+    sli_intersection m = sli_intersection_of(&pin->R, &f->reach);
+    while (sli_intersection_next(&m)) {
+      for (i = 0; i < m.count; i++) {
+        const ptrdiff_t from = (ptrdiff_t)(m.in_b + i) * f->lanes + j;
+        pin->y[m.in_a + i] = f->y[from];
+        pin->u[m.in_a + i] = q->divided[from];
+      }
+    }
+  }
+  return status;
+}
+
+static void sli_pins_fill_entries(const sl_pins *P, const sli_inverse_block *q, sl_int p,
+                  const sli_swept_block *b, const double *sums) {
+  sl_int j;
+  for (j = 0; j < b->block_size; j++) {
+    const sl_int r = P->n_pins + sli_value(q->kept.order[b->first + j]);
+    P->K[(size_t)sli_max(p, r) * (size_t)P->capacity + (size_t)sli_min(p, r)] =
+      sums[j] + sli_pin_nulls_dot(P->pins[p], P->pins[r]) / P->delta;
+  }
+}
+
+static sl_status sli_pins_push_blocks(sl_pins *P, sli_inverse_block *q, sl_stats *stats) {
+  SLI_ALIGNED(double sums[SLI_LANES_MAX * SLI_LANES_MAX]);
+  sl_status status = SL_OK;
+  sl_int k, m, j, first = 0;
+  for (k = 0; k < q->kept.n_blocks && status == SL_OK; k++) {
+    const sli_swept_block *b = &q->sweeps[k];
+    status = sli_pins_sweep_block(P, q, k, first, stats);
+    for (j = 0; j < P->n_pins && status == SL_OK; j++) {
+      sli_pin_dot(P->pins[j], &b->forward.reach, b->forward.y, b->forward.lanes, sums);
+      sli_pins_fill_entries(P, q, j, b, sums);
+    }
+    for (m = 0; m <= k && status == SL_OK; m++) {
+      const sli_swept_block *a = &q->sweeps[m];
+      sli_cross_sums(q->F, &a->forward, &b->forward, q->divided, sums);
+      for (j = 0; j < a->block_size; j++) {
+        sli_pins_fill_entries(P, q, P->n_pins + sli_value(q->kept.order[a->first + j]), b,
+                    sums + SLI_LANES_MAX * j);
+      }
+    }
+    first += b->block_size;
+  }
+  for (k = 0; k < q->kept.count && status == SL_OK; k++) {
+    status = sli_pins_factor(P, P->n_pins + k);
+    if (status != SL_OK) {
+      (void)sli_fail_at(stats, status, q->kept.rows[k], -1, 0.0);
+    }
+  }
+  return status;
+}
+
+static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows, sl_int count,
+                  sl_stats *stats) {
+  const double one = 1.0;
+  const sl_int before = P->n_pins;
+  sl_work W = sli_work_own(&P->allocator);
+  sl_status status = sli_pins_grow(P, count);
+  sl_int done = 0, k;
+  while (done < count && status == SL_OK) {
+    sl_int m = sli_min(count - done, SLI_LANES_MAX * SLI_BLOCK_KEPT);
+    sli_inverse_block q;
+    if (m <= SLI_PINS_SINGLY) {
+      status = sli_pins_push(P, index + done, &rows[done], &one, 1, stats);
+      done++;
+      continue;
+    }
+    for (;; m = m / 2) {
+      q = sli_inverse_all_pairs_of(P->base, rows + done, m);
+      status = sli_work_stages(&W, sli_inverse_block_stages, 2, &q);
+      if (status != SL_OK || q.kept.n_blocks <= SLI_BLOCK_KEPT) {
+        break;
+      }
+    }
+    memset(P->pins + P->n_pins, 0, (size_t)m * sizeof *P->pins);
+    status = status == SL_OK ? sli_pins_push_blocks(P, &q, stats) : status;
+    for (k = P->n_pins; k < P->n_pins + m; k++) {
+      if (status == SL_OK) {
+        P->pins[k]->index = index + done++;
+        sli_pins_count_nulls(P, P->pins[k], 1);
+      } else if (P->pins[k] != NULL) {
+        sli_pin_free(P, P->pins[k]);
+      }
+    }
+    P->n_pins += status == SL_OK ? m : 0;
+  }
+  while (status != SL_OK && P->n_pins > before) {
+    sli_pin *last = P->pins[--P->n_pins];
+    sli_pins_count_nulls(P, last, 0);
+    sli_pin_free(P, last);
+  }
+  sli_free(&W.allocator, W.block);
+  return status;
+}
+
 /* src/impl/change/pins_balance.h: null vectors in solves with pins: balance of forces, and motions */
 
 static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
   const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
   sl_int a, b, p, k;
-  (void)sli_pins_nulls_begin(w, P);
+  sli_pins_nulls_begin(w, P);
   sli_pins_nulls_load(w, P);
   memset(w->S, 0, ld * ld * sizeof(double));
   for (a = 0; a < w->count; a++) {
@@ -24326,18 +24461,12 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
     }
   }
   for (a = 0; a < w->count; a++) {
-    double *row = w->S + (size_t)a * ld, d = row[a];
+    double *row = w->S + (size_t)a * ld;
     for (b = 0; b < a; b++) {
-      row[b] = w->is_free[a] || w->is_free[b]
-             ? 0.0
-             : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
+      row[b] = w->is_free[a] || w->is_free[b] ? 0.0 : row[b];
     }
-    for (b = 0; b < a; b++) {
-      const double x = row[b];
-      row[b] = x / w->S[(size_t)b * ld + (size_t)b];
-      d -= x * row[b];
-    }
-    row[a] = w->is_free[a] ? P->sign : d;
+    row[a] = w->is_free[a] ? P->sign : row[a];
+    sli_capacitance_factor(w->S, ld, a);
     if (!(row[a] * P->sign > 0.0)) {
       return SL_ERR_INACCURATE;
     }
@@ -24404,8 +24533,8 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
 
 static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
               const double *norms) {
-  const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
-  sl_int a, b, p, k, r;
+  const size_t count = (size_t)P->n_pins;
+  sl_int p, k, r;
   for (k = 0; k < w->count * lanes; k++) {
     w->defects[k] = w->s[k];
     w->sizes[k] = norms[k % lanes];
@@ -24418,24 +24547,13 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
       }
     }
   }
-  for (r = 0; r < lanes; r++) {
-    double *s = w->s + r;
-    for (a = 0; a < w->count; a++) {
-      s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
-      for (b = 0; b < a; b++) {
-        s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
-      }
-    }
-    for (a = w->count - 1; a >= 0; a--) {
-      s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
-      for (b = a + 1; b < w->count; b++) {
-        s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
-      }
-    }
-    for (a = 0; a < w->count; a++) {
-      for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
-        f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
-      }
+  for (k = 0; k < w->count * lanes; k++) {
+    w->s[k] = w->is_free[k / lanes] ? 0.0 : w->s[k];
+  }
+  sli_capacitance_solve(w->S, (size_t)w->count, w->count, w->s, lanes);
+  for (k = 0; k < w->count * lanes; k++) {
+    for (p = 0; p < P->n_pins && w->s[k] != 0.0; p++) {
+      f[p * lanes + k % lanes] -= w->W[(size_t)(k / lanes) * count + (size_t)p] * w->s[k];
     }
   }
   for (p = 0; p < P->n_pins; p++) {
@@ -24703,20 +24821,25 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
 /* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
 
 #define SLI_PINS_ENTRY 0.12e-9
-#define SLI_PINS_TERM 0.15e-9
-#define SLI_PINS_FAR 1e-9
-#define SLI_PINS_NEAR 5e5
-#define SLI_PINS_STEP 10e-9
-#define SLI_PINS_DENSE 0.2e-9
+#define SLI_PINS_JOINT 0.26
+#define SLI_PINS_BLOCK 1.05
+#define SLI_PINS_TERM 0.2e-9
+#define SLI_PINS_STEP 3e-9
+#define SLI_PINS_PRODUCT 0.04e-9
+#define SLI_PINS_NUMBER 1e-9
+#define SLI_PINS_PIN 1e-6
+#define SLI_PINS_DENSE 0.13e-9
 #define SLI_PINS_MAP 5e-9
 #define SLI_PINS_COPY 0.6e-9
-#define SLI_PINS_MEMORY 3e-9
+#define SLI_PINS_MEMORY 1.2e-9
+
+#define SLI_PINS_WORTH 1.5
 
 static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                     sl_int others, sl_int *uses) {
   const double before = others, after = before + count;
-  double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before);
-  double terms = 0.0, numbers = 0.0;
+  double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before) +
+           SLI_PINS_PIN * count;
   sl_int k, s;
   for (k = 0; k < count && uses != NULL; k++) {
     uses[S->super_of[sli_key(seeds[k])]]++;
@@ -24724,13 +24847,12 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
   s = count == 0 ? -1 : uses != NULL ? 0 : S->super_of[sli_key(seeds[0])];
   while (s != -1 && s < S->n_supers) {
     const double u = uses == NULL ? 1.0 : uses[s], w = S->steps[s].width;
-    const double pairs = u * (before + 0.5 * u);
     const sl_int up = S->super_parent[s];
     if (u > 0.0) {
-      seconds += SLI_PINS_ENTRY * u * (double)sli_panel_size((sl_int)w, S->steps[s].below) +
-             SLI_PINS_STEP * pairs;
-      terms += w * pairs;
-      numbers += w * (before + u);
+      seconds += SLI_PINS_ENTRY * fmin(u, SLI_PINS_JOINT * u + SLI_PINS_BLOCK) *
+               (double)sli_panel_size((sl_int)w, S->steps[s].below) +
+             (SLI_PINS_STEP + SLI_PINS_TERM * w) * u * before +
+             (SLI_PINS_NUMBER + SLI_PINS_PRODUCT / 2.0 * u) * w * u;
     }
     if (uses != NULL) {
       if (up != -1) {
@@ -24741,7 +24863,7 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
       s = up;
     }
   }
-  return seconds + (numbers > SLI_PINS_NEAR ? SLI_PINS_FAR : SLI_PINS_TERM) * terms;
+  return seconds;
 }
 
 static double sli_pins_least_cost(const sl_pins *P) {
@@ -24890,20 +25012,25 @@ static void sli_held_restore(const sl_pins *P, sli_holding *h) {
 
 static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_target *t,
                  const sli_holding *h, sl_stats *stats) {
-  const double one = 1.0;
   sl_status status = h == NULL ? SL_OK : sli_held_take(D, h);
-  sl_int k;
+  sl_int k, last;
   D->base = h == NULL ? D->F : D->G;
   status = status == SL_OK ? sli_pins_take(D) : status;
   status = status == SL_OK ? sli_pins_reserve(D, t->count) : status;
-  for (k = 0; k < t->count && status == SL_OK; k++) {
-    D->rows[k] = t->rows[k];
+  for (k = 0; k < t->count && status == SL_OK; k = last) {
+    last = k + 1;
     if (t->rows[k] == -1) {
       const sli_pin *pin = P->pins[t->from[k]];
       status = sli_pins_push(D, k, pin->rows, pin->values, pin->count, stats);
-    } else if (h == NULL) {
-      status = sli_pins_push(D, k, &t->rows[k], &one, 1, stats);
+    } else {
+      while (last < t->count && t->rows[last] != -1) {
+        last++;
+      }
+      status = h == NULL ? sli_pins_push_rows(D, k, t->rows + k, last - k, stats) : SL_OK;
     }
+  }
+  if (status == SL_OK && t->count > 0) {
+    memcpy(D->rows, t->rows, (size_t)t->count * sizeof(sl_int));
   }
   D->count = t->count;
   return status;
@@ -25114,7 +25241,7 @@ SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats
     sli_free(&P->allocator, P->values);
     P->values = values;
     P->reason = SL_PINS_CHEAPEST;
-    P->threshold = sli_pins_least_cost(P);
+    P->threshold = SLI_PINS_WORTH * sli_pins_least_cost(P);
   } else {
     status = status == SL_OK ? sli_pins_renew(P, values, stats) : status;
     if (status != SL_OK) {
@@ -25223,18 +25350,11 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
 
 static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_int count,
                        sl_stats *stats) {
-  const double one = 1.0;
-  const sl_int before = P->count;
   sl_status status = sli_pins_reserve(P, P->count + count);
-  sl_int k;
-  for (k = 0; k < count && status == SL_OK; k++) {
-    status = sli_pins_push(P, P->count, &rows[k], &one, 1, stats);
-    if (status == SL_OK) {
-      P->rows[P->count++] = rows[k];
-    }
-  }
-  while (status != SL_OK && P->count > before) {
-    sli_pins_drop(P, P->count - 1);
+  status = status == SL_OK ? sli_pins_push_rows(P, P->count, rows, count, stats) : status;
+  if (status == SL_OK && count > 0) {
+    memcpy(P->rows + P->count, rows, (size_t)count * sizeof *rows);
+    P->count += count;
   }
   return status;
 }
@@ -25280,7 +25400,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
     if (*is_done) {
       P->reason = SL_PINS_CHEAPEST;
       P->spent = 0.0;
-      P->threshold = sli_pins_least_cost(P);
+      P->threshold = SLI_PINS_WORTH * sli_pins_least_cost(P);
     } else if (sli_pins_is_refused(status)) {
       P->reason = SL_PINS_REFUSED;
       P->threshold = (double)INFINITY;

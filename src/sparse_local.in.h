@@ -175,6 +175,7 @@ extern "C" {
 #include "impl/change/pins_types.h"
 #include "impl/change/pins_nulls.h"
 #include "impl/change/pins_capacitance.h"
+#include "impl/change/pins_rows.h"
 #include "impl/change/pins_balance.h"
 #include "impl/change/pins_held.h"
 #include "impl/change/pins_choose.h"

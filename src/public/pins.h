@@ -59,8 +59,9 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *st
  *  rows   [in]   count >= 0 rows.
  *  stats  [out]  pins; error.row; may be NULL.
  *  Returns, Threads  as in sl_pins_add.
- *  Cost     by the capacitance matrix as in sl_pins_add; by elimination a copy of the factor if P
- *           has none yet, and a refactorization of the reach of the changed rows, or of all.
+ *  Cost     by the capacitance matrix as in sl_pins_add, but up to 8 nearby rows share a sweep; by
+ *           elimination a copy of the factor if P has none yet, and a refactorization of the reach
+ *           of the changed rows, or of all.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count,
                                                  sl_stats *stats);

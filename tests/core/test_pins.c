@@ -35,6 +35,46 @@ static void pins_hold_rows_of_definite_matrices(void **state) {
     }
 }
 
+/* Rows of one call share sweeps; one that is given twice refuses all of them. */
+static void rows_are_pinned_together(void **state) {
+    (void)state;
+    static const gen_kind_t kinds[6] = {GEN_DIAGONAL, GEN_STAR,       GEN_GRID2,
+                                        GEN_GRID2,    GEN_COMPONENTS, GEN_SINGULAR};
+    static const sl_int sizes[6] = {40, 60, 60, 289, 120, 100};
+    static const sl_int counts[6] = {20, 13, 5, 150, 60, 40};
+    isa_list_t isas = isas_present();
+    uint64_t seed = 8;
+    for (int k = 0; k < 6 * isas.count; k++) {
+        const int kind = k % 6;
+        sl_options opt = options_none();
+        opt.isa = isas.isa[k / 6];
+        opt.null_pivots = kind == 5 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        pinned_t p = pinned_make(kinds[kind], sizes[kind], k % 2 ? 1 : -1, &opt);
+        sl_int count = counts[kind], *rows = test_ints((size_t)p.n);
+        sl_stats stats;
+        assert_true(p.n > count + 1);
+        gen_set(rows, count + 2, p.n, gen_bits(&seed));
+        pin(&p, rows[count]);
+        pin_rows(&p, rows, count, NULL);
+        assert_pinned(&p, gen_bits(&seed));
+        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows + count, 2, &stats));
+        assert_int_equal(stats.error.row, rows[count]);
+        for (sl_int m = 0; m <= count; m++) {
+            release(&p, p.count - 1);
+        }
+        const sl_int other = rows[count - 2];
+        rows[count - 2] = rows[1];
+        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows, count, &stats));
+        assert_int_equal(stats.error.row, rows[1]);
+        assert_int_equal(sl_pins_count(p.P), 0);
+        rows[count - 2] = other;
+        pin_rows(&p, rows, count, NULL);
+        assert_pinned(&p, gen_bits(&seed));
+        free(rows);
+        pinned_free(&p);
+    }
+}
+
 static void equalities_hold(void **state) {
     (void)state;
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
@@ -268,6 +308,7 @@ static void failing_allocations_leave_the_pins(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pins_hold_rows_of_definite_matrices),
+        cmocka_unit_test(rows_are_pinned_together),
         cmocka_unit_test(equalities_hold),
         cmocka_unit_test(a_pinned_row_takes_no_load),
         cmocka_unit_test(a_pin_makes_a_laplacian_regular),

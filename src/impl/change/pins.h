@@ -96,18 +96,11 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
 /* Adds pins by the capacitance matrix: all of them, or none. */
 static sl_status sli_pins_add_by_capacitance(sl_pins *P, const sl_int *rows, sl_int count,
                                              sl_stats *stats) {
-    const double one = 1.0;
-    const sl_int before = P->count;
     sl_status status = sli_pins_reserve(P, P->count + count);
-    sl_int k;
-    for (k = 0; k < count && status == SL_OK; k++) {
-        status = sli_pins_push(P, P->count, &rows[k], &one, 1, stats);
-        if (status == SL_OK) {
-            P->rows[P->count++] = rows[k];
-        }
-    }
-    while (status != SL_OK && P->count > before) {
-        sli_pins_drop(P, P->count - 1);
+    status = status == SL_OK ? sli_pins_push_rows(P, P->count, rows, count, stats) : status;
+    if (status == SL_OK && count > 0) {
+        memcpy(P->rows + P->count, rows, (size_t)count * sizeof *rows);
+        P->count += count;
     }
     return status;
 }
@@ -155,7 +148,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
         if (*is_done) {
             P->reason = SL_PINS_CHEAPEST;
             P->spent = 0.0;
-            P->threshold = sli_pins_least_cost(P);
+            P->threshold = SLI_PINS_WORTH * sli_pins_least_cost(P);
         } else if (sli_pins_is_refused(status)) {
             P->reason = SL_PINS_REFUSED;
             P->threshold = (double)INFINITY;

@@ -8,7 +8,7 @@
 static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P) {
     const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
     sl_int a, b, p, k;
-    (void)sli_pins_nulls_begin(w, P);
+    sli_pins_nulls_begin(w, P);
     sli_pins_nulls_load(w, P);
     memset(w->S, 0, ld * ld * sizeof(double));
     for (a = 0; a < w->count; a++) {
@@ -24,18 +24,12 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
         }
     }
     for (a = 0; a < w->count; a++) {
-        double *row = w->S + (size_t)a * ld, d = row[a];
-        for (b = 0; b < a; b++) { /* row(b) = l(b) d(b) */
-            row[b] = w->is_free[a] || w->is_free[b]
-                         ? 0.0
-                         : row[b] - sli_dot(w->S + (size_t)b * ld, row, b);
-        }
+        double *row = w->S + (size_t)a * ld;
         for (b = 0; b < a; b++) {
-            const double x = row[b];
-            row[b] = x / w->S[(size_t)b * ld + (size_t)b];
-            d -= x * row[b];
+            row[b] = w->is_free[a] || w->is_free[b] ? 0.0 : row[b];
         }
-        row[a] = w->is_free[a] ? P->sign : d;
+        row[a] = w->is_free[a] ? P->sign : row[a];
+        sli_capacitance_factor(w->S, ld, a);
         if (!(row[a] * P->sign > 0.0)) {
             return SL_ERR_INACCURATE;
         }
@@ -108,8 +102,8 @@ static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_in
  * that the pins leave. norms: of b. */
 static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f, sl_int lanes,
                             const double *norms) {
-    const size_t count = (size_t)P->n_pins, ld = (size_t)w->count;
-    sl_int a, b, p, k, r;
+    const size_t count = (size_t)P->n_pins;
+    sl_int p, k, r;
     for (k = 0; k < w->count * lanes; k++) {
         w->defects[k] = w->s[k];
         w->sizes[k] = norms[k % lanes];
@@ -122,24 +116,13 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
             }
         }
     }
-    for (r = 0; r < lanes; r++) {
-        double *s = w->s + r;
-        for (a = 0; a < w->count; a++) {
-            s[a * lanes] = w->is_free[a] ? 0.0 : s[a * lanes];
-            for (b = 0; b < a; b++) {
-                s[a * lanes] -= w->S[(size_t)a * ld + (size_t)b] * s[b * lanes];
-            }
-        }
-        for (a = w->count - 1; a >= 0; a--) {
-            s[a * lanes] /= w->S[(size_t)a * ld + (size_t)a];
-            for (b = a + 1; b < w->count; b++) {
-                s[a * lanes] -= w->S[(size_t)b * ld + (size_t)a] * s[b * lanes];
-            }
-        }
-        for (a = 0; a < w->count; a++) {
-            for (p = 0; p < P->n_pins && s[a * lanes] != 0.0; p++) {
-                f[(ptrdiff_t)p * lanes + r] -= w->W[(size_t)a * count + (size_t)p] * s[a * lanes];
-            }
+    for (k = 0; k < w->count * lanes; k++) {
+        w->s[k] = w->is_free[k / lanes] ? 0.0 : w->s[k];
+    }
+    sli_capacitance_solve(w->S, (size_t)w->count, w->count, w->s, lanes);
+    for (k = 0; k < w->count * lanes; k++) {
+        for (p = 0; p < P->n_pins && w->s[k] != 0.0; p++) {
+            f[p * lanes + k % lanes] -= w->W[(size_t)(k / lanes) * count + (size_t)p] * w->s[k];
         }
     }
     for (p = 0; p < P->n_pins; p++) {

@@ -2,17 +2,27 @@
 #ifndef SLI_CHANGE_PINS_CAPACITANCE_H
 #define SLI_CHANGE_PINS_CAPACITANCE_H
 
+#include "../inverse/block.h"
 #include "pins_nulls.h"
 
-/* y := L^-1 P c, u := D^-1 y, and the entries of W. Sets *row where a null vector is not known. */
-static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, sl_int *row) {
+/* Clears the null pivots of an equality's trees in a vector. */
+static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_reach *R, double *y,
+                                sl_int lanes) {
+    sl_int k;
+    for (k = 0; k < pin->n_nulls; k++) {
+        const ptrdiff_t at = sli_reach_index_of(R, P->base->nulls[pin->nulls[k]]);
+        if (at != -1) {
+            memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
+        }
+    }
+}
+
+/* y := L^-1 P c, u := D^-1 y */
+static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
     const sl_factor *F = P->base;
     const sl_symbolic *S = F->S;
-    const sl_status status = sli_pin_find_nulls(P, pin, row);
-    sl_int s, k;
-    if (status != SL_OK) {
-        return status;
-    }
+    sli_forward f;
+    sl_int k;
     memset(pin->y, 0, (size_t)pin->R.columns * sizeof(double));
     for (k = 0; k < pin->count; k++) {
         const sl_int column = S->iperm[pin->rows[k]];
@@ -20,19 +30,11 @@ static sl_status sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch, 
             sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
     }
     sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
-    for (k = 0; k < pin->n_nulls; k++) {
-        const sl_int at = sli_reach_index_of(&pin->R, F->nulls[pin->nulls[k]]);
-        if (at != -1) {
-            pin->y[at] = 0.0;
-        }
-    }
-    for (s = 0; s < pin->R.count; s++) {
-        const sli_step *step = &pin->R.steps[s];
-        for (k = step->base; k < step->base + sli_step_columns(step); k++) {
-            pin->u[k] = pin->y[k] / F->D[step->column + k - step->base];
-        }
-    }
-    return SL_OK;
+    sli_pin_clear_nulls(P, pin, &pin->R, pin->y, 1);
+    f.reach = pin->R;
+    f.lanes = 1;
+    f.y = pin->y;
+    sli_forward_divide(F, &f, pin->u);
 }
 
 static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
@@ -40,9 +42,10 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
     sli_free(&P->allocator, pin);
 }
 
-/* Makes an equality. */
+/* Makes an equality; without y and u if is_swept is 0. */
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
-                                const double *values, sl_int count, sl_stats *stats) {
+                                const double *values, sl_int count, int is_swept,
+                                sl_stats *stats) {
     const sl_symbolic *S = P->base->S;
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sli_set set = sli_set_of(S, rows, count);
@@ -56,7 +59,8 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
     *out = NULL;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_set_layout_seeds(&set, &seeds);
-        scratch = SLI_TAKE(&seeds, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+        scratch = SLI_TAKE(&seeds, double,
+                           is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
         status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
     }
     status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
@@ -90,11 +94,14 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
             pin->values[k] = values[sli_value(set.seeds[k])];
         }
         sli_set_fill(S, &set, &pin->R, &unused);
-        status = sli_pin_sweep(P, pin, scratch, &row);
+        status = sli_pin_find_nulls(P, pin, &row);
         if (status == SL_OK) {
             *out = pin;
         } else {
             sli_pin_free(P, pin);
+        }
+        if (status == SL_OK && is_swept) {
+            sli_pin_sweep(P, pin, scratch);
         }
     }
     sli_free(&P->allocator, seeds.base);
@@ -127,31 +134,29 @@ static void sli_pin_add(const sli_pin *pin, const sli_reach *R, double *x, sl_in
     }
 }
 
-/* Appends the last of P->n_pins + 1 equalities to the factor of K. A pin that depends on the others
- * leaves a pivot of rounding errors. */
-static sl_status sli_pins_append(sl_pins *P, const sli_pin *pin) {
-    const sl_int k = P->n_pins;
-    const size_t ld = (size_t)P->capacity;
-    double *row = P->K + (size_t)k * ld, own, d;
+/* Factors row k of K = L D L', of which row-major K holds L, with D on the diagonal. */
+static void sli_capacitance_factor(double *K, size_t ld, sl_int k) {
+    double *row = K + (size_t)k * ld;
     sl_int i;
-    sli_pin_dot(pin, &pin->R, pin->y, 1, &own);
-    own += sli_pin_nulls_dot(pin, pin) / P->delta;
-    d = own;
     for (i = 0; i < k; i++) { /* row(i) = l(i) d(i) */
-        sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, &row[i]);
-        row[i] += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
-        row[i] -= sli_dot(P->K + (size_t)i * ld, row, i);
+        row[i] -= sli_dot(K + (size_t)i * ld, row, i);
     }
     for (i = 0; i < k; i++) {
         const double x = row[i];
-        row[i] = x / P->K[(size_t)i * ld + (size_t)i];
-        d -= x * row[i];
+        row[i] = x / K[(size_t)i * ld + (size_t)i];
+        row[k] -= x * row[i];
     }
-    row[k] = d;
-    if (!sli_is_finite(d)) {
+}
+
+/* Factors row k of the pins' K. A pin that depends on the others leaves a pivot of rounding
+ * errors. */
+static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
+    const double *d = &P->K[(size_t)k * (size_t)P->capacity + (size_t)k], own = *d;
+    sli_capacitance_factor(P->K, (size_t)P->capacity, k);
+    if (!sli_is_finite(*d)) {
         return SL_ERR_NOT_FINITE;
     }
-    return d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
+    return *d * P->sign > (64.0 + k) * 8.0 * DBL_EPSILON * fabs(own) ? SL_OK : SL_ERR_PIVOT;
 }
 
 /* Removes equality p: the rows below it take over what its column contributed, a rank-one update of
@@ -184,16 +189,16 @@ static void sli_pins_remove(sl_pins *P, sl_int p) {
     P->n_pins--;
 }
 
-/* Makes room for one more equality. */
-static sl_status sli_pins_grow(sl_pins *P) {
-    const sl_int capacity = P->capacity < 4 ? 8 : 2 * P->capacity;
+/* Makes room for more equalities. */
+static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
+    const sl_int capacity = sli_max(sli_max(8, 2 * P->capacity), P->n_pins + more);
     sli_block b = {NULL, 0, 0};
     sli_pin **pins = NULL;
     double *K = NULL, *scratch = NULL;
     sl_status status = SL_OK;
     sl_int i;
     int pass;
-    if (P->n_pins < P->capacity) {
+    if (P->n_pins + more <= P->capacity) {
         return SL_OK;
     }
     SLI_ASSERT(P->capacity <= INT32_MAX / 4); /* a larger K has 2^61 bytes */
@@ -222,49 +227,62 @@ static sl_status sli_pins_grow(sl_pins *P) {
 /* Adds an equality, number `index` of the set. On error P is as before. */
 static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
                                sl_int count, sl_stats *stats) {
+    const sl_int at = P->n_pins;
     sli_pin *pin = NULL;
-    sl_status status = sli_pins_grow(P);
-    status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, stats) : status;
+    sl_status status = sli_pins_grow(P, 1);
+    sl_int i;
+    status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, 1, stats) : status;
     if (status != SL_OK) {
         return status;
     }
-    status = sli_pins_append(P, pin);
+    P->pins[at] = pin;
+    for (i = 0; i <= at; i++) {
+        double *entry = P->K + (size_t)at * (size_t)P->capacity + (size_t)i;
+        sli_pin_dot(P->pins[i], &pin->R, pin->y, 1, entry);
+        *entry += sli_pin_nulls_dot(P->pins[i], pin) / P->delta;
+    }
+    status = sli_pins_factor(P, at);
     if (status != SL_OK) {
         sli_pin_free(P, pin);
         return sli_fail_at(stats, status, rows[0], -1, 0.0);
     }
     pin->index = index;
     sli_pins_count_nulls(P, pin, 1);
-    P->pins[P->n_pins++] = pin;
+    P->n_pins++;
     return SL_OK;
 }
 
-/* f := K^-1 f, lanes numbers in each row. */
-static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
-    const size_t ld = (size_t)P->capacity;
+/* f := K^-1 f, count rows of lanes numbers. */
+static void sli_capacitance_solve(const double *K, size_t ld, sl_int count, double *f,
+                                  sl_int lanes) {
     sl_int i, j, r;
-    for (i = 1; i < P->n_pins; i++) {
-        const double *l = P->K + (size_t)i * ld;
+    for (i = 1; i < count; i++) {
         double chains[SLI_TILE] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, sums[SLI_TILE];
-        sli_chains_add(chains, l, f, i, lanes);
+        sli_chains_add(chains, K + (size_t)i * ld, f, i, lanes);
         sli_chains_sum(chains, lanes, sums);
         for (r = 0; r < lanes; r++) {
             f[(ptrdiff_t)i * lanes + r] -= sums[r];
         }
     }
-    for (i = 0; i < P->n_pins; i++) {
+    for (i = count - 1; i >= 0; i--) {
+        const double *l = K + (size_t)i * ld;
+        double *x = f + (ptrdiff_t)i * lanes;
         for (r = 0; r < lanes; r++) {
-            f[(ptrdiff_t)i * lanes + r] /= P->K[(size_t)i * ld + (size_t)i];
+            x[r] /= l[i];
         }
     }
-    for (i = P->n_pins - 1; i > 0; i--) {
-        const double *l = P->K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
+    for (i = count - 1; i > 0; i--) {
+        const double *l = K + (size_t)i * ld, *x = f + (ptrdiff_t)i * lanes;
         for (j = 0; j < i; j++) {
             for (r = 0; r < lanes; r++) {
                 f[(ptrdiff_t)j * lanes + r] -= l[j] * x[r];
             }
         }
     }
+}
+
+static void sli_pins_apply(const sl_pins *P, double *f, sl_int lanes) {
+    sli_capacitance_solve(P->K, (size_t)P->capacity, P->n_pins, f, lanes);
 }
 
 #endif

@@ -5,15 +5,22 @@
 #include "pins_held.h"
 
 /* Seconds of the parts of both ways, measured on grids of 1e4 to 1e6 rows. */
-#define SLI_PINS_ENTRY 0.12e-9 /* an entry of L in a forward sweep */
-#define SLI_PINS_TERM 0.15e-9  /* a product of a sum over shared columns */
-#define SLI_PINS_FAR 1e-9      /* the same, where the vectors of pins are more than */
-#define SLI_PINS_NEAR 5e5      /* so many numbers, which stay in a cache */
-#define SLI_PINS_STEP 10e-9    /* a supernode of the same */
-#define SLI_PINS_DENSE 0.2e-9  /* a product in the factor of K */
-#define SLI_PINS_MAP 5e-9      /* an entry of A whose rows are looked up */
-#define SLI_PINS_COPY 0.6e-9   /* an entry of F that is copied */
-#define SLI_PINS_MEMORY 3e-9   /* an entry of a new factor: 0.5 ns in old memory, 5 in new pages */
+#define SLI_PINS_ENTRY 0.12e-9   /* an entry of L in a forward sweep of one row, */
+#define SLI_PINS_JOINT 0.26      /* the same for each row of a block, relative to that, */
+#define SLI_PINS_BLOCK 1.05      /* and for a block that is not full */
+#define SLI_PINS_TERM 0.2e-9     /* a product of a sum with a pin that is there */
+#define SLI_PINS_STEP 3e-9       /* a supernode of the same */
+#define SLI_PINS_PRODUCT 0.04e-9 /* a product of a sum with a pin of the same call */
+#define SLI_PINS_NUMBER 1e-9     /* a number of the vectors of a new pin */
+#define SLI_PINS_PIN 1e-6        /* a new pin */
+#define SLI_PINS_DENSE 0.13e-9   /* a product in the factor of K */
+#define SLI_PINS_MAP 5e-9        /* an entry of A whose rows are looked up */
+#define SLI_PINS_COPY 0.6e-9     /* an entry of F that is copied */
+#define SLI_PINS_MEMORY 1.2e-9   /* an entry of a new factor, more in new pages */
+
+/* The ways are compared from this multiple of what elimination takes at least: a comparison takes a
+ * part of that. */
+#define SLI_PINS_WORTH 1.5
 
 /* Seconds of new pins by the capacitance matrix, beside `others` that are there. seeds: their
  * columns, ascending; uses: n_supers of scratch, 0 before and after; NULL: for one pin, whose path
@@ -21,8 +28,8 @@
 static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                                         sl_int others, sl_int *uses) {
     const double before = others, after = before + count;
-    double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before);
-    double terms = 0.0, numbers = 0.0;
+    double seconds = SLI_PINS_DENSE / 3.0 * (after * after * after - before * before * before) +
+                     SLI_PINS_PIN * count;
     sl_int k, s;
     for (k = 0; k < count && uses != NULL; k++) {
         uses[S->super_of[sli_key(seeds[k])]]++;
@@ -30,13 +37,12 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
     s = count == 0 ? -1 : uses != NULL ? 0 : S->super_of[sli_key(seeds[0])];
     while (s != -1 && s < S->n_supers) {
         const double u = uses == NULL ? 1.0 : uses[s], w = S->steps[s].width;
-        const double pairs = u * (before + 0.5 * u);
         const sl_int up = S->super_parent[s];
         if (u > 0.0) {
-            seconds += SLI_PINS_ENTRY * u * (double)sli_panel_size((sl_int)w, S->steps[s].below) +
-                       SLI_PINS_STEP * pairs;
-            terms += w * pairs;
-            numbers += w * (before + u);
+            seconds += SLI_PINS_ENTRY * fmin(u, SLI_PINS_JOINT * u + SLI_PINS_BLOCK) *
+                           (double)sli_panel_size((sl_int)w, S->steps[s].below) +
+                       (SLI_PINS_STEP + SLI_PINS_TERM * w) * u * before +
+                       (SLI_PINS_NUMBER + SLI_PINS_PRODUCT / 2.0 * u) * w * u;
         }
         if (uses != NULL) {
             if (up != -1) {
@@ -47,7 +53,7 @@ static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *se
             s = up;
         }
     }
-    return seconds + (numbers > SLI_PINS_NEAR ? SLI_PINS_FAR : SLI_PINS_TERM) * terms;
+    return seconds;
 }
 
 /* Seconds that elimination takes at least. */

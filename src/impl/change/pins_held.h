@@ -3,7 +3,7 @@
 #define SLI_CHANGE_PINS_HELD_H
 
 #include "choose.h"
-#include "pins_capacitance.h"
+#include "pins_rows.h"
 
 /* A pin is eliminated by replacing its row and column of A by those of a multiple of the identity.
  * The factor of this matrix is that of the other rows, with zeros in between, over the analysis of

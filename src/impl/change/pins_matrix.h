@@ -144,7 +144,7 @@ SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats
         sli_free(&P->allocator, P->values);
         P->values = values;
         P->reason = SL_PINS_CHEAPEST;
-        P->threshold = sli_pins_least_cost(P);
+        P->threshold = SLI_PINS_WORTH * sli_pins_least_cost(P);
     } else {
         status = status == SL_OK ? sli_pins_renew(P, values, stats) : status;
         if (status != SL_OK) {

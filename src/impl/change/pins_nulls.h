@@ -158,10 +158,10 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
     }
 }
 
-/* Marks the columns of W that depend on those before them. Returns how many. */
-static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
+/* Marks the columns of W that depend on those before them. */
+static void sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
     const size_t count = (size_t)P->n_pins;
-    sl_int a, b, p, n_free = 0;
+    sl_int a, b, p;
     for (a = 0; a < w->count; a++) {
         double *x = w->W + (size_t)a * count;
         double after = sqrt(sli_dot(x, x, P->n_pins));
@@ -179,16 +179,14 @@ static sl_int sli_pins_nulls_mark(const sli_pins_nulls *w, const sl_pins *P) {
             after = after > least ? after : 0.0;
         }
         w->is_free[a] = after == 0.0;
-        n_free += w->is_free[a];
         for (p = 0; p < P->n_pins; p++) {
             x[p] = after == 0.0 ? 0.0 : x[p] / after;
         }
     }
-    return n_free;
 }
 
 /* Lists the null vectors of components with pins and marks those that stay free. */
-static sl_int sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
+static void sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
     sl_int m, at = 0;
     for (m = 0; at < w->count; m++) {
         if (P->uses[m] > 0) {
@@ -197,7 +195,7 @@ static sl_int sli_pins_nulls_begin(const sli_pins_nulls *w, const sl_pins *P) {
         }
     }
     sli_pins_nulls_load(w, P);
-    return sli_pins_nulls_mark(w, P);
+    sli_pins_nulls_mark(w, P);
 }
 
 #endif

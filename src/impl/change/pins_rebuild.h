@@ -139,20 +139,25 @@ static void sli_held_restore(const sl_pins *P, sli_holding *h) {
 /* Fills a new set, D, from the pins of P. */
 static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_target *t,
                                const sli_holding *h, sl_stats *stats) {
-    const double one = 1.0;
     sl_status status = h == NULL ? SL_OK : sli_held_take(D, h);
-    sl_int k;
+    sl_int k, last;
     D->base = h == NULL ? D->F : D->G;
     status = status == SL_OK ? sli_pins_take(D) : status;
     status = status == SL_OK ? sli_pins_reserve(D, t->count) : status;
-    for (k = 0; k < t->count && status == SL_OK; k++) {
-        D->rows[k] = t->rows[k];
+    for (k = 0; k < t->count && status == SL_OK; k = last) {
+        last = k + 1;
         if (t->rows[k] == -1) {
             const sli_pin *pin = P->pins[t->from[k]];
             status = sli_pins_push(D, k, pin->rows, pin->values, pin->count, stats);
-        } else if (h == NULL) {
-            status = sli_pins_push(D, k, &t->rows[k], &one, 1, stats);
+        } else {
+            while (last < t->count && t->rows[last] != -1) {
+                last++;
+            }
+            status = h == NULL ? sli_pins_push_rows(D, k, t->rows + k, last - k, stats) : SL_OK;
         }
+    }
+    if (status == SL_OK && t->count > 0) {
+        memcpy(D->rows, t->rows, (size_t)t->count * sizeof(sl_int));
     }
     D->count = t->count;
     return status;
