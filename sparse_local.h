@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 847e7ab4d06467b8
+ * FNV-1a of the lines after this comment, without the license: de4abb8cbd60b3ea
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,52 +42,52 @@
  *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 text_reader.h   6976 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
  *   7244 graph.h   7361 contract.h   7615 coarsen.h   7779 labels.h   8001 subgraph.h   8195 heap.h
- *   8257 bisect.h   8465 separator.h   8727 mindeg.h   8910 dissect.h   9245 tree_cost.h
- *   9297 levelset.h   9405 geometric.h   9580 cells.h   9760 septree.h   9836 metis.h
- *   9985 metis_refined.h  10100 nd.h  10300 compress.h  10421 levels.h  10474 border.h
- *  10527 forest.h  10614 peel.h  10814 quotient.h  11231 graph_kind.h  11302 order.h
+ *   8257 bisect.h   8465 separator.h   8727 mindeg.h   8910 dissect.h   9269 tree_cost.h
+ *   9321 levelset.h   9406 geometric.h   9581 cells.h   9761 septree.h   9837 metis.h
+ *   9986 metis_refined.h  10101 nd.h  10302 compress.h  10423 levels.h  10476 border.h
+ *  10529 forest.h  10616 peel.h  10816 quotient.h  11233 graph_kind.h  11304 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11627 symbolic_types.h  11664 etree.h  11861 supernodes.h  12123 pattern.h  12206 structure.h
- *  12474 schedule.h  12754 symbolic.h  13227 reach.h
+ *  11629 symbolic_types.h  11666 etree.h  11863 supernodes.h  12125 pattern.h  12208 structure.h
+ *  12476 schedule.h  12756 symbolic.h  13229 reach.h
  * (factor: the numbers of L and D)
- *  13503 factor_types.h  13706 panel_load.h  13819 pivot_check.h  13935 storage.h
- *  14073 pivot_search.h  14419 pivoted.h  14488 scatter.h  14646 uplooking.h  14718 null_product.h
- *  14922 null_dense.h  14999 null_basis.h  15319 null_vectors.h  15461 multifrontal.h
- *  15655 gather.h  15703 kept.h  15873 front_tasks.h  16216 null_center.h  16340 nullspace.h
- *  16547 growth.h  16625 factor_setup.h  16965 factor.h  17180 leftlooking.h  17334 factor_query.h
- *  17469 combination.h
+ *  13505 factor_types.h  13708 panel_load.h  13821 pivot_check.h  13937 storage.h
+ *  14075 pivot_search.h  14421 pivoted.h  14490 scatter.h  14648 uplooking.h  14720 null_product.h
+ *  14924 null_dense.h  15001 null_basis.h  15321 null_vectors.h  15463 multifrontal.h
+ *  15657 gather.h  15705 kept.h  15875 front_tasks.h  16218 null_center.h  16342 nullspace.h
+ *  16549 growth.h  16627 factor_setup.h  16967 factor.h  17182 leftlooking.h  17336 factor_query.h
+ *  17471 combination.h
  * (solve: full and local solves)
- *  17530 region_types.h  17634 work.h  17734 query.h  17952 singular.h  18212 backward.h
- *  18242 sweep_tasks.h  18573 sweep.h  18781 compile.h  18974 plan.h  19081 local.h  19233 parts.h
- *  19522 refine.h  19701 refine_local.h  19917 rcond.h  20076 defects.h
+ *  17532 region_types.h  17636 work.h  17736 query.h  17954 singular.h  18214 backward.h
+ *  18244 sweep_tasks.h  18575 sweep.h  18783 compile.h  18976 plan.h  19083 local.h  19235 parts.h
+ *  19524 refine.h  19703 refine_local.h  19919 rcond.h  20078 defects.h
  * (inverse: entries of the inverse, regions)
- *  20135 traversal.h  20384 traversal_run.h  20577 row_sets.h  20611 unit_vectors.h
- *  20838 bilinear.h  21010 entries.h  21287 block.h  21522 reserve.h  21714 selected.h
- *  21924 selected_query.h  22026 region_choose.h  22253 region.h
+ *  20137 traversal.h  20386 traversal_run.h  20579 row_sets.h  20613 unit_vectors.h
+ *  20840 bilinear.h  21012 entries.h  21289 block.h  21524 reserve.h  21716 selected.h
+ *  21926 selected_query.h  22028 region_choose.h  22255 region.h
  * (change: a factor that follows changes of its matrix)
- *  22501 update.h  22892 path.h  23011 rank.h  23402 edges.h  23556 choose.h  23807 pins_types.h
- *  23873 pins_nulls.h  24054 pins_capacitance.h  24323 pins_rows.h  24443 pins_balance.h
- *  24605 pins_held.h  24821 pins_choose.h  24887 pins_rebuild.h  25110 pins_matrix.h  25261 pins.h
- *  25523 pins_solve.h  25796 subset.h  25924 restrict_kept.h  26122 restrict_analysis.h
- *  26368 restrict_symbolic.h  26563 restrict.h  26795 edit_match.h  26994 edit_place.h
- *  27243 edit_separate.h  27557 edit_order.h  27712 edit_graph.h  27794 edit_join.h  28070 edit.h
- *  28233 edit_factor.h
+ *  22503 update.h  22894 path.h  23013 rank.h  23404 edges.h  23558 choose.h  23809 pins_types.h
+ *  23875 pins_nulls.h  24056 pins_capacitance.h  24325 pins_rows.h  24445 pins_balance.h
+ *  24607 pins_held.h  24823 pins_choose.h  24889 pins_rebuild.h  25112 pins_matrix.h  25263 pins.h
+ *  25525 pins_solve.h  25798 subset.h  25926 restrict_kept.h  26124 restrict_analysis.h
+ *  26370 restrict_symbolic.h  26565 restrict.h  26797 edit_match.h  26996 edit_place.h
+ *  27245 edit_separate.h  27559 edit_order.h  27714 edit_graph.h  27796 edit_join.h  28072 edit.h
+ *  28235 edit_factor.h
  * (save: factors in files)
- *  28518 format.h  28815 decode.h  28963 check.h  29293 write.h  29598 load.h  29866 load_inverse.h
- *  30196 load_calls.h
+ *  28520 format.h  28817 decode.h  28965 check.h  29295 write.h  29600 load.h  29868 load_inverse.h
+ *  30198 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30395 batch_solve.h  30604 batch_factor.h  30805 batch_diagonal.h
+ *  30397 batch_solve.h  30606 batch_factor.h  30807 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30945 hermitian.h  31107 complex_rows.h
+ *  30947 hermitian.h  31109 complex_rows.h
  * (last: undefine every internal macro)
- *  31275 undef.h
+ *  31277 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31563 front.inl.h  31565 product.inl.h  32076 copy_rows.inl.h  32114 sweeps.inl.h
- *  32116 unit_triangle.inl.h  32153 two_rhs.inl.h  32327 small_supernode.inl.h
- *  32529 single_rhs.inl.h  32769 multi_rhs.inl.h  32788 complex_groups.inl.h
- *  32927 multi_rhs_small.inl.h  33099 multi_rhs_tiles.inl.h  33376 kernel_set.inl.h
- *  33378 complex_small.inl.h  33568 complex_rows.inl.h  33783 inverse_front.inl.h  34068 row.inl.h
- *  34098 change.inl.h  34341 interleave.inl.h  34475 lanes_undef.inl.h  34494 words_undef.inl.h
+ *  31565 front.inl.h  31567 product.inl.h  32078 copy_rows.inl.h  32116 sweeps.inl.h
+ *  32118 unit_triangle.inl.h  32155 two_rhs.inl.h  32329 small_supernode.inl.h
+ *  32531 single_rhs.inl.h  32771 multi_rhs.inl.h  32790 complex_groups.inl.h
+ *  32929 multi_rhs_small.inl.h  33101 multi_rhs_tiles.inl.h  33378 kernel_set.inl.h
+ *  33380 complex_small.inl.h  33570 complex_rows.inl.h  33785 inverse_front.inl.h  34070 row.inl.h
+ *  34100 change.inl.h  34343 interleave.inl.h  34477 lanes_undef.inl.h  34496 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8912,7 +8912,12 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
 #define SLI_DISSECT_LEAF 160
 #define SLI_DISSECT_LEAF_REFINED 140
 #define SLI_DISSECT_BISECT_MIN 70
+#define SLI_DISSECT_BISECT_MIN_VOLUME 200
 #define SLI_DISSECT_SHRINK 10
+#define SLI_DISSECT_SHRINK_VOLUME 2
+#define SLI_SEVEN_POINT_DEGREE 6
+#define SLI_SEVEN_POINT_DEGREE_COARSE 7
+#define SLI_VOLUME_DEGREE 10
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
@@ -8938,6 +8943,7 @@ typedef struct sli_dissection {
   int n_levels, level;
   sl_int total;
   sl_int leaf_size;
+  int is_volume, may_be_seven_point;
   int band_growth;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -9009,7 +9015,7 @@ static void sli_dissect_start(sli_dissection *d) {
 }
 
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
-  const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN;
+  const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
   sli_subgraph_bisect(sub,
             few           ? SLI_DISSECT_TRIES_FIRST
             : sub->n > 50 ? SLI_DISSECT_TRIES
@@ -9112,6 +9118,9 @@ static int sli_dissect_is_balanced(const sli_subgraph *sub) {
 
 static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
   int layers = SLI_DISSECT_BAND;
+  if (d->is_volume) {
+    return 1;
+  }
   if (sli_level_is_wide(&d->levels[0])) {
     return weight > SLI_DISSECT_BAND_FROM;
   }
@@ -9160,9 +9169,16 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
   sli_weigh_edges(&w);
 }
 
+static int sli_level_exceeds(const sli_level *g, sl_off degree) {
+  return g->begin[g->n] > degree * g->n;
+}
+
+static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
+  return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
+}
+
 static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
-  const sl_int n = d->levels[0].n,
-         enough = sli_min(SLI_DISSECT_BISECT_MIN, n / SLI_DISSECT_SHRINK);
+  const sl_int n = d->levels[0].n;
   int shrunk = 1;
   sl_status status = SL_OK;
   sli_clusters clusters;
@@ -9173,13 +9189,21 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     const int last = d->n_levels - 1;
     const sli_level *g = &d->levels[last];
     const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
-    if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
+    sl_int most;
+    if (last == 1) {
+      d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
+      d->may_be_seven_point =
+        !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
+        sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
+    }
+    most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
+    if (*working == -1 && last > 0 && g->n <= most) {
       *working = last;
       if (weigh) {
         sli_dissect_weigh(d, last);
       }
     }
-    if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
+    if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
       break;
     }
     status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, &d->ranges,
@@ -9210,7 +9234,7 @@ static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
   d->level = d->n_levels - 1;
   sli_dissect_start(d);
   for (;;) {
-    while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN,
+    while (sli_dissect_split(d, d->level == working ? 1 : sli_dissect_bisect_min(d),
                  sli_dissect_bisect) > 0) {
     }
     if (d->level == working) {
@@ -9362,39 +9386,16 @@ static void sli_dissect_levelset(sli_dissection *d) {
   }
 }
 
-static sl_int sli_dissect_root_border(const sli_dissection *d) {
-  const sli_level *g = &d->levels[0];
-  const sl_int root = d->tree.root;
-  sl_int v, count = 0;
-  sl_off e;
-  for (v = 0; v < g->n; v++) {
-    int crosses = 0;
-    for (e = g->begin[v]; e < g->begin[v + 1] && d->label[v] < root; e++) {
-      crosses |= d->label[g->to[e]] > root;
-    }
-    count += crosses;
-  }
-  return count;
-}
-
-#define SLI_VOLUME_BORDER 5
-
-static int sli_dissect_may_be_volume(const sli_dissection *d) {
-  const sli_level *g = &d->levels[0];
-  return sli_exceeds_sqrt(2 * (int64_t)sli_dissect_root_border(d), SLI_VOLUME_BORDER,
-              sli_level_is_wide(g) ? (sl_int)(g->begin[g->n] / 4) : g->n);
-}
-
 static sl_status sli_dissect_graph(sli_dissection *d) {
   sli_tree_cost multilevel, flat;
-  sl_status status = sli_dissect_multilevel(d);
-  if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
+  const sl_status status = sli_dissect_multilevel(d);
+  if (status != SL_OK || !d->may_be_seven_point) {
     return status;
   }
-  multilevel = sli_tree_cost_times(sli_dissect_cost(d, &flat), 2);
+  multilevel = sli_dissect_cost(d, &flat);
   sli_dissect_swap(d);
   sli_dissect_levelset(d);
-  if (sli_tree_cost_is_less(sli_tree_cost_times(sli_dissect_cost(d, &flat), 3), multilevel)) {
+  if (sli_tree_cost_is_less(sli_dissect_cost(d, &flat), multilevel)) {
     d->band_growth = 0;
   } else {
     sli_dissect_swap(d);
@@ -9742,7 +9743,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
   status = sli_dissect_try_points(d, sorted, cell, &is_good);
   if (status == SL_OK && !is_good) {
     status = sli_dissect_graph(d);
-    if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
+    if (status != SL_OK || (!d->is_volume && !d->may_be_seven_point)) {
       return status;
     }
     graph = sli_dissect_cost(d, &flat);
@@ -10176,6 +10177,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
   d->band_growth = 2;
+  d->is_volume = d->may_be_seven_point = 0;
   if (w->by_metis) {
 #if defined(SLI_METIS)
     return sli_dissect_metis_refined(d);

@@ -43,7 +43,7 @@ static void patterns_have_one_order(void **state) {
     static const uint64_t expected[ORDER_KINDS] = {
         0xc9652a8860d10bbcu, 0xf424a95df0192f8au, 0x94df81bbbfcf14dau, 0xc97785b670e44a52u,
         0x4c85b3d7f50377e2u, 0x6f65117e326858f7u, 0xbfec7b76be2cb289u, 0xab619d1e4f017fa3u,
-        0x23d3c361ab0e84b3u, 0x04227071eca4a6e5u, 0x605777a43ae9d01fu, 0x3838cf092e4a29eeu};
+        0x23d3c361ab0e84b3u, 0x980f1cda779e982cu, 0x605777a43ae9d01fu, 0x3838cf092e4a29eeu};
     int wrong = 0;
     for (int kind = 0; kind < ORDER_KINDS; kind++) {
         gen_list_t t = pattern(kind);

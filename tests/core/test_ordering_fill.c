@@ -160,6 +160,58 @@ static void meshes_are_near_metis(void **state) {
     assert_int_equal(failures, 0);
 }
 
+/* A box of cubes. Joins those that differ by one step along up to `axes` axes; falling: also if
+ * the steps have opposite signs. Three axes without that are the edges of six tetrahedra in each
+ * cube. */
+static gen_matrix_t box(sl_int side, sl_int height, sl_int axes, int falling) {
+    gen_list_t t = gen_list(side * side * height);
+    for (sl_int v = 0; v < t.n; v++) {
+        for (sl_int way = 0; way < 27; way++) {
+            const sl_int dx = way % 3 - 1, dy = way / 3 % 3 - 1, dz = way / 9 - 1;
+            const sl_int x = v % side + dx, y = v / side % side + dy, z = v / side / side + dz;
+            const sl_int u = x + side * (y + side * z), steps = abs(dx) + abs(dy) + abs(dz);
+            if (x >= 0 && x < side && y >= 0 && y < side && z >= 0 && z < height && u <= v &&
+                steps <= axes && (falling || abs(dx + dy + dz) == steps)) {
+                gen_add(&t, v, u, 1.0);
+            }
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* Volumes of more than 10 neighbors a vertex, and plates of few layers. Measured: fill 0.94 to
+ * 1.05, path weight 0.94 to 1.08. With the levels and bands of surfaces, tetrahedra had fill up to
+ * 1.25 and path weight up to 1.58, and 27-point grids 1.29 and 1.86; without level sets, plates up
+ * to 1.23 and 1.13. */
+static void volumes_are_near_metis(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        sl_int side[SIZES], height[SIZES], axes;
+        int falling;
+        double path;
+    } boxes[] = {{"tetrahedra", {20, 24, 28}, {20, 24, 28}, 3, 0, 1.06},
+                 {"27-point", {20, 25, 30}, {20, 25, 30}, 3, 1, 1.12},
+                 {"plates", {60, 60, 50}, {2, 3, 8}, 1, 1, 1.06}};
+    int failures = 0;
+    if (!ordering_is_present(SL_ORDERING_METIS)) {
+        skip();
+    }
+    for (size_t k = 0; k < sizeof boxes / sizeof *boxes; k++) {
+        order_quality ours = {0, 0}, metis = {0, 0};
+        for (int size = 0; size < SIZES; size++) {
+            gen_matrix_t M =
+                box(boxes[k].side[size], boxes[k].height[size], boxes[k].axes, boxes[k].falling);
+            add_renamed(&M.view, &ours, &metis);
+            gen_matrix_free(&M);
+        }
+        failures += is_worse(boxes[k].name, ours, metis, 1.06, boxes[k].path);
+    }
+    assert_int_equal(failures, 0);
+}
+
 /* Biharmonic and triharmonic systems: their wide graphs are coarsened by neighborhoods. Measured:
  * fill 0.89 to 1.03, path weight 0.97 to 1.07. With pairs of vertices, bands of several layers and
  * level sets, as in other graphs: fill up to 1.07, path weight up to 1.13. */
@@ -247,11 +299,11 @@ static void points_cost_next_to_nothing(void **state) {
     assert_int_equal(failures, 0);
 }
 
-/* The points of a lattice of space with 12 neighbors are halved by planes: 0.90 times the entries,
- * 0.79 times the path weight. */
+/* The points of a lattice of space with 12 neighbors are halved by planes: 0.97 times the entries,
+ * 0.92 times the path weight. */
 static void points_may_halve_volumes(void **state) {
     (void)state;
-    enum { SIDE = 24, N = SIDE * SIDE * SIDE };
+    enum { SIDE = 28, N = SIDE * SIDE * SIDE };
     gen_list_t t = gen_list(N);
     double *xyz = test_reals(3 * (size_t)N);
     for (sl_int v = 0; v < N; v++) {
@@ -270,7 +322,7 @@ static void points_may_halve_volumes(void **state) {
     gen_matrix_t M = gen_store(&t, gen_style(0), 1);
     order_quality with = {0, 0}, without = {0, 0};
     add_points(&M.view, xyz, &with, &without);
-    assert_false(is_worse("lattice", with, without, 0.95, 0.85));
+    assert_false(is_worse("lattice", with, without, 0.99, 0.96));
     gen_matrix_free(&M);
     gen_list_free(&t);
     free(xyz);
@@ -322,6 +374,7 @@ int main(void) {
         cmocka_unit_test(meshes_are_near_metis),
         cmocka_unit_test(rings_are_near_metis),
         cmocka_unit_test(points_cost_next_to_nothing),
+        cmocka_unit_test(volumes_are_near_metis),
         cmocka_unit_test(points_may_halve_volumes),
         cmocka_unit_test(blocks_that_cannot_be_paired_are_dissected),
     };

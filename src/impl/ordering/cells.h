@@ -193,7 +193,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
     status = sli_dissect_try_points(d, sorted, cell, &is_good);
     if (status == SL_OK && !is_good) {
         status = sli_dissect_graph(d);
-        if (status != SL_OK || !sli_dissect_may_be_volume(d)) {
+        if (status != SL_OK || (!d->is_volume && !d->may_be_seven_point)) {
             return status;
         }
         graph = sli_dissect_cost(d, &flat);

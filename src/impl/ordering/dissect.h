@@ -9,10 +9,19 @@
  * a further separator. With METIS's separators, smaller leaves save another 0.5 % of fill. */
 #define SLI_DISSECT_LEAF 160
 #define SLI_DISSECT_LEAF_REFINED 140
-/* A leaf is bisected on the coarsest level on which it has more vertices than this. */
+/* A leaf is bisected on the coarsest level on which it has more vertices than BISECT_MIN. Leaves
+ * are bisected only on levels of at most n / SHRINK vertices, in volumes on the first coarser one,
+ * too: separators have a larger share of the vertices there, and clusters make them rougher. */
 #define SLI_DISSECT_BISECT_MIN 70
-/* Leaves are bisected only on levels of at most n / SLI_DISSECT_SHRINK vertices. */
+#define SLI_DISSECT_BISECT_MIN_VOLUME 200
 #define SLI_DISSECT_SHRINK 10
+#define SLI_DISSECT_SHRINK_VOLUME 2 /* at least, for sli_weigh_edges */
+/* The first coarser level of a graph has up to 6 neighbors for each vertex on surfaces, 7.4 to 9 in
+ * wide graphs of them, 7.1 to 9.3 in 7-point volumes and plates, whose finest level has up to 6,
+ * and 12 to 17 in volumes of tetrahedra or 27 points. */
+#define SLI_SEVEN_POINT_DEGREE 6
+#define SLI_SEVEN_POINT_DEGREE_COARSE 7
+#define SLI_VOLUME_DEGREE 10
 /* Tries of graph growing: TRIES_FIRST while the tree has fewer than FIRST nodes, because the first
  * separators decide most, then TRIES. */
 #define SLI_DISSECT_FIRST 64
@@ -50,6 +59,7 @@ typedef struct sli_dissection {
     int n_levels, level;              /* level: the one that the labels refer to */
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
+    int is_volume, may_be_seven_point;
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
     sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
     sli_border_pool pool;
@@ -125,7 +135,7 @@ static void sli_dissect_start(sli_dissection *d) {
 
 /* Bisects a subgraph when the tree has so many nodes. */
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
-    const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN;
+    const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
     sli_subgraph_bisect(sub,
                         few           ? SLI_DISSECT_TRIES_FIRST
                         : sub->n > 50 ? SLI_DISSECT_TRIES
@@ -236,9 +246,13 @@ static int sli_dissect_is_balanced(const sli_subgraph *sub) {
 
 /* The number of layers of the band of a subgraph of this weight. In a wide graph, a layer is two or
  * three layers of a mesh, and so is each side of the border: one layer more contains much of a
- * small subgraph, and several move the separators of large ones away from the middle. */
+ * small subgraph, and several move the separators of large ones away from the middle. So they do in
+ * volumes. */
 static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
     int layers = SLI_DISSECT_BAND;
+    if (d->is_volume) {
+        return 1;
+    }
     if (sli_level_is_wide(&d->levels[0])) {
         return weight > SLI_DISSECT_BAND_FROM;
     }
@@ -292,11 +306,18 @@ static void sli_dissect_weigh(sli_dissection *d, int l) {
     sli_weigh_edges(&w);
 }
 
+static int sli_level_exceeds(const sli_level *g, sl_off degree) {
+    return g->begin[g->n] > degree * g->n;
+}
+
+static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
+    return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
+}
+
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on
  * which leaves are bisected. weigh: its edges become what a separator costs. */
 static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
-    const sl_int n = d->levels[0].n,
-                 enough = sli_min(SLI_DISSECT_BISECT_MIN, n / SLI_DISSECT_SHRINK);
+    const sl_int n = d->levels[0].n;
     int shrunk = 1;
     sl_status status = SL_OK;
     sli_clusters clusters;
@@ -309,13 +330,21 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
         /* Three times the mean weight keeps the weights of a level even enough for balanced
          * bisection. */
         const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
-        if (*working == -1 && last > 0 && g->n <= n / SLI_DISSECT_SHRINK) {
+        sl_int most;
+        if (last == 1) {
+            d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
+            d->may_be_seven_point =
+                !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
+                sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
+        }
+        most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
+        if (*working == -1 && last > 0 && g->n <= most) {
             *working = last;
             if (weigh) {
                 sli_dissect_weigh(d, last);
             }
         }
-        if (g->n <= enough || d->n_levels == SLI_LEVELS_MAX) {
+        if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
             break;
         }
         status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, &d->ranges,
@@ -349,7 +378,7 @@ static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
     d->level = d->n_levels - 1;
     sli_dissect_start(d);
     for (;;) {
-        while (sli_dissect_split(d, d->level == working ? 1 : SLI_DISSECT_BISECT_MIN,
+        while (sli_dissect_split(d, d->level == working ? 1 : sli_dissect_bisect_min(d),
                                  sli_dissect_bisect) > 0) {
         }
         if (d->level == working) {
