@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: de4abb8cbd60b3ea
+ * FNV-1a of the lines after this comment, without the license: 52700735bde8b20c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,70 +24,70 @@
  *   2378 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
  *   2517 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
  *   2635 change.h     a factor that follows small changes of its matrix
- *   2727 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2879 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3010 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3065 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   2728 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2880 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3011 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3066 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3158 base.h   3454 status.h   3515 options.h   3574 alloc.h   3737 hash.h   3867 file_map.h
- *   3964 sort.h   4028 parallel.h
+ *   3159 base.h   3455 status.h   3516 options.h   3575 alloc.h   3738 hash.h   3868 file_map.h
+ *   3965 sort.h   4029 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4224 panel.h   4249 step.h   4328 pivot_rule.h   4402 front.h   4463 pairs.h
- *   4670 inverse_front.h   4742 table.h   4791 simd.h   4887 simd_scalar_single.h
- *   4931 simd_scalar.h   5057 simd_avx2_single.h   5109 simd_avx2.h   5335 simd_avx512_single.h
- *   5389 simd_avx512.h   5555 simd_neon_single.h   5595 simd_neon.h   5815 dispatch.h
+ *   4225 panel.h   4250 step.h   4329 pivot_rule.h   4403 front.h   4464 pairs.h
+ *   4671 inverse_front.h   4743 table.h   4792 simd.h   4888 simd_scalar_single.h
+ *   4932 simd_scalar.h   5058 simd_avx2_single.h   5110 simd_avx2.h   5336 simd_avx512_single.h
+ *   5390 simd_avx512.h   5556 simd_neon_single.h   5596 simd_neon.h   5816 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5908 csc.h   6051 csc_build.h   6185 csc64.h   6256 csc_triangle.h   6321 csc_products.h
- *   6438 permute.h   6504 sum.h   6586 output_file.h   6795 text_reader.h   6976 matrix_market.h
+ *   5909 csc.h   6052 csc_build.h   6186 csc64.h   6257 csc_triangle.h   6322 csc_products.h
+ *   6439 permute.h   6505 sum.h   6587 output_file.h   6796 text_reader.h   6977 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7244 graph.h   7361 contract.h   7615 coarsen.h   7779 labels.h   8001 subgraph.h   8195 heap.h
- *   8257 bisect.h   8465 separator.h   8727 mindeg.h   8910 dissect.h   9269 tree_cost.h
- *   9321 levelset.h   9406 geometric.h   9581 cells.h   9761 septree.h   9837 metis.h
- *   9986 metis_refined.h  10101 nd.h  10302 compress.h  10423 levels.h  10476 border.h
- *  10529 forest.h  10616 peel.h  10816 quotient.h  11233 graph_kind.h  11304 order.h
+ *   7245 graph.h   7362 contract.h   7616 coarsen.h   7780 labels.h   8002 subgraph.h   8196 heap.h
+ *   8258 bisect.h   8466 separator.h   8728 mindeg.h   8911 dissect.h   9270 tree_cost.h
+ *   9322 levelset.h   9407 geometric.h   9582 cells.h   9762 septree.h   9838 metis.h
+ *   9987 metis_refined.h  10102 nd.h  10303 compress.h  10424 levels.h  10477 border.h
+ *  10530 forest.h  10617 peel.h  10817 quotient.h  11234 graph_kind.h  11305 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11629 symbolic_types.h  11666 etree.h  11863 supernodes.h  12125 pattern.h  12208 structure.h
- *  12476 schedule.h  12756 symbolic.h  13229 reach.h
+ *  11630 symbolic_types.h  11667 etree.h  11864 supernodes.h  12126 pattern.h  12209 structure.h
+ *  12477 schedule.h  12757 symbolic.h  13230 reach.h
  * (factor: the numbers of L and D)
- *  13505 factor_types.h  13708 panel_load.h  13821 pivot_check.h  13937 storage.h
- *  14075 pivot_search.h  14421 pivoted.h  14490 scatter.h  14648 uplooking.h  14720 null_product.h
- *  14924 null_dense.h  15001 null_basis.h  15321 null_vectors.h  15463 multifrontal.h
- *  15657 gather.h  15705 kept.h  15875 front_tasks.h  16218 null_center.h  16342 nullspace.h
- *  16549 growth.h  16627 factor_setup.h  16967 factor.h  17182 leftlooking.h  17336 factor_query.h
- *  17471 combination.h
+ *  13506 factor_types.h  13709 panel_load.h  13822 pivot_check.h  13938 storage.h
+ *  14076 pivot_search.h  14422 pivoted.h  14491 scatter.h  14649 uplooking.h  14721 null_product.h
+ *  14925 null_dense.h  15002 null_basis.h  15322 null_vectors.h  15464 multifrontal.h
+ *  15658 gather.h  15706 kept.h  15876 front_tasks.h  16219 null_center.h  16343 nullspace.h
+ *  16550 growth.h  16628 factor_setup.h  16968 factor.h  17183 leftlooking.h  17337 factor_query.h
+ *  17472 combination.h
  * (solve: full and local solves)
- *  17532 region_types.h  17636 work.h  17736 query.h  17954 singular.h  18214 backward.h
- *  18244 sweep_tasks.h  18575 sweep.h  18783 compile.h  18976 plan.h  19083 local.h  19235 parts.h
- *  19524 refine.h  19703 refine_local.h  19919 rcond.h  20078 defects.h
+ *  17533 region_types.h  17637 work.h  17737 query.h  17955 singular.h  18215 backward.h
+ *  18245 sweep_tasks.h  18576 sweep.h  18784 compile.h  18977 plan.h  19084 local.h  19236 parts.h
+ *  19525 refine.h  19704 refine_local.h  19920 rcond.h  20079 defects.h
  * (inverse: entries of the inverse, regions)
- *  20137 traversal.h  20386 traversal_run.h  20579 row_sets.h  20613 unit_vectors.h
- *  20840 bilinear.h  21012 entries.h  21289 block.h  21524 reserve.h  21716 selected.h
- *  21926 selected_query.h  22028 region_choose.h  22255 region.h
+ *  20138 traversal.h  20387 traversal_run.h  20580 row_sets.h  20614 unit_vectors.h
+ *  20841 bilinear.h  21013 entries.h  21290 block.h  21525 reserve.h  21717 selected.h
+ *  21927 selected_query.h  22029 region_choose.h  22256 region.h
  * (change: a factor that follows changes of its matrix)
- *  22503 update.h  22894 path.h  23013 rank.h  23404 edges.h  23558 choose.h  23809 pins_types.h
- *  23875 pins_nulls.h  24056 pins_capacitance.h  24325 pins_rows.h  24445 pins_balance.h
- *  24607 pins_held.h  24823 pins_choose.h  24889 pins_rebuild.h  25112 pins_matrix.h  25263 pins.h
- *  25525 pins_solve.h  25798 subset.h  25926 restrict_kept.h  26124 restrict_analysis.h
- *  26370 restrict_symbolic.h  26565 restrict.h  26797 edit_match.h  26996 edit_place.h
- *  27245 edit_separate.h  27559 edit_order.h  27714 edit_graph.h  27796 edit_join.h  28072 edit.h
- *  28235 edit_factor.h
+ *  22504 update.h  22899 path.h  23000 rank.h  23395 edges.h  23549 choose.h  23800 pins_types.h
+ *  23866 pins_nulls.h  24047 pins_capacitance.h  24316 pins_rows.h  24436 pins_balance.h
+ *  24598 pins_held.h  24814 pins_choose.h  24880 pins_rebuild.h  25103 pins_matrix.h  25254 pins.h
+ *  25516 pins_solve.h  25789 subset.h  25917 restrict_kept.h  26115 restrict_analysis.h
+ *  26361 restrict_symbolic.h  26556 restrict.h  26788 edit_match.h  26987 edit_place.h
+ *  27236 edit_separate.h  27550 edit_order.h  27705 edit_graph.h  27787 edit_join.h  28063 edit.h
+ *  28226 edit_factor.h
  * (save: factors in files)
- *  28520 format.h  28817 decode.h  28965 check.h  29295 write.h  29600 load.h  29868 load_inverse.h
- *  30198 load_calls.h
+ *  28511 format.h  28808 decode.h  28956 check.h  29286 write.h  29591 load.h  29859 load_inverse.h
+ *  30189 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30397 batch_solve.h  30606 batch_factor.h  30807 batch_diagonal.h
+ *  30388 batch_solve.h  30597 batch_factor.h  30798 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30947 hermitian.h  31109 complex_rows.h
+ *  30938 hermitian.h  31100 complex_rows.h
  * (last: undefine every internal macro)
- *  31277 undef.h
+ *  31268 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31565 front.inl.h  31567 product.inl.h  32078 copy_rows.inl.h  32116 sweeps.inl.h
- *  32118 unit_triangle.inl.h  32155 two_rhs.inl.h  32329 small_supernode.inl.h
- *  32531 single_rhs.inl.h  32771 multi_rhs.inl.h  32790 complex_groups.inl.h
- *  32929 multi_rhs_small.inl.h  33101 multi_rhs_tiles.inl.h  33378 kernel_set.inl.h
- *  33380 complex_small.inl.h  33570 complex_rows.inl.h  33785 inverse_front.inl.h  34070 row.inl.h
- *  34100 change.inl.h  34343 interleave.inl.h  34477 lanes_undef.inl.h  34496 words_undef.inl.h
+ *  31556 front.inl.h  31558 product.inl.h  32069 copy_rows.inl.h  32107 sweeps.inl.h
+ *  32109 unit_triangle.inl.h  32146 two_rhs.inl.h  32320 small_supernode.inl.h
+ *  32522 single_rhs.inl.h  32762 multi_rhs.inl.h  32781 complex_groups.inl.h
+ *  32920 multi_rhs_small.inl.h  33092 multi_rhs_tiles.inl.h  33369 kernel_set.inl.h
+ *  33371 complex_small.inl.h  33561 complex_rows.inl.h  33776 inverse_front.inl.h  34061 row.inl.h
+ *  34091 change.inl.h  34334 interleave.inl.h  34468 lanes_undef.inl.h  34487 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2669,8 +2669,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
- *           writes these columns once. A pass that may fail takes another forward sweep; several
- *           such passes, and pivots of both signs, a copy of the columns.
+ *           writes these columns once. A pass that may fail takes another forward sweep, or a copy
+ *           of the columns: where several vectors change few of them, in several such passes,
+ *           and with pivots of both signs.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Example  tests/core/test_change.c
@@ -22610,7 +22611,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_ERR_NOT_FINITE;
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-    (fabs(e) < fabs(d) &&
+    (fabs(e) < fabs(d) && !u->is_tried &&
      (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
     return SL_ERR_PIVOT;
   }
@@ -22628,34 +22629,38 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
   const double known = F->extents[F->S->super_of[k]].magnitude;
-  const double tolerance = F->rule.null_tolerance;
-  double *D = F->D + k, least = info->pivot_min, top = u->top, most = u->most;
+  double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
+  int are_usual = 1, shrink = 0;
   sl_status status = SL_OK;
   sl_int j;
+  for (j = 0; j < count; j++) {
+    const double d = D[j], size = fabs(e[j]), before = fabs(d);
+    const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
+    are_usual &= (size <= 4.0 * before) & ((e[j] < 0.0) == (d < 0.0));
+    shrink |= size < before;
+    least = size < least ? size : least;
+    top = size > top ? size : top;
+    most = magnitude > most ? magnitude : most;
+  }
+  if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
+    (!shrink || u->is_tried ||
+     (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
+    if (!u->is_trial) {
+      memcpy(D, e, (size_t)count * sizeof *D);
+      info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
+      info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
+      u->top = top > u->top ? top : u->top;
+      u->most = most > u->most ? most : u->most;
+    }
+    return SL_OK;
+  }
   for (j = 0; j < count && status == SL_OK; j++) {
     const double d = D[j], size = fabs(e[j]);
     const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
-    if (e[j] == d && magnitude == size) {
-      continue;
-    }
-    if ((e[j] < 0.0) == (d < 0.0) && size >= DBL_MIN && size <= DBL_MAX &&
-      size <= 4.0 * fabs(d) &&
-      (size >= fabs(d) || u->is_tried ||
-       (size > u->least && !sli_is_null(e[j], magnitude + known, tolerance)))) {
-      if (!u->is_trial) {
-        most = magnitude > most ? magnitude : most;
-        least = size < least ? size : least;
-        top = size > top ? size : top;
-        D[j] = e[j];
-      }
-    } else {
+    if (e[j] != d || magnitude != size) {
       status = sli_update_take(u, k + j, e[j], magnitude);
     }
   }
-  info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
-  info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
-  u->top = top > u->top ? top : u->top;
-  u->most = most > u->most ? most : u->most;
   return status;
 }
 
@@ -22939,23 +22944,6 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
   return found;
 }
 
-static sl_status sli_path_take(sli_update *u, sl_int k, sl_int count, const double *e) {
-  double *D = u->F->D + k, top = u->top;
-  sl_int j;
-  for (j = 0; j < count; j++) {
-    const double d = fabs(D[j]), size = fabs(e[j]);
-    if (!(size >= d && 0.25 * size <= d)) {
-      break;
-    }
-    top = size > top && size != d ? size : top;
-    D[j] = e[j];
-  }
-  u->top = top;
-  u->most = top > u->most ? top : u->most;
-  u->F->stats.factor.pivot_max = fmax(u->F->stats.factor.pivot_max, top);
-  return j < count ? sli_update_take_all(u, k + j, count - j, e + j, NULL) : SL_OK;
-}
-
 static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   sl_factor *F = u->F;
   const sl_symbolic *S = F->S;
@@ -22981,8 +22969,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     F->kernels->change_panel(&one);
     entered = SLI_TILE * one.first_tile;
     k = step->column + entered;
-    status = is_trial ? sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL)
-              : sli_path_take(u, k, step->width - entered, one.e + entered);
+    status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);
     if (!is_trial) {
       rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
       u->entry = fmax(u->entry, F->extents[s].entry);
@@ -23039,6 +23026,8 @@ typedef struct sli_rank {
   double *x, *sigma, *diagonal;
   uint64_t *order, *order_scratch;
 } sli_rank;
+
+#define SLI_RANK_LOGGED (1 << 19)
 
 static int sli_rank_is_suited(const sl_factor *F) {
   return F->E == NULL && F->n_nulls == 0 && F->storage == SL_STORAGE_DOUBLE;
@@ -23157,7 +23146,9 @@ static void sli_rank_sort(void *data) {
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
   may_fail = rest > 0 || q->u.F->stats.factor.pivot_min < DBL_MIN;
-  q->has_log = q->u.sign == 0.0 || (may_fail && q->count > SLI_TILE) ||
+  q->has_log = q->u.sign == 0.0 ||
+         (may_fail &&
+          (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
          q->u.F->growth_limit < 2.0;
   q->has_trial = may_fail && !q->has_log;
   sli_rank_measure(q);

@@ -40,8 +40,9 @@
  *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
- *           writes these columns once. A pass that may fail takes another forward sweep; several
- *           such passes, and pivots of both signs, a copy of the columns.
+ *           writes these columns once. A pass that may fail takes another forward sweep, or a copy
+ *           of the columns: where several vectors change few of them, in several such passes,
+ *           and with pivots of both signs.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
  *  Example  tests/core/test_change.c

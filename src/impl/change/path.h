@@ -57,25 +57,6 @@ static sl_int sli_path_extent(sli_update *u, sl_int v, sl_int s) {
     return found;
 }
 
-/* Takes pivots as sli_update_take_all does, in less time where they grow. Subnormal ones were found
- * by a trial. */
-static sl_status sli_path_take(sli_update *u, sl_int k, sl_int count, const double *e) {
-    double *D = u->F->D + k, top = u->top;
-    sl_int j;
-    for (j = 0; j < count; j++) {
-        const double d = fabs(D[j]), size = fabs(e[j]);
-        if (!(size >= d && 0.25 * size <= d)) { /* infinite ones, too */
-            break;
-        }
-        top = size > top && size != d ? size : top;
-        D[j] = e[j];
-    }
-    u->top = top;
-    u->most = top > u->most ? top : u->most;
-    u->F->stats.factor.pivot_max = fmax(u->F->stats.factor.pivot_max, top);
-    return j < count ? sli_update_take_all(u, k + j, count - j, e + j, NULL) : SL_OK;
-}
-
 /* Changes the columns on the path of a vector, or tries whether that is possible. seed: its first
  * column and its number. On failure some are changed. */
 static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
@@ -103,8 +84,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
         F->kernels->change_panel(&one);
         entered = SLI_TILE * one.first_tile;
         k = step->column + entered;
-        status = is_trial ? sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL)
-                          : sli_path_take(u, k, step->width - entered, one.e + entered);
+        status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);
         if (!is_trial) {
             rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
             u->entry = fmax(u->entry, F->extents[s].entry);

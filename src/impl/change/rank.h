@@ -36,6 +36,10 @@ typedef struct sli_rank {
     uint64_t *order, *order_scratch;
 } sli_rank;
 
+/* Up to so many entries of L a pass of several vectors keeps a copy of them. As long as it stays in
+ * the caches, that takes less time than a trial. */
+#define SLI_RANK_LOGGED (1 << 19)
+
 /* Can F have rank-one changes? In float each one would round all of its columns again. */
 static int sli_rank_is_suited(const sl_factor *F) {
     return F->E == NULL && F->n_nulls == 0 && F->storage == SL_STORAGE_DOUBLE;
@@ -163,7 +167,9 @@ static void sli_rank_sort(void *data) {
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
     /* pivots that grow are refused only where they stay subnormal */
     may_fail = rest > 0 || q->u.F->stats.factor.pivot_min < DBL_MIN;
-    q->has_log = q->u.sign == 0.0 || (may_fail && q->count > SLI_TILE) ||
+    q->has_log = q->u.sign == 0.0 ||
+                 (may_fail &&
+                  (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
                  q->u.F->growth_limit < 2.0; /* else pivots of one sign do not exceed it */
     q->has_trial = may_fail && !q->has_log;
     sli_rank_measure(q);

@@ -124,8 +124,8 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
-/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. A pass
- * that was tried keeps signs, and its smaller pivots do not come here. */
+/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. Smaller
+ * pivots of a pass that was tried are not null. */
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
     sl_factor *F = u->F;
     const double d = F->D[k];
@@ -135,7 +135,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         return SL_ERR_NOT_FINITE;
     }
     if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-        (fabs(e) < fabs(d) &&
+        (fabs(e) < fabs(d) && !u->is_tried &&
          (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
         return SL_ERR_PIVOT;
     }
@@ -149,40 +149,44 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
 }
 
 /* Takes `count` pivots from k on, as a kernel computed them. magnitudes: the sums of magnitudes;
- * NULL: of one vector. Nearly all pivots pass the first test. */
+ * NULL: of one vector. Nearly always the extremes show that all of them can be taken. */
 static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, const double *e,
                                      const double *magnitudes) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
     const double known = F->extents[F->S->super_of[k]].magnitude;
-    const double tolerance = F->rule.null_tolerance;
-    double *D = F->D + k, least = info->pivot_min, top = u->top, most = u->most;
+    double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
+    int are_usual = 1, shrink = 0;
     sl_status status = SL_OK;
     sl_int j;
+    for (j = 0; j < count; j++) {
+        const double d = D[j], size = fabs(e[j]), before = fabs(d);
+        const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
+        are_usual &= (size <= 4.0 * before) & ((e[j] < 0.0) == (d < 0.0));
+        shrink |= size < before;
+        least = size < least ? size : least;
+        top = size > top ? size : top;
+        most = magnitude > most ? magnitude : most;
+    }
+    if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
+        (!shrink || u->is_tried ||
+         (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
+        if (!u->is_trial) {
+            memcpy(D, e, (size_t)count * sizeof *D);
+            info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
+            info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
+            u->top = top > u->top ? top : u->top;
+            u->most = most > u->most ? most : u->most;
+        }
+        return SL_OK;
+    }
     for (j = 0; j < count && status == SL_OK; j++) {
         const double d = D[j], size = fabs(e[j]);
         const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
-        if (e[j] == d && magnitude == size) { /* no change */
-            continue;
-        }
-        if ((e[j] < 0.0) == (d < 0.0) && size >= DBL_MIN && size <= DBL_MAX &&
-            size <= 4.0 * fabs(d) &&
-            (size >= fabs(d) || u->is_tried ||
-             (size > u->least && !sli_is_null(e[j], magnitude + known, tolerance)))) {
-            if (!u->is_trial) {
-                most = magnitude > most ? magnitude : most;
-                least = size < least ? size : least;
-                top = size > top ? size : top;
-                D[j] = e[j];
-            }
-        } else {
+        if (e[j] != d || magnitude != size) {
             status = sli_update_take(u, k + j, e[j], magnitude);
         }
     }
-    info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
-    info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
-    u->top = top > u->top ? top : u->top;
-    u->most = most > u->most ? most : u->most;
     return status;
 }
 
