@@ -187,10 +187,10 @@ static void the_automatic_method_fits_the_matrix(void **state) {
     }
 }
 
-/* Rows that are joined to 32 others alone: update matrices would take 20 times as much as L. */
-static void dense_rows_do_not_fill_the_memory(void **state) {
-    (void)state;
-    const sl_int n = 20000, dense = 32;
+/* Rows that are joined to 32 others alone: update matrices would take 20 times as much as L. The 32
+ * are followed by `rest` rows of their own. */
+static void check_dense_rows(sl_int rest, sl_ordering ordering) {
+    const sl_int n = 20000, dense = 32, end = n - rest;
     gen_list_t list = gen_list(n);
     sl_symbolic *S = NULL, *part = NULL;
     sl_factor *F = NULL, *G = NULL;
@@ -198,18 +198,20 @@ static void dense_rows_do_not_fill_the_memory(void **state) {
     sl_int *rows = test_ints((size_t)n), count = 0;
     counter_t counter = counter_make();
     const sl_options opt = options_counted(&counter);
+    sl_options order = options_none();
+    order.ordering = ordering;
     for (sl_int i = 0; i < n; i++) {
         rows[count] = i;
         count += i % 100 != 7;
-        gen_add(&list, i, i, i < n - dense ? dense + 1.0 : 2.0 * n);
-        for (sl_int k = n - dense; k < n && i < n - dense; k++) {
+        gen_add(&list, i, i, i < end - dense ? dense + 1.0 : 2.0 * n);
+        for (sl_int k = end - dense; k < end && i < end - dense; k++) {
             gen_add(&list, k, i, -1.0);
         }
     }
     gen_matrix_t M = gen_store(&list, gen_style(0), 1);
     gen_list_free(&list);
     memset(&stats, 0, sizeof stats);
-    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, &stats));
+    SL_CHECK(sl_symbolic_create(&S, &M.view, &order, &stats));
     const double most = 50.0 * (double)stats.symbolic.nnz_panels + 1000.0 * n;
     SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, &stats));
     assert_true((double)counter.total_bytes <= most);
@@ -223,6 +225,12 @@ static void dense_rows_do_not_fill_the_memory(void **state) {
     free(rows);
     sl_symbolic_free(S);
     gen_matrix_free(&M);
+}
+
+static void dense_rows_do_not_fill_the_memory(void **state) {
+    (void)state;
+    check_dense_rows(0, SL_ORDERING_ND);
+    check_dense_rows(3, SL_ORDERING_NATURAL);
 }
 
 int main(void) {
