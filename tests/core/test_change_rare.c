@@ -117,6 +117,29 @@ static void two_vectors_may_store_zeros(void **state) {
     }
 }
 
+/* Vectors of one pass cancel in a pivot, which stays as it was, while the next one grows. */
+static void vectors_of_a_pass_may_cancel(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    static const sl_int q[4] = {0, 1, 2, 3}, rows[3] = {0, 0, 1};
+    static const double x[3] = {4.0, 0.0, 1.0}, v[3] = {1.0, 1.0, 3.0}, sigma[3] = {1.0, -1.0, 1.0};
+    const sl_csc A = {2, 2, p, i, x}, V = {2, 3, q, rows, v};
+    const isa_list_t isas = isas_present();
+    for (int k = 0; k < isas.count; k++) {
+        sl_options opt = options_none();
+        sl_factor *F = NULL;
+        sl_stats stats;
+        sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
+        opt.isa = isas.isa[k];
+        SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
+        SL_CHECK(sl_factor_update(F, &V, sigma, NULL, &stats));
+        assert_int_equal(stats.change.ranks, 3);
+        assert_true(sl_factor_view(F).D[0] == 4.0 && sl_factor_view(F).D[1] == 10.0);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+    }
+}
+
 /* A spring of 1e10 comes and goes: what rounding has left is large beside the entries that remain,
  * and the drift says so, also if others come and go afterwards. */
 static void drift_is_relative_to_what_remains(void **state) {
@@ -379,6 +402,7 @@ int main(void) {
         cmocka_unit_test(matrices_of_zeros_are_changed),
         cmocka_unit_test(matrices_of_zeros_have_no_scale),
         cmocka_unit_test(two_vectors_may_store_zeros),
+        cmocka_unit_test(vectors_of_a_pass_may_cancel),
         cmocka_unit_test(a_pivot_of_rounding_is_null),
         cmocka_unit_test(a_large_entry_may_go),
         cmocka_unit_test(a_laplacian_may_become_singular),
