@@ -344,6 +344,50 @@ static void many_pins_with_long_paths_hold(void **state) {
     free(r);
 }
 
+/* Local solves with any number of right-hand sides where fronts are large. */
+static void large_fronts_have_room(void **state) {
+    (void)state;
+    enum { SET = 5, MOST = 9 };
+    counter_t counter = counter_make();
+    const sl_options opt = options_counted(&counter);
+    factored_t y = factored_make(GEN_GRID3, 1728, 1, 0, &opt);
+    const size_t n = (size_t)y.M.view.n_cols;
+    const sl_int set[SET] = {1, 50, 777, 1234, 1700};
+    sl_int *rows = test_ints(n), count = 0;
+    double *B = test_reals(n * MOST), *X = test_reals(n * MOST), *G = test_reals(n * MOST);
+    double b[SET * MOST], x[SET * MOST];
+    sl_pins *P = NULL;
+    sl_plan *plan = NULL;
+    for (sl_int i = 0; i < (sl_int)n; i += 2) {
+        rows[count++] = i;
+    }
+    gen_reals(G, n * MOST, 1);
+    gen_reals(b, SET * MOST, 2);
+    SL_CHECK(sl_pins_create(&P, y.F, &opt));
+    SL_CHECK(sl_pins_set_matrix(P, &y.M.view, NULL));
+    SL_CHECK(sl_pins_add_rows(P, rows, count, NULL));
+    SL_CHECK(sl_plan_create(&plan, y.S, set, SET, set, SET, NULL, NULL));
+    for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
+        for (size_t k = 0; k < SET * (size_t)nrhs; k++) {
+            B[(size_t)set[k % SET] + n * (k / SET)] = b[k];
+        }
+        SL_CHECK(sl_pins_solve(P, NULL, X, n, B, n, G, n, nrhs, NULL));
+        SL_CHECK(sl_pins_solve(P, plan, x, SET, b, SET, G, n, nrhs, NULL));
+        assert_int_equal(counter.damaged, 0);
+        for (size_t k = 0; k < SET * (size_t)nrhs; k++) {
+            assert_true(fabs(x[k] - X[(size_t)set[k % SET] + n * (k / SET)]) <= 1e-11);
+        }
+    }
+    sl_plan_free(plan);
+    sl_pins_free(P);
+    factored_free(&y);
+    COUNTER_CLEAN(&counter);
+    free(rows);
+    free(B);
+    free(X);
+    free(G);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_ways_give_the_same),
@@ -351,6 +395,7 @@ int main(void) {
         cmocka_unit_test(many_pins_with_long_paths_hold),
         cmocka_unit_test(failing_allocations_leave_the_way),
         cmocka_unit_test(new_numbers_are_taken),
+        cmocka_unit_test(large_fronts_have_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
