@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 24af94338d046ca7
+ * FNV-1a of the lines after this comment, without the license: 6962889270c857bb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -68,26 +68,26 @@
  *  22504 update.h  22899 path.h  23000 rank.h  23395 edges.h  23549 choose.h  23800 pins_types.h
  *  23866 pins_nulls.h  24047 pins_capacitance.h  24316 pins_rows.h  24436 pins_balance.h
  *  24598 pins_held.h  24814 pins_choose.h  24880 pins_rebuild.h  25103 pins_matrix.h  25254 pins.h
- *  25516 pins_solve.h  25791 subset.h  25919 restrict_kept.h  26117 restrict_analysis.h
- *  26363 restrict_symbolic.h  26558 restrict.h  26790 edit_match.h  26989 edit_place.h
- *  27238 edit_separate.h  27552 edit_order.h  27707 edit_graph.h  27789 edit_join.h  28065 edit.h
- *  28228 edit_factor.h
+ *  25516 pins_solve.h  25789 subset.h  25917 restrict_kept.h  26115 restrict_analysis.h
+ *  26361 restrict_symbolic.h  26556 restrict.h  26788 edit_match.h  26987 edit_place.h
+ *  27236 edit_separate.h  27550 edit_order.h  27705 edit_graph.h  27787 edit_join.h  28063 edit.h
+ *  28226 edit_factor.h
  * (save: factors in files)
- *  28513 format.h  28810 decode.h  28958 check.h  29288 write.h  29593 load.h  29861 load_inverse.h
- *  30191 load_calls.h
+ *  28511 format.h  28808 decode.h  28956 check.h  29286 write.h  29591 load.h  29859 load_inverse.h
+ *  30189 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30390 batch_solve.h  30599 batch_factor.h  30800 batch_diagonal.h
+ *  30388 batch_solve.h  30597 batch_factor.h  30798 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30940 hermitian.h  31102 complex_rows.h
+ *  30938 hermitian.h  31100 complex_rows.h
  * (last: undefine every internal macro)
- *  31270 undef.h
+ *  31268 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31558 front.inl.h  31560 product.inl.h  32071 copy_rows.inl.h  32109 sweeps.inl.h
- *  32111 unit_triangle.inl.h  32148 two_rhs.inl.h  32322 small_supernode.inl.h
- *  32524 single_rhs.inl.h  32764 multi_rhs.inl.h  32783 complex_groups.inl.h
- *  32922 multi_rhs_small.inl.h  33094 multi_rhs_tiles.inl.h  33371 kernel_set.inl.h
- *  33373 complex_small.inl.h  33563 complex_rows.inl.h  33778 inverse_front.inl.h  34063 row.inl.h
- *  34093 change.inl.h  34336 interleave.inl.h  34470 lanes_undef.inl.h  34489 words_undef.inl.h
+ *  31556 front.inl.h  31558 product.inl.h  32069 copy_rows.inl.h  32107 sweeps.inl.h
+ *  32109 unit_triangle.inl.h  32146 two_rhs.inl.h  32320 small_supernode.inl.h
+ *  32522 single_rhs.inl.h  32762 multi_rhs.inl.h  32781 complex_groups.inl.h
+ *  32920 multi_rhs_small.inl.h  33092 multi_rhs_tiles.inl.h  33369 kernel_set.inl.h
+ *  33371 complex_small.inl.h  33561 complex_rows.inl.h  33776 inverse_front.inl.h  34061 row.inl.h
+ *  34091 change.inl.h  34334 interleave.inl.h  34468 lanes_undef.inl.h  34487 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -25537,9 +25537,7 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
   if (P->n_held > 0 && !sli_pins_is_whole(q)) {
     const sli_reach *R = &P->held_reach;
     w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
-    w->scratch = SLI_TAKE(b, double,
-                sli_sweep_scratch(R->tallest, R->widest, 2) +
-                  sli_sweep_scratch(R->tallest, R->widest, 8));
+    w->scratch = SLI_TAKE(b, double, sli_sweep_scratch(R->tallest, R->widest, 2) + 64);
   }
   sli_pins_nulls_layout(&w->nulls, b, P);
 }
