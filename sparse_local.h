@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6962889270c857bb
+ * FNV-1a of the lines after this comment, without the license: 107d305dd5dd26d8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -73,21 +73,21 @@
  *  27236 edit_separate.h  27550 edit_order.h  27705 edit_graph.h  27787 edit_join.h  28063 edit.h
  *  28226 edit_factor.h
  * (save: factors in files)
- *  28511 format.h  28808 decode.h  28956 check.h  29286 write.h  29591 load.h  29859 load_inverse.h
- *  30189 load_calls.h
+ *  28511 format.h  28808 decode.h  28956 check.h  29286 write.h  29595 load.h  29863 load_inverse.h
+ *  30193 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30388 batch_solve.h  30597 batch_factor.h  30798 batch_diagonal.h
+ *  30392 batch_solve.h  30601 batch_factor.h  30802 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30938 hermitian.h  31100 complex_rows.h
+ *  30942 hermitian.h  31104 complex_rows.h
  * (last: undefine every internal macro)
- *  31268 undef.h
+ *  31272 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31556 front.inl.h  31558 product.inl.h  32069 copy_rows.inl.h  32107 sweeps.inl.h
- *  32109 unit_triangle.inl.h  32146 two_rhs.inl.h  32320 small_supernode.inl.h
- *  32522 single_rhs.inl.h  32762 multi_rhs.inl.h  32781 complex_groups.inl.h
- *  32920 multi_rhs_small.inl.h  33092 multi_rhs_tiles.inl.h  33369 kernel_set.inl.h
- *  33371 complex_small.inl.h  33561 complex_rows.inl.h  33776 inverse_front.inl.h  34061 row.inl.h
- *  34091 change.inl.h  34334 interleave.inl.h  34468 lanes_undef.inl.h  34487 words_undef.inl.h
+ *  31560 front.inl.h  31562 product.inl.h  32073 copy_rows.inl.h  32111 sweeps.inl.h
+ *  32113 unit_triangle.inl.h  32150 two_rhs.inl.h  32324 small_supernode.inl.h
+ *  32526 single_rhs.inl.h  32766 multi_rhs.inl.h  32785 complex_groups.inl.h
+ *  32924 multi_rhs_small.inl.h  33096 multi_rhs_tiles.inl.h  33373 kernel_set.inl.h
+ *  33375 complex_small.inl.h  33565 complex_rows.inl.h  33780 inverse_front.inl.h  34065 row.inl.h
+ *  34095 change.inl.h  34338 interleave.inl.h  34472 lanes_undef.inl.h  34491 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -23320,7 +23320,7 @@ static sl_status sli_rank_run(sli_rank *q) {
 }
 
 static double sli_rank_least(const sl_factor *F) {
-  return F->rule.null_tolerance < 0.0 || F->rule.regularization != 0.0
+  return F->rule.null_tolerance < 0.0
          ? 0.0
          : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
 }
@@ -29336,6 +29336,10 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.pivot_max = info->pivot_max;
   g.entry_max = info->entry_max;
   g.growth = info->growth;
+  if (F->drift > 1e-11) {
+    g.entry_max = fmin(g.entry_max, F->scale);
+    g.growth = fmax(g.growth, F->drift / DBL_EPSILON);
+  }
   g.null_tolerance = F->rule.null_tolerance;
   g.regularization = F->rule.regularization;
   g.consistency = F->consistency;

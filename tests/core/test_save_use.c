@@ -159,6 +159,31 @@ static void the_growth_limit_is_kept(void **state) {
 }
 
 /* A refinement with the factor of another matrix ends above every limit but none. */
+/* Digits that changes have lost: the loaded factor says so by its growth. */
+static void a_drift_is_kept_as_growth(void **state) {
+    (void)state;
+    static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1}, row = 1, column = 0;
+    const double a[3] = {-0.36, 46545.14, 0.28}, delta = 0.62 - a[1];
+    const sl_csc A = {2, 2, p, i, a};
+    sl_symbolic *S = NULL, *T = NULL;
+    sl_factor *F = NULL, *G = NULL;
+    sl_stats before, after;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_update_entries(F, &row, &column, &delta, 1, NULL, &before));
+    saved_t m = saved_make(S, F);
+    SL_CHECK(sl_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    sl_factor_stats(G, &after);
+    assert_true(before.change.drift > 1e-11);
+    assert_true(DBL_EPSILON * after.factor.growth >= 0.9 * before.change.drift);
+    assert_same_answers(F, G);
+    sl_factor_free(G);
+    sl_symbolic_free(T);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    saved_free(&m);
+}
+
 static void the_error_limit_is_kept(void **state) {
     (void)state;
     enum { N = 100 };
@@ -330,6 +355,7 @@ int main(void) {
         cmocka_unit_test(a_loaded_factor_can_be_refactored),
         cmocka_unit_test(a_mapped_factor_is_immutable),
         cmocka_unit_test(the_growth_limit_is_kept),
+        cmocka_unit_test(a_drift_is_kept_as_growth),
         cmocka_unit_test(the_error_limit_is_kept),
         cmocka_unit_test(batches_refactor_loaded_factors),
         cmocka_unit_test(wrong_arguments_are_refused),

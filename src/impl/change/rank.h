@@ -352,7 +352,7 @@ static sl_status sli_rank_run(sli_rank *q) {
 
 /* The largest pivot that the rounding of heavier rows may have made of a null one. */
 static double sli_rank_least(const sl_factor *F) {
-    return F->rule.null_tolerance < 0.0 || F->rule.regularization != 0.0
+    return F->rule.null_tolerance < 0.0
                ? 0.0
                : sli_null_rounding(F->S->n, F->rule.epsilon) * F->stats.factor.pivot_max;
 }

@@ -56,6 +56,10 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.pivot_max = info->pivot_max;
     g.entry_max = info->entry_max;
     g.growth = info->growth;
+    if (F->drift > 1e-11) { /* as an error it is growth times epsilon */
+        g.entry_max = fmin(g.entry_max, F->scale);
+        g.growth = fmax(g.growth, F->drift / DBL_EPSILON);
+    }
     g.null_tolerance = F->rule.null_tolerance;
     g.regularization = F->rule.regularization;
     g.consistency = F->consistency;
