@@ -1,93 +1,94 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 107d305dd5dd26d8
+ * FNV-1a of the lines after this comment, without the license: cff399f79ed3b252
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     95 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    164 config.h     macros that a user may define before the include, the version, and the integer types
- *    243 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    413 options.h    options of all calls, threads, and the allocator
- *    555 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    752 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    924 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1068 factor.h     the numerical factorization P A P' = L D L'
- *   1357 solve.h      full solves, and the workspace of all solves
- *   1470 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1564 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1677 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1790 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1926 batch.h      many independent solves by one call, distributed over threads
- *   1976 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2154 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2274 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2378 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2517 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2635 change.h     a factor that follows small changes of its matrix
- *   2728 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2880 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3011 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3066 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *     96 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    165 config.h     macros that a user may define before the include, the version, and the integer types
+ *    244 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    414 options.h    options of all calls, threads, and the allocator
+ *    556 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    753 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    925 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1069 factor.h     the numerical factorization P A P' = L D L'
+ *   1358 solve.h      full solves, and the workspace of all solves
+ *   1471 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1565 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1678 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1791 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1927 batch.h      many independent solves by one call, distributed over threads
+ *   1977 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2155 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2275 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2379 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2518 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2636 change.h     a factor that follows small changes of its matrix
+ *   2729 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2881 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3012 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3067 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3159 base.h   3455 status.h   3516 options.h   3575 alloc.h   3738 hash.h   3868 file_map.h
- *   3965 sort.h   4029 parallel.h
+ *   3160 base.h   3456 status.h   3517 options.h   3576 alloc.h   3739 hash.h   3869 file_map.h
+ *   3966 sort.h   4030 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4225 panel.h   4250 step.h   4329 pivot_rule.h   4403 front.h   4464 pairs.h
- *   4671 inverse_front.h   4743 table.h   4792 simd.h   4888 simd_scalar_single.h
- *   4932 simd_scalar.h   5058 simd_avx2_single.h   5110 simd_avx2.h   5336 simd_avx512_single.h
- *   5390 simd_avx512.h   5556 simd_neon_single.h   5596 simd_neon.h   5816 dispatch.h
+ *   4226 panel.h   4251 step.h   4330 pivot_rule.h   4404 front.h   4465 pairs.h
+ *   4672 inverse_front.h   4744 table.h   4793 simd.h   4889 simd_scalar_single.h
+ *   4933 simd_scalar.h   5059 simd_avx2_single.h   5111 simd_avx2.h   5337 simd_avx512_single.h
+ *   5391 simd_avx512.h   5557 simd_neon_single.h   5597 simd_neon.h   5817 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5909 csc.h   6052 csc_build.h   6186 csc64.h   6257 csc_triangle.h   6322 csc_products.h
- *   6439 permute.h   6505 sum.h   6587 output_file.h   6796 text_reader.h   6977 matrix_market.h
+ *   5910 csc.h   6053 csc_build.h   6187 csc64.h   6258 csc_triangle.h   6323 csc_products.h
+ *   6440 permute.h   6506 sum.h   6588 output_file.h   6797 text_reader.h   6978 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7245 graph.h   7362 contract.h   7616 coarsen.h   7780 labels.h   8002 subgraph.h   8196 heap.h
- *   8258 bisect.h   8466 separator.h   8728 mindeg.h   8911 dissect.h   9270 tree_cost.h
- *   9322 levelset.h   9407 geometric.h   9582 cells.h   9762 septree.h   9838 metis.h
- *   9987 metis_refined.h  10102 nd.h  10303 compress.h  10424 levels.h  10477 border.h
- *  10530 forest.h  10617 peel.h  10817 quotient.h  11234 graph_kind.h  11305 order.h
+ *   7246 graph.h   7363 contract.h   7544 coarsen.h   7708 labels.h   7934 subgraph.h   8128 heap.h
+ *   8190 bisect.h   8398 separator.h   8660 mindeg.h   8843 dissection.h   8952 weigh.h
+ *   9014 dissect.h   9305 tree_cost.h   9368 levelset.h   9453 geometric.h   9628 cells.h
+ *   9808 septree.h   9884 metis.h  10033 metis_refined.h  10148 nd.h  10356 compress.h
+ *  10477 levels.h  10530 border.h  10583 forest.h  10670 peel.h  10870 quotient.h
+ *  11287 graph_kind.h  11358 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11630 symbolic_types.h  11667 etree.h  11864 supernodes.h  12126 pattern.h  12209 structure.h
- *  12477 schedule.h  12757 symbolic.h  13230 reach.h
+ *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12179 pattern.h  12262 structure.h
+ *  12530 schedule.h  12810 symbolic.h  13283 reach.h
  * (factor: the numbers of L and D)
- *  13506 factor_types.h  13709 panel_load.h  13822 pivot_check.h  13938 storage.h
- *  14076 pivot_search.h  14422 pivoted.h  14491 scatter.h  14649 uplooking.h  14721 null_product.h
- *  14925 null_dense.h  15002 null_basis.h  15322 null_vectors.h  15464 multifrontal.h
- *  15658 gather.h  15706 kept.h  15876 front_tasks.h  16219 null_center.h  16343 nullspace.h
- *  16550 growth.h  16628 factor_setup.h  16968 factor.h  17183 leftlooking.h  17337 factor_query.h
- *  17472 combination.h
+ *  13559 factor_types.h  13762 panel_load.h  13875 pivot_check.h  13991 storage.h
+ *  14129 pivot_search.h  14475 pivoted.h  14544 scatter.h  14702 uplooking.h  14774 null_product.h
+ *  14978 null_dense.h  15055 null_basis.h  15375 null_vectors.h  15517 multifrontal.h
+ *  15711 gather.h  15759 kept.h  15929 front_tasks.h  16272 null_center.h  16396 nullspace.h
+ *  16603 growth.h  16681 factor_setup.h  17021 factor.h  17236 leftlooking.h  17390 factor_query.h
+ *  17525 combination.h
  * (solve: full and local solves)
- *  17533 region_types.h  17637 work.h  17737 query.h  17955 singular.h  18215 backward.h
- *  18245 sweep_tasks.h  18576 sweep.h  18784 compile.h  18977 plan.h  19084 local.h  19236 parts.h
- *  19525 refine.h  19704 refine_local.h  19920 rcond.h  20079 defects.h
+ *  17586 region_types.h  17690 work.h  17790 query.h  18008 singular.h  18268 backward.h
+ *  18298 sweep_tasks.h  18629 sweep.h  18837 compile.h  19030 plan.h  19137 local.h  19289 parts.h
+ *  19578 refine.h  19757 refine_local.h  19973 rcond.h  20132 defects.h
  * (inverse: entries of the inverse, regions)
- *  20138 traversal.h  20387 traversal_run.h  20580 row_sets.h  20614 unit_vectors.h
- *  20841 bilinear.h  21013 entries.h  21290 block.h  21525 reserve.h  21717 selected.h
- *  21927 selected_query.h  22029 region_choose.h  22256 region.h
+ *  20191 traversal.h  20440 traversal_run.h  20633 row_sets.h  20667 unit_vectors.h
+ *  20894 bilinear.h  21066 entries.h  21343 block.h  21578 reserve.h  21770 selected.h
+ *  21980 selected_query.h  22082 region_choose.h  22309 region.h
  * (change: a factor that follows changes of its matrix)
- *  22504 update.h  22899 path.h  23000 rank.h  23395 edges.h  23549 choose.h  23800 pins_types.h
- *  23866 pins_nulls.h  24047 pins_capacitance.h  24316 pins_rows.h  24436 pins_balance.h
- *  24598 pins_held.h  24814 pins_choose.h  24880 pins_rebuild.h  25103 pins_matrix.h  25254 pins.h
- *  25516 pins_solve.h  25789 subset.h  25917 restrict_kept.h  26115 restrict_analysis.h
- *  26361 restrict_symbolic.h  26556 restrict.h  26788 edit_match.h  26987 edit_place.h
- *  27236 edit_separate.h  27550 edit_order.h  27705 edit_graph.h  27787 edit_join.h  28063 edit.h
- *  28226 edit_factor.h
+ *  22557 update.h  22952 path.h  23053 rank.h  23448 edges.h  23602 choose.h  23853 pins_types.h
+ *  23919 pins_nulls.h  24100 pins_capacitance.h  24369 pins_rows.h  24489 pins_balance.h
+ *  24651 pins_held.h  24867 pins_choose.h  24933 pins_rebuild.h  25156 pins_matrix.h  25307 pins.h
+ *  25569 pins_solve.h  25842 subset.h  25970 restrict_kept.h  26168 restrict_analysis.h
+ *  26414 restrict_symbolic.h  26609 restrict.h  26841 edit_match.h  27040 edit_place.h
+ *  27289 edit_separate.h  27603 edit_order.h  27758 edit_graph.h  27840 edit_join.h  28116 edit.h
+ *  28279 edit_factor.h
  * (save: factors in files)
- *  28511 format.h  28808 decode.h  28956 check.h  29286 write.h  29595 load.h  29863 load_inverse.h
- *  30193 load_calls.h
+ *  28564 format.h  28861 decode.h  29009 check.h  29339 write.h  29648 load.h  29916 load_inverse.h
+ *  30246 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30392 batch_solve.h  30601 batch_factor.h  30802 batch_diagonal.h
+ *  30445 batch_solve.h  30654 batch_factor.h  30855 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30942 hermitian.h  31104 complex_rows.h
+ *  30995 hermitian.h  31157 complex_rows.h
  * (last: undefine every internal macro)
- *  31272 undef.h
+ *  31325 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31560 front.inl.h  31562 product.inl.h  32073 copy_rows.inl.h  32111 sweeps.inl.h
- *  32113 unit_triangle.inl.h  32150 two_rhs.inl.h  32324 small_supernode.inl.h
- *  32526 single_rhs.inl.h  32766 multi_rhs.inl.h  32785 complex_groups.inl.h
- *  32924 multi_rhs_small.inl.h  33096 multi_rhs_tiles.inl.h  33373 kernel_set.inl.h
- *  33375 complex_small.inl.h  33565 complex_rows.inl.h  33780 inverse_front.inl.h  34065 row.inl.h
- *  34095 change.inl.h  34338 interleave.inl.h  34472 lanes_undef.inl.h  34491 words_undef.inl.h
+ *  31613 front.inl.h  31615 product.inl.h  32126 copy_rows.inl.h  32164 sweeps.inl.h
+ *  32166 unit_triangle.inl.h  32203 two_rhs.inl.h  32377 small_supernode.inl.h
+ *  32579 single_rhs.inl.h  32819 multi_rhs.inl.h  32838 complex_groups.inl.h
+ *  32977 multi_rhs_small.inl.h  33149 multi_rhs_tiles.inl.h  33426 kernel_set.inl.h
+ *  33428 complex_small.inl.h  33618 complex_rows.inl.h  33833 inverse_front.inl.h  34118 row.inl.h
+ *  34148 change.inl.h  34391 interleave.inl.h  34525 lanes_undef.inl.h  34544 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7359,7 +7360,7 @@ static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
   return sli_hash_indices(out, A->i, nnz, A->n_rows);
 }
 
-/* src/impl/ordering/contract.h: contraction of a graph, and what its edges cost, in loops that workers share */
+/* src/impl/ordering/contract.h: contraction of a graph, in loops that workers share */
 
 typedef struct sli_level {
   sl_int n;
@@ -7390,28 +7391,46 @@ typedef struct sli_shares {
   sli_team *team;
   sl_off *scratch;
   sl_int room;
-  unsigned char begun[SLI_TEAM_MAX];
 } sli_shares;
 
 #define SLI_SHARES 4
 #if defined(SLI_SMALL_TASKS)
 #define SLI_SHARES_FROM 50
 #else
-#define SLI_SHARES_FROM 5000
+#define SLI_SHARES_FROM 2000
 #endif
 #define SLI_SHARES_MAX (SLI_SHARES * SLI_TEAM_MAX)
 
-SLI_INLINE sl_int sli_shares_count(const sli_shares *r, sl_int n) {
-  return r->team->workers == 1 || n < SLI_SHARES_FROM ? 1 : SLI_SHARES * r->team->workers;
+SLI_INLINE sl_int sli_shares_count(const sli_team *team, sl_int n) {
+  return team->workers == 1 || n < SLI_SHARES_FROM ? 1 : SLI_SHARES * team->workers;
 }
 
-SLI_INLINE sl_int sli_share_begin(const sli_shares *r, sl_int n, sl_int item) {
-  return (sl_int)((int64_t)n * item / sli_shares_count(r, n));
+typedef struct sli_range {
+  sl_int first, last, item, worker;
+} sli_range;
+
+typedef void sli_range_body(void *data, const sli_range *r);
+
+typedef struct sli_range_loop {
+  sl_int n, count;
+  sli_range_body *body;
+  void *data;
+} sli_range_loop;
+
+static void sli_range_item(void *data, sl_int item, sl_int worker) {
+  const sli_range_loop *l = (const sli_range_loop *)data;
+  const sli_range r = {(sl_int)((int64_t)l->n * item / l->count),
+             (sl_int)((int64_t)l->n * (item + 1) / l->count), item, worker};
+  l->body(l->data, &r);
 }
 
-SLI_INLINE sl_off *sli_shares_scratch(sli_shares *r, sl_int worker, int *is_new) {
-  *is_new = !r->begun[worker];
-  r->begun[worker] = 1;
+static void sli_range_run(sli_team *team, sl_int n, sl_int count, sli_range_body *body,
+              void *data) {
+  sli_range_loop l = {n, count, body, data};
+  sli_team_loop(team, count, NULL, sli_range_item, &l);
+}
+
+SLI_INLINE sl_off *sli_shares_scratch(const sli_shares *r, sl_int worker) {
   return r->scratch + (size_t)worker * (size_t)r->room;
 }
 
@@ -7420,36 +7439,32 @@ typedef struct sli_contraction {
   const sli_clusters *clusters;
   sli_level *c;
   sli_shares *ranges;
+  sl_int first[SLI_SHARES_MAX + 1];
   sl_off begin[SLI_SHARES_MAX + 1], end[SLI_SHARES_MAX];
 } sli_contraction;
 
-static void sli_contract_count(void *data, sl_int item, sl_int worker) {
+static void sli_contract_count(void *data, const sli_range *r) {
   sli_contraction *t = (sli_contraction *)data;
   const sl_int *start = t->clusters->start;
-  const sl_int last = start[sli_share_begin(t->ranges, t->c->n, item + 1)];
   sl_off count = 0;
   sl_int m;
-  (void)worker;
-  for (m = start[sli_share_begin(t->ranges, t->c->n, item)]; m < last; m++) {
+  for (m = start[r->first]; m < start[r->last]; m++) {
     const sl_int v = t->clusters->member[m];
     count += t->g->begin[v + 1] - t->g->begin[v];
   }
-  t->begin[item + 1] = count;
+  t->begin[r->item + 1] = count;
+  t->first[r->item + 1] = r->last;
 }
 
-static void sli_contract_item(void *data, sl_int item, sl_int worker) {
+static void sli_contract_range(void *data, const sli_range *r) {
   sli_contraction *t = (sli_contraction *)data;
   const sli_level *g = t->g;
   const sli_clusters *clusters = t->clusters;
   sli_level *c = t->c;
-  const sl_int last = sli_share_begin(t->ranges, c->n, item + 1);
-  int is_new;
-  sl_off e, count = t->begin[item], *at = sli_shares_scratch(t->ranges, worker, &is_new);
+  sl_off e, count = t->begin[r->item], *at = sli_shares_scratch(t->ranges, r->worker);
   sl_int k, m;
-  for (k = 0; k < c->n && is_new; k++) {
-    at[k] = -1;
-  }
-  for (k = sli_share_begin(t->ranges, c->n, item); k < last; k++) {
+  memset(at, -1, (size_t)c->n * sizeof(sl_off));
+  for (k = r->first; k < r->last; k++) {
     const sl_off first = count;
     c->begin[k] = first;
     c->weight[k] = 0;
@@ -7471,12 +7486,12 @@ static void sli_contract_item(void *data, sl_int item, sl_int worker) {
       }
     }
   }
-  t->end[item] = count;
+  t->end[r->item] = count;
 }
 
 static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_level *c,
              sli_shares *ranges) {
-  const sl_int count = sli_shares_count(ranges, c->n);
+  const sl_int count = sli_shares_count(ranges->team, c->n);
   sl_off total;
   sl_int k, item;
   sli_contraction t;
@@ -7484,22 +7499,20 @@ static void sli_contract(const sli_level *g, const sli_clusters *clusters, sli_l
   t.clusters = clusters;
   t.c = c;
   t.ranges = ranges;
-  memset(ranges->begun, 0, sizeof ranges->begun);
   t.begin[0] = 0;
   if (count > 1) {
-    sli_team_loop(ranges->team, count, NULL, sli_contract_count, &t);
+    sli_range_run(ranges->team, c->n, count, sli_contract_count, &t);
   }
   for (item = 1; item < count; item++) {
     t.begin[item] += t.begin[item - 1];
   }
-  sli_team_loop(ranges->team, count, NULL, sli_contract_item, &t);
+  sli_range_run(ranges->team, c->n, count, sli_contract_range, &t);
   total = t.end[0];
   for (item = 1; item < count; item++) {
     const sl_off first = t.begin[item], edges = t.end[item] - first;
-    const sl_int last = sli_share_begin(ranges, c->n, item + 1);
     memmove(c->to + total, c->to + first, (size_t)edges * sizeof(sl_int));
     memmove(c->edge + total, c->edge + first, (size_t)edges * sizeof(sl_int));
-    for (k = sli_share_begin(ranges, c->n, item); k < last; k++) {
+    for (k = t.first[item]; k < t.first[item + 1]; k++) {
       c->begin[k] -= first - total;
     }
     total += edges;
@@ -7526,91 +7539,6 @@ static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_cl
     sli_contract(g, clusters, c, ranges);
   }
   return status;
-}
-
-typedef struct sli_edge_weights {
-  sli_level *levels;
-  int l;
-  sl_int *cluster, *member, *start, *to, *count;
-  sli_shares *ranges;
-} sli_edge_weights;
-
-static void sli_cluster_members(sli_edge_weights *w) {
-  const sli_level *levels = w->levels;
-  const int l = w->l;
-  const sl_int n = levels[0].n, clusters = levels[l].n;
-  sl_int v, k;
-  int m;
-  memset(w->start, 0, ((size_t)clusters + 1) * sizeof(sl_int));
-  for (v = 0; v < n; v++) {
-    sl_int c = v;
-    for (m = 0; m < l; m++) {
-      c = levels[m].coarse[c];
-    }
-    w->cluster[v] = c;
-    w->start[c + 1]++;
-  }
-  for (k = 0; k < clusters; k++) {
-    w->start[k + 1] += w->start[k];
-  }
-  for (v = 0; v < n; v++) {
-    w->member[w->start[w->cluster[v]]++] = v;
-  }
-  memmove(w->start + 1, w->start, (size_t)clusters * sizeof(sl_int));
-  w->start[0] = 0;
-}
-
-static void sli_weigh_item(void *data, sl_int item, sl_int worker) {
-  sli_edge_weights *w = (sli_edge_weights *)data;
-  const sli_level *finest = &w->levels[0], *g = &w->levels[w->l];
-  const sl_int last = sli_share_begin(w->ranges, g->n, item + 1);
-  int is_new;
-  sl_off e, *at = sli_shares_scratch(w->ranges, worker, &is_new);
-  sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
-  for (k = 0; k < g->n && is_new; k++) {
-    seen[k] = -1;
-  }
-  for (k = sli_share_begin(w->ranges, g->n, item); k < last; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      at[g->to[e]] = e;
-      g->edge[e] = 0;
-    }
-    for (i = w->start[k]; i < w->start[k + 1]; i++) {
-      const sl_int v = w->member[i];
-      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
-        const sl_int c = w->cluster[finest->to[e]];
-        if (c != k && seen[c] != v) {
-          seen[c] = v;
-          g->edge[at[c]]++;
-        }
-      }
-    }
-  }
-}
-
-static void sli_weigh_edges(sli_edge_weights *w) {
-  const sli_level *g = &w->levels[w->l];
-  sl_off e, *at = w->ranges->scratch;
-  sl_int k;
-  sli_cluster_members(w);
-  memset(w->ranges->begun, 0, sizeof w->ranges->begun);
-  sli_team_loop(w->ranges->team, sli_shares_count(w->ranges, g->n), NULL, sli_weigh_item, w);
-  memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      const sl_off there = at[g->to[e]]++;
-      w->to[there] = k;
-      w->count[there] = g->edge[e];
-    }
-  }
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      at[g->to[e]] = e;
-    }
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      g->edge[at[w->to[e]]] += w->count[e];
-    }
-  }
 }
 
 /* src/impl/ordering/coarsen.h: multilevel coarsening: each graph is contracted along a matching of its vertices */
@@ -7911,6 +7839,7 @@ typedef struct sli_border_pool {
 
 typedef struct sli_borders {
   sl_int *head;
+  sl_int *tail;
   sli_border_pool *pool;
   sl_int at, end;
 } sli_borders;
@@ -7969,6 +7898,9 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
   if (l->at == l->end && !sli_borders_take(l)) {
     return;
   }
+  if (l->tail != NULL && l->head[node] == -1) {
+    l->tail[node] = l->at;
+  }
   b = sli_border_at(l->pool, l->at);
   b->vertex = v;
   b->next = l->head[node];
@@ -7976,13 +7908,13 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
 }
 
 static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
-               const sl_int *label) {
+               const sl_int *label, const sli_range *r) {
   sl_int v, k;
   sl_off e;
   for (k = 0; k < t->count; k++) {
     l->head[k] = -1;
   }
-  for (v = 0; v < g->n; v++) {
+  for (v = r->first; v < r->last; v++) {
     const sl_int own = label[v];
     sl_int last = own, listed = -1;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
@@ -8908,26 +8840,7 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   memcpy(vertices, order, (size_t)count * sizeof(sl_int));
 }
 
-/* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
-
-#define SLI_DISSECT_LEAF 160
-#define SLI_DISSECT_LEAF_REFINED 140
-#define SLI_DISSECT_BISECT_MIN 70
-#define SLI_DISSECT_BISECT_MIN_VOLUME 200
-#define SLI_DISSECT_SHRINK 10
-#define SLI_DISSECT_SHRINK_VOLUME 2
-#define SLI_SEVEN_POINT_DEGREE 6
-#define SLI_SEVEN_POINT_DEGREE_COARSE 7
-#define SLI_VOLUME_DEGREE 10
-#define SLI_DISSECT_FIRST 64
-#define SLI_DISSECT_TRIES_FIRST 8
-#define SLI_DISSECT_TRIES 2
-#define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND 2
-#define SLI_DISSECT_BAND_FROM 1000
-#define SLI_SEPARATOR_BALANCE 70
-
-#define SLI_DISSECT_TASKS 8
+/* src/impl/ordering/dissection.h: the state of a dissection, and loops over the vertices of a level */
 
 typedef struct sli_dissect_worker {
   sli_borders borders;
@@ -8953,6 +8866,8 @@ typedef struct sli_dissection {
   sl_int *begin;
   sl_int *order;
   sl_int *nodes;
+  sl_int n_labels, n_ranges;
+  int is_counted;
   void (*bisect)(sli_subgraph *sub, sl_int nodes);
   void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
 } sli_dissection;
@@ -8983,27 +8898,46 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
     w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
     w->borders.head = head;
+    w->borders.tail = NULL;
     w->borders.pool = &d->pool;
   }
 }
 
-static void sli_dissect_sort(sli_dissection *d) {
-  const sli_level *g = &d->levels[d->level];
-  sl_int v, k, total = 0;
-  memset(d->begin, 0, ((size_t)d->tree.count + 1) * sizeof(sl_int));
-  for (v = 0; v < g->n; v++) {
-    d->begin[d->label[v]]++;
+static sl_int *sli_dissect_by_label(const sli_dissection *d, sl_int item) {
+  return (sl_int *)(void *)d->ranges.scratch + 2 * (size_t)item * (size_t)d->n_labels;
+}
+
+static void sli_dissect_loop(sli_dissection *d, sl_int n_labels, sli_range_body *body) {
+  const sl_int n = d->levels[d->level].n;
+  d->n_labels = n_labels;
+  d->n_ranges = SLI_SHARES * (int64_t)d->n_labels <= d->ranges.room
+            ? sli_shares_count(d->team, n)
+            : 1;
+  sli_range_run(d->team, n, d->n_ranges, body, d);
+}
+
+static void sli_dissect_distribute(void *data, const sli_range *r) {
+  const sli_dissection *d = (const sli_dissection *)data;
+  sl_int v, *at = sli_dissect_by_label(d, r->item);
+  if (!d->is_counted) {
+    memset(at, 0, (size_t)d->n_labels * sizeof(sl_int));
   }
-  for (k = 0; k <= d->tree.count; k++) {
-    const sl_int here = d->begin[k];
-    d->begin[k] = total;
-    total += here;
+  for (v = r->first; v < r->last; v++) {
+    const sl_int to = at[d->label[v]]++;
+    if (d->is_counted) {
+      d->order[to] = v;
+    }
   }
-  for (v = 0; v < g->n; v++) {
-    d->order[d->begin[d->label[v]]++] = v;
-  }
-  memmove(d->begin + 1, d->begin, (size_t)d->tree.count * sizeof(sl_int));
-  d->begin[0] = 0;
+}
+
+static void sli_dissect_sort(sli_dissection *d, sl_int labels) {
+  sli_pattern h;
+  h.begin = d->begin;
+  d->is_counted = 0;
+  sli_dissect_loop(d, labels, sli_dissect_distribute);
+  sli_pattern_starts(&h, labels, sli_dissect_by_label(d, 0), d->n_ranges, 2 * (size_t)labels);
+  d->is_counted = 1;
+  sli_dissect_loop(d, labels, sli_dissect_distribute);
 }
 
 static void sli_dissect_start(sli_dissection *d) {
@@ -9014,6 +8948,89 @@ static void sli_dissect_start(sli_dissection *d) {
   memset(d->label, 0, (size_t)n * sizeof(sl_int));
   sli_label_tree_number(&d->tree, n, d->label);
 }
+
+/* src/impl/ordering/weigh.h: the edges of a coarse level as what a separator costs */
+
+static void sli_weigh_range(void *data, const sli_range *r) {
+  const sli_dissection *d = (const sli_dissection *)data;
+  const sli_level *finest = &d->levels[0], *g = &d->levels[d->n_levels - 1];
+  sl_off e, *at = sli_shares_scratch(&d->ranges, r->worker);
+  sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
+  memset(seen, -1, (size_t)g->n * sizeof(sl_int));
+  for (k = r->first; k < r->last; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      at[g->to[e]] = e;
+      g->edge[e] = 0;
+    }
+    for (i = d->begin[k]; i < d->begin[k + 1]; i++) {
+      const sl_int v = d->order[i];
+      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
+        const sl_int c = d->label[finest->to[e]];
+        if (c != k && seen[c] != v) {
+          seen[c] = v;
+          g->edge[at[c]]++;
+        }
+      }
+    }
+  }
+}
+
+static void sli_weigh_edges(sli_dissection *d) {
+  const int l = d->n_levels - 1;
+  const sli_level *g = &d->levels[l];
+  const sl_int n = d->levels[0].n;
+  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
+  sl_off e, *at = d->ranges.scratch;
+  sl_int v, k;
+  int m;
+  for (v = 0; v < n; v++) {
+    sl_int c = v;
+    for (m = 0; m < l; m++) {
+      c = d->levels[m].coarse[c];
+    }
+    d->label[v] = c;
+  }
+  d->level = 0;
+  sli_dissect_sort(d, g->n);
+  sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
+  memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      const sl_off there = at[g->to[e]]++;
+      to[there] = k;
+      count[there] = g->edge[e];
+    }
+  }
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      at[g->to[e]] = e;
+    }
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      g->edge[at[to[e]]] += count[e];
+    }
+  }
+}
+
+/* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
+
+#define SLI_DISSECT_LEAF 160
+#define SLI_DISSECT_LEAF_REFINED 140
+#define SLI_DISSECT_BISECT_MIN 70
+#define SLI_DISSECT_BISECT_MIN_VOLUME 200
+#define SLI_DISSECT_SHRINK 10
+#define SLI_DISSECT_SHRINK_VOLUME 2
+#define SLI_SEVEN_POINT_DEGREE 6
+#define SLI_SEVEN_POINT_DEGREE_COARSE 7
+#define SLI_VOLUME_DEGREE 10
+#define SLI_DISSECT_FIRST 64
+#define SLI_DISSECT_TRIES_FIRST 8
+#define SLI_DISSECT_TRIES 2
+#define SLI_DISSECT_LAYERS 3
+#define SLI_DISSECT_BAND 2
+#define SLI_DISSECT_BAND_FROM 1000
+#define SLI_SEPARATOR_BALANCE 70
+
+#define SLI_DISSECT_TASKS 8
 
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
   const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
@@ -9045,7 +9062,7 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
                 void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
   const sl_int nodes = d->tree.count;
   sl_int node, split = 0;
-  sli_dissect_sort(d);
+  sli_dissect_sort(d, d->tree.count);
   for (node = 0; node < nodes; node++) {
     if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
       d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
@@ -9077,6 +9094,34 @@ static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
   }
 }
 
+static void sli_dissect_borders(void *data, const sli_range *r) {
+  sli_dissection *d = (sli_dissection *)data;
+  sli_borders *l = &d->workers[r->worker].borders;
+  sl_int *head = l->head;
+  if (d->n_ranges > 1) {
+    l->head = sli_dissect_by_label(d, r->item);
+    l->tail = l->head + d->tree.count;
+  }
+  sli_borders_fill(l, &d->tree, &d->levels[d->level], d->label, r);
+  l->head = head;
+  l->tail = NULL;
+}
+
+static void sli_dissect_join_borders(sli_dissection *d) {
+  sl_int item, k, *head = d->workers->borders.head;
+  for (item = 0; item < d->n_ranges; item++) {
+    const sl_int *own = sli_dissect_by_label(d, item), *tail = own + d->tree.count;
+    for (k = 0; k < d->tree.count; k++) {
+      if (item == 0) {
+        head[k] = own[k];
+      } else if (own[k] != -1) {
+        sli_border_at(&d->pool, tail[k])->next = head[k];
+        head[k] = own[k];
+      }
+    }
+  }
+}
+
 static void sli_dissect_visit(sli_dissection *d,
                 void (*visit)(sli_dissection *d, sli_dissect_worker *w,
                       sl_int node)) {
@@ -9085,7 +9130,10 @@ static void sli_dissect_visit(sli_dissection *d,
   for (k = 0; k < d->team->workers; k++) {
     d->workers[k].borders.at = d->workers[k].borders.end = 0;
   }
-  sli_borders_fill(&d->workers->borders, &d->tree, &d->levels[d->level], d->label);
+  sli_dissect_loop(d, d->tree.count, sli_dissect_borders);
+  if (d->n_ranges > 1) {
+    sli_dissect_join_borders(d);
+  }
   d->visit = visit;
   d->nodes[0] = d->tree.root;
   sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
@@ -9157,19 +9205,6 @@ static void sli_dissect_project(sli_dissection *d) {
   d->other = coarser;
 }
 
-static void sli_dissect_weigh(sli_dissection *d, int l) {
-  sli_edge_weights w;
-  w.levels = d->levels;
-  w.l = l;
-  w.cluster = d->label;
-  w.member = d->order;
-  w.start = d->nodes;
-  w.to = d->workers->subgraph.to;
-  w.count = d->workers->subgraph.edge;
-  w.ranges = &d->ranges;
-  sli_weigh_edges(&w);
-}
-
 static int sli_level_exceeds(const sli_level *g, sl_off degree) {
   return g->begin[g->n] > degree * g->n;
 }
@@ -9201,7 +9236,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     if (*working == -1 && last > 0 && g->n <= most) {
       *working = last;
       if (weigh) {
-        sli_dissect_weigh(d, last);
+        sli_weigh_edges(d);
       }
     }
     if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
@@ -9290,13 +9325,13 @@ SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
   return a.high < b.high || (a.high == b.high && a.low < b.low);
 }
 
-static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
-  const sli_level *g = &d->levels[0];
-  sl_int *border = d->nodes, v, k;
+static void sli_tree_cost_count(void *data, const sli_range *r) {
+  const sli_dissection *d = (const sli_dissection *)data;
+  const sli_level *g = &d->levels[d->level];
+  sl_int v, *border = sli_dissect_by_label(d, r->item);
   sl_off e;
-  sli_tree_cost cost = {0, 0};
   memset(border, 0, (size_t)d->tree.count * sizeof(sl_int));
-  for (v = 0; v < g->n; v++) {
+  for (v = r->first; v < r->last; v++) {
     const sl_int own = d->label[v];
     sl_int last = -1;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
@@ -9308,9 +9343,20 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
       }
     }
   }
+}
+
+static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
+  sl_int k, item;
+  sli_tree_cost cost = {0, 0};
+  SLI_ASSERT(d->level == 0);
+  sli_dissect_loop(d, d->tree.count, sli_tree_cost_count);
   *flat = cost;
   for (k = 0; k < d->tree.count; k++) {
-    const uint64_t weight = (uint64_t)d->tree.weight[k], across = (uint64_t)border[k];
+    const uint64_t weight = (uint64_t)d->tree.weight[k];
+    uint64_t across = 0;
+    for (item = 0; item < d->n_ranges; item++) {
+      across += (uint64_t)sli_dissect_by_label(d, item)[k];
+    }
     if (!sli_label_tree_is_leaf(&d->tree, k)) {
       sli_tree_cost_add(&cost, weight * across, across);
       sli_tree_cost_add(flat, weight, weight);
@@ -9814,7 +9860,7 @@ static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *per
                  sli_septree *septree) {
   const sli_label_tree *t = &d->tree;
   sl_int node, k, up, *number = d->nodes;
-  sli_dissect_sort(d);
+  sli_dissect_sort(d, t->count);
   sli_team_loop(d->team, (t->count - 1) / SLI_SEPTREE_NODES + 1, NULL, sli_septree_item, d);
   for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
     const sl_int count = d->begin[node + 1] - d->begin[node];
@@ -10061,7 +10107,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
   }
   memset(d->tree.weight, 0, (size_t)d->tree.count * sizeof(sl_int));
   sli_label_tree_number(&d->tree, g->n, d->label);
-  sli_dissect_sort(d);
+  sli_dissect_sort(d, d->tree.count);
   for (node = sli_label_tree_first(&d->tree); node != -1;
      node = sli_label_tree_next(&d->tree, node)) {
     if (!sli_label_tree_is_leaf(&d->tree, node)) {
@@ -10134,34 +10180,41 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
 static sl_int sli_nd_component(sli_nd *w, sl_int root) {
   const sli_graph *G = w->G;
   sl_int head, tail = 0;
-  sl_off e;
+  sl_off e, edges = 0;
   w->local[root] = tail;
   w->row[tail++] = root;
   for (head = 0; head < tail; head++) {
+    w->begin[head] = edges;
     for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
+      edges += w->local[G->to[e]] != -2;
       if (w->local[G->to[e]] == -1) {
         w->local[G->to[e]] = tail;
         w->row[tail++] = G->to[e];
       }
     }
   }
+  w->begin[tail] = edges;
   return tail;
 }
 
-static void sli_nd_graph(sli_nd *w, sl_int count) {
+static void sli_nd_fill(void *data, const sli_range *r) {
+  const sli_nd *w = (const sli_nd *)data;
   const sli_graph *G = w->G;
-  sl_off e, edges = 0;
   sl_int k;
-  for (k = 0; k < count; k++) {
-    w->begin[k] = edges;
+  sl_off e, edges = w->begin[r->first];
+  for (k = r->first; k < r->last; k++) {
     for (e = G->begin[w->row[k]]; e < G->begin[w->row[k] + 1]; e++) {
       if (w->local[G->to[e]] >= 0) {
         w->to[edges++] = w->local[G->to[e]];
       }
     }
   }
-  w->begin[count] = edges;
+}
+
+static void sli_nd_graph(sli_nd *w, sl_int count) {
+  sl_int k;
   w->d.levels[0].n = count;
+  sli_range_run(w->d.team, count, sli_shares_count(w->d.team, count), sli_nd_fill, w);
   w->d.levels[0].begin = w->begin;
   w->d.levels[0].to = w->to;
   w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;

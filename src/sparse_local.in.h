@@ -86,6 +86,8 @@ extern "C" {
 #include "impl/ordering/bisect.h"
 #include "impl/ordering/separator.h"
 #include "impl/ordering/mindeg.h"
+#include "impl/ordering/dissection.h"
+#include "impl/ordering/weigh.h"
 #include "impl/ordering/dissect.h"
 #include "impl/ordering/tree_cost.h"
 #include "impl/ordering/levelset.h"

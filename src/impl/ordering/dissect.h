@@ -3,7 +3,7 @@
 #define SLI_ORDERING_DISSECT_H
 
 #include "separator.h"
-#include "mindeg.h"
+#include "weigh.h"
 
 /* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as
  * a further separator. With METIS's separators, smaller leaves save another 0.5 % of fill. */
@@ -39,100 +39,6 @@
 /* Subtrees of at most this share of the weight, for each worker, are one task. */
 #define SLI_DISSECT_TASKS 8
 
-/* The scratch of one worker. All arrays have room for the largest graph. */
-typedef struct sli_dissect_worker {
-    sli_borders borders;
-    sli_subgraph subgraph;
-    sli_mindeg mindeg;
-    sl_off *next; /* n */
-} sli_dissect_worker;
-
-/* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
- * the largest. Bisections, refinements of borders and separators are shared by the workers of a
- * team: what happens below a node depends only on what has happened there and at the nodes above,
- * so that the result does not depend on the workers. */
-typedef struct sli_dissection {
-    const sl_allocator *a;
-    sli_team *team;
-    sli_shares ranges;                /* their scratch is `next` of the workers */
-    sli_level levels[SLI_LEVELS_MAX]; /* finest first; the arrays of the finest are borrowed */
-    int n_levels, level;              /* level: the one that the labels refer to */
-    sl_int total;                     /* weight of the finest level */
-    sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
-    int is_volume, may_be_seven_point;
-    int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
-    sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
-    sli_border_pool pool;
-    sli_dissect_worker *workers; /* team->workers; the first is the leader */
-    sl_int *label, *other;       /* n: the node of each vertex; `other` is scratch */
-    sl_int *begin;               /* n + 2: where each node's vertices begin in order */
-    sl_int *order;               /* n */
-    sl_int *nodes;               /* n + 1 */
-    /* the loop under way: bisects a subgraph when the tree has so many nodes, or visits a node */
-    void (*bisect)(sli_subgraph *sub, sl_int nodes);
-    void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
-} sli_dissection;
-
-static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
-    const sl_int room = sli_min(n, n / 4 + 1024) + 1; /* of nodes: more leaves would be tiny */
-    sl_int k, *head;
-    sl_off *next;
-    d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
-    sli_label_tree_layout(&d->tree, b, room);
-    sli_label_tree_layout(&d->other_tree, b, room);
-    head = SLI_TAKE(b, sl_int, room);
-    d->label = SLI_TAKE(b, sl_int, n);
-    d->other = SLI_TAKE(b, sl_int, n);
-    d->begin = SLI_TAKE(b, sl_int, (size_t)n + 2);
-    d->order = SLI_TAKE(b, sl_int, n);
-    d->nodes = SLI_TAKE(b, sl_int, (size_t)n + 1);
-    d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
-    next = SLI_TAKE(b, sl_off, (uint64_t)n * (uint64_t)d->team->workers);
-    d->ranges.team = d->team;
-    d->ranges.scratch = next;
-    d->ranges.room = n;
-    for (k = 0; k < d->team->workers; k++) {
-        sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
-        sli_subgraph_layout(&w->subgraph, b, n, edges);
-        w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
-        w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
-        w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
-        w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
-        w->borders.head = head;
-        w->borders.pool = &d->pool;
-    }
-}
-
-/* Sorts the vertices by node: those of node t become order[begin[t]] .. order[begin[t + 1] - 1]. */
-static void sli_dissect_sort(sli_dissection *d) {
-    const sli_level *g = &d->levels[d->level];
-    sl_int v, k, total = 0;
-    memset(d->begin, 0, ((size_t)d->tree.count + 1) * sizeof(sl_int));
-    for (v = 0; v < g->n; v++) {
-        d->begin[d->label[v]]++;
-    }
-    for (k = 0; k <= d->tree.count; k++) {
-        const sl_int here = d->begin[k];
-        d->begin[k] = total;
-        total += here;
-    }
-    for (v = 0; v < g->n; v++) {
-        d->order[d->begin[d->label[v]]++] = v;
-    }
-    memmove(d->begin + 1, d->begin, (size_t)d->tree.count * sizeof(sl_int));
-    d->begin[0] = 0;
-}
-
-/* Starts with a tree of one leaf that contains all vertices. */
-static void sli_dissect_start(sli_dissection *d) {
-    const sl_int n = d->levels[d->level].n;
-    d->tree.count = 0;
-    d->tree.root = sli_label_tree_add(&d->tree, -1);
-    d->tree.weight[d->tree.root] = d->total;
-    memset(d->label, 0, (size_t)n * sizeof(sl_int));
-    sli_label_tree_number(&d->tree, n, d->label);
-}
-
 /* Bisects a subgraph when the tree has so many nodes. */
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
     const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
@@ -167,7 +73,7 @@ static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
                                 void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
     const sl_int nodes = d->tree.count;
     sl_int node, split = 0;
-    sli_dissect_sort(d);
+    sli_dissect_sort(d, d->tree.count);
     for (node = 0; node < nodes; node++) {
         if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
             d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
@@ -200,6 +106,36 @@ static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
     }
 }
 
+/* Lists the border vertices of a range: of the only one, or into lists of its own. */
+static void sli_dissect_borders(void *data, const sli_range *r) {
+    sli_dissection *d = (sli_dissection *)data;
+    sli_borders *l = &d->workers[r->worker].borders;
+    sl_int *head = l->head;
+    if (d->n_ranges > 1) {
+        l->head = sli_dissect_by_label(d, r->item);
+        l->tail = l->head + d->tree.count;
+    }
+    sli_borders_fill(l, &d->tree, &d->levels[d->level], d->label, r);
+    l->head = head;
+    l->tail = NULL;
+}
+
+/* Puts the lists of each range before those of the ranges before it. */
+static void sli_dissect_join_borders(sli_dissection *d) {
+    sl_int item, k, *head = d->workers->borders.head;
+    for (item = 0; item < d->n_ranges; item++) {
+        const sl_int *own = sli_dissect_by_label(d, item), *tail = own + d->tree.count;
+        for (k = 0; k < d->tree.count; k++) {
+            if (item == 0) {
+                head[k] = own[k];
+            } else if (own[k] != -1) {
+                sli_border_at(&d->pool, tail[k])->next = head[k];
+                head[k] = own[k];
+            }
+        }
+    }
+}
+
 /* Visits all inner nodes that have a border, each after the nodes above it. */
 static void sli_dissect_visit(sli_dissection *d,
                               void (*visit)(sli_dissection *d, sli_dissect_worker *w,
@@ -209,7 +145,10 @@ static void sli_dissect_visit(sli_dissection *d,
     for (k = 0; k < d->team->workers; k++) {
         d->workers[k].borders.at = d->workers[k].borders.end = 0;
     }
-    sli_borders_fill(&d->workers->borders, &d->tree, &d->levels[d->level], d->label);
+    sli_dissect_loop(d, d->tree.count, sli_dissect_borders);
+    if (d->n_ranges > 1) {
+        sli_dissect_join_borders(d);
+    }
     d->visit = visit;
     d->nodes[0] = d->tree.root;
     sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
@@ -292,20 +231,6 @@ static void sli_dissect_project(sli_dissection *d) {
     d->other = coarser;
 }
 
-/* Weighs the edges of level l by what a separator costs. */
-static void sli_dissect_weigh(sli_dissection *d, int l) {
-    sli_edge_weights w;
-    w.levels = d->levels;
-    w.l = l;
-    w.cluster = d->label;
-    w.member = d->order;
-    w.start = d->nodes;
-    w.to = d->workers->subgraph.to;
-    w.count = d->workers->subgraph.edge;
-    w.ranges = &d->ranges;
-    sli_weigh_edges(&w);
-}
-
 static int sli_level_exceeds(const sli_level *g, sl_off degree) {
     return g->begin[g->n] > degree * g->n;
 }
@@ -341,7 +266,7 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
         if (*working == -1 && last > 0 && g->n <= most) {
             *working = last;
             if (weigh) {
-                sli_dissect_weigh(d, last);
+                sli_weigh_edges(d);
             }
         }
         if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {

@@ -154,6 +154,7 @@ typedef struct sli_border_pool {
 /* The borders as one worker adds to them. */
 typedef struct sli_borders {
     sl_int *head; /* by node: its first entry, or -1 */
+    sl_int *tail; /* by node: its last entry, if it has one; or NULL */
     sli_border_pool *pool;
     sl_int at, end; /* the range of entries that it fills */
 } sli_borders;
@@ -215,21 +216,25 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
     if (l->at == l->end && !sli_borders_take(l)) {
         return;
     }
+    if (l->tail != NULL && l->head[node] == -1) {
+        l->tail[node] = l->at;
+    }
     b = sli_border_at(l->pool, l->at);
     b->vertex = v;
     b->next = l->head[node];
     l->head[node] = l->at++;
 }
 
-/* Enters each vertex of a level into the lists of the nodes that separate it from a neighbor. */
+/* Enters a range of the vertices of a level into the lists of the nodes that separate them from a
+ * neighbor. */
 static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
-                             const sl_int *label) {
+                             const sl_int *label, const sli_range *r) {
     sl_int v, k;
     sl_off e;
     for (k = 0; k < t->count; k++) {
         l->head[k] = -1;
     }
-    for (v = 0; v < g->n; v++) {
+    for (v = r->first; v < r->last; v++) {
         const sl_int own = label[v];
         sl_int last = own, listed = -1;
         for (e = g->begin[v]; e < g->begin[v + 1]; e++) {

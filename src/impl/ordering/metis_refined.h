@@ -88,7 +88,7 @@ static sl_status sli_dissect_metis(sli_dissection *d) {
     }
     memset(d->tree.weight, 0, (size_t)d->tree.count * sizeof(sl_int));
     sli_label_tree_number(&d->tree, g->n, d->label);
-    sli_dissect_sort(d);
+    sli_dissect_sort(d, d->tree.count);
     for (node = sli_label_tree_first(&d->tree); node != -1;
          node = sli_label_tree_next(&d->tree, node)) {
         if (!sli_label_tree_is_leaf(&d->tree, node)) {

@@ -43,39 +43,48 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
 }
 
 /* Collects the rows reachable from root in breadth-first order, which also numbers the component:
- * neighbors are then close in memory, however the caller numbers them. */
+ * neighbors are then close in memory, however the caller numbers them. Counts their edges, without
+ * dense rows. */
 static sl_int sli_nd_component(sli_nd *w, sl_int root) {
     const sli_graph *G = w->G;
     sl_int head, tail = 0;
-    sl_off e;
+    sl_off e, edges = 0;
     w->local[root] = tail;
     w->row[tail++] = root;
     for (head = 0; head < tail; head++) {
+        w->begin[head] = edges;
         for (e = G->begin[w->row[head]]; e < G->begin[w->row[head] + 1]; e++) {
+            edges += w->local[G->to[e]] != -2;
             if (w->local[G->to[e]] == -1) {
                 w->local[G->to[e]] = tail;
                 w->row[tail++] = G->to[e];
             }
         }
     }
+    w->begin[tail] = edges;
     return tail;
 }
 
-/* Builds the graph of the current component, which has `count` rows, without dense rows. */
-static void sli_nd_graph(sli_nd *w, sl_int count) {
+/* Fills the edges of a range of rows. */
+static void sli_nd_fill(void *data, const sli_range *r) {
+    const sli_nd *w = (const sli_nd *)data;
     const sli_graph *G = w->G;
-    sl_off e, edges = 0;
     sl_int k;
-    for (k = 0; k < count; k++) {
-        w->begin[k] = edges;
+    sl_off e, edges = w->begin[r->first];
+    for (k = r->first; k < r->last; k++) {
         for (e = G->begin[w->row[k]]; e < G->begin[w->row[k] + 1]; e++) {
             if (w->local[G->to[e]] >= 0) {
                 w->to[edges++] = w->local[G->to[e]];
             }
         }
     }
-    w->begin[count] = edges;
+}
+
+/* Builds the graph of the current component, which has `count` rows, without dense rows. */
+static void sli_nd_graph(sli_nd *w, sl_int count) {
+    sl_int k;
     w->d.levels[0].n = count;
+    sli_range_run(w->d.team, count, sli_shares_count(w->d.team, count), sli_nd_fill, w);
     w->d.levels[0].begin = w->begin;
     w->d.levels[0].to = w->to;
     w->d.levels[0].weight = w->weight != NULL ? w->weights : NULL;

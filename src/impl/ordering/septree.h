@@ -65,7 +65,7 @@ static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *per
                                sli_septree *septree) {
     const sli_label_tree *t = &d->tree;
     sl_int node, k, up, *number = d->nodes;
-    sli_dissect_sort(d);
+    sli_dissect_sort(d, t->count);
     sli_team_loop(d->team, (t->count - 1) / SLI_SEPTREE_NODES + 1, NULL, sli_septree_item, d);
     for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
         const sl_int count = d->begin[node + 1] - d->begin[node];

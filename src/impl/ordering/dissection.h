@@ -1,0 +1,128 @@
+/* dissection.h: the state of a dissection, and loops over the vertices of a level */
+#ifndef SLI_ORDERING_DISSECTION_H
+#define SLI_ORDERING_DISSECTION_H
+
+#include "graph.h"
+#include "mindeg.h"
+#include "subgraph.h"
+
+/* The scratch of one worker. All arrays have room for the largest graph. */
+typedef struct sli_dissect_worker {
+    sli_borders borders;
+    sli_subgraph subgraph;
+    sli_mindeg mindeg;
+    sl_off *next; /* n */
+} sli_dissect_worker;
+
+/* The state of a dissection. One graph after the other is dissected in it; all arrays have room for
+ * the largest. Bisections, refinements of borders and separators are shared by the workers of a
+ * team: what happens below a node depends only on what has happened there and at the nodes above,
+ * so that the result does not depend on the workers. */
+typedef struct sli_dissection {
+    const sl_allocator *a;
+    sli_team *team;
+    sli_shares ranges;                /* their scratch is `next` of the workers */
+    sli_level levels[SLI_LEVELS_MAX]; /* finest first; the arrays of the finest are borrowed */
+    int n_levels, level;              /* level: the one that the labels refer to */
+    sl_int total;                     /* weight of the finest level */
+    sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
+    int is_volume, may_be_seven_point;
+    int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
+    sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
+    sli_border_pool pool;
+    sli_dissect_worker *workers; /* team->workers; the first is the leader */
+    sl_int *label, *other;       /* n: the node of each vertex; `other` is scratch */
+    sl_int *begin;               /* n + 2: where each node's vertices begin in order */
+    sl_int *order;               /* n */
+    sl_int *nodes;               /* n + 1 */
+    sl_int n_labels, n_ranges;   /* of the loop under way */
+    int is_counted;
+    /* the loop under way: bisects a subgraph when the tree has so many nodes, or visits a node */
+    void (*bisect)(sli_subgraph *sub, sl_int nodes);
+    void (*visit)(struct sli_dissection *d, sli_dissect_worker *w, sl_int node);
+} sli_dissection;
+
+static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_off edges) {
+    const sl_int room = sli_min(n, n / 4 + 1024) + 1; /* of nodes: more leaves would be tiny */
+    sl_int k, *head;
+    sl_off *next;
+    d->levels[0].coarse = SLI_TAKE(b, sl_int, n);
+    sli_label_tree_layout(&d->tree, b, room);
+    sli_label_tree_layout(&d->other_tree, b, room);
+    head = SLI_TAKE(b, sl_int, room);
+    d->label = SLI_TAKE(b, sl_int, n);
+    d->other = SLI_TAKE(b, sl_int, n);
+    d->begin = SLI_TAKE(b, sl_int, (size_t)n + 2);
+    d->order = SLI_TAKE(b, sl_int, n);
+    d->nodes = SLI_TAKE(b, sl_int, (size_t)n + 1);
+    d->workers = SLI_TAKE(b, sli_dissect_worker, d->team->workers);
+    next = SLI_TAKE(b, sl_off, (uint64_t)n * (uint64_t)d->team->workers);
+    d->ranges.team = d->team;
+    d->ranges.scratch = next;
+    d->ranges.room = n;
+    for (k = 0; k < d->team->workers; k++) {
+        sli_dissect_worker counted, *w = d->workers == NULL ? &counted : &d->workers[k];
+        sli_subgraph_layout(&w->subgraph, b, n, edges);
+        w->next = next == NULL ? NULL : next + (size_t)k * (size_t)n;
+        w->mindeg.key = SLI_TAKE(b, uint32_t, SLI_MINDEG_MAX);
+        w->mindeg.room = (size_t)SLI_MINDEG_MAX * SLI_MINDEG_MAX / 32;
+        w->mindeg.rows = SLI_TAKE(b, uint64_t, w->mindeg.room);
+        w->borders.head = head;
+        w->borders.tail = NULL;
+        w->borders.pool = &d->pool;
+    }
+}
+
+/* A number for each label: of several ranges, each has two such arrays, one after the other. */
+static sl_int *sli_dissect_by_label(const sli_dissection *d, sl_int item) {
+    return (sl_int *)(void *)d->ranges.scratch + 2 * (size_t)item * (size_t)d->n_labels;
+}
+
+/* Runs a loop over the vertices of the level, which have so many labels. */
+static void sli_dissect_loop(sli_dissection *d, sl_int n_labels, sli_range_body *body) {
+    const sl_int n = d->levels[d->level].n;
+    d->n_labels = n_labels;
+    d->n_ranges = SLI_SHARES * (int64_t)d->n_labels <= d->ranges.room
+                      ? sli_shares_count(d->team, n)
+                      : 1;
+    sli_range_run(d->team, n, d->n_ranges, body, d);
+}
+
+/* Counts the vertices of a range by label, or distributes them. */
+static void sli_dissect_distribute(void *data, const sli_range *r) {
+    const sli_dissection *d = (const sli_dissection *)data;
+    sl_int v, *at = sli_dissect_by_label(d, r->item);
+    if (!d->is_counted) {
+        memset(at, 0, (size_t)d->n_labels * sizeof(sl_int));
+    }
+    for (v = r->first; v < r->last; v++) {
+        const sl_int to = at[d->label[v]]++;
+        if (d->is_counted) {
+            d->order[to] = v;
+        }
+    }
+}
+
+/* Sorts the vertices by label, of which there are `labels`: those of label t become
+ * order[begin[t]] .. order[begin[t + 1] - 1]. */
+static void sli_dissect_sort(sli_dissection *d, sl_int labels) {
+    sli_pattern h;
+    h.begin = d->begin;
+    d->is_counted = 0;
+    sli_dissect_loop(d, labels, sli_dissect_distribute);
+    sli_pattern_starts(&h, labels, sli_dissect_by_label(d, 0), d->n_ranges, 2 * (size_t)labels);
+    d->is_counted = 1;
+    sli_dissect_loop(d, labels, sli_dissect_distribute);
+}
+
+/* Starts with a tree of one leaf that contains all vertices. */
+static void sli_dissect_start(sli_dissection *d) {
+    const sl_int n = d->levels[d->level].n;
+    d->tree.count = 0;
+    d->tree.root = sli_label_tree_add(&d->tree, -1);
+    d->tree.weight[d->tree.root] = d->total;
+    memset(d->label, 0, (size_t)n * sizeof(sl_int));
+    sli_label_tree_number(&d->tree, n, d->label);
+}
+
+#endif
