@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cff399f79ed3b252
+ * FNV-1a of the lines after this comment, without the license: d3ef3c87fcb76d72
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,47 +48,47 @@
  *  10477 levels.h  10530 border.h  10583 forest.h  10670 peel.h  10870 quotient.h
  *  11287 graph_kind.h  11358 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12179 pattern.h  12262 structure.h
- *  12530 schedule.h  12810 symbolic.h  13283 reach.h
+ *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12179 pattern.h  12264 structure.h
+ *  12532 schedule.h  12812 symbolic.h  13285 reach.h
  * (factor: the numbers of L and D)
- *  13559 factor_types.h  13762 panel_load.h  13875 pivot_check.h  13991 storage.h
- *  14129 pivot_search.h  14475 pivoted.h  14544 scatter.h  14702 uplooking.h  14774 null_product.h
- *  14978 null_dense.h  15055 null_basis.h  15375 null_vectors.h  15517 multifrontal.h
- *  15711 gather.h  15759 kept.h  15929 front_tasks.h  16272 null_center.h  16396 nullspace.h
- *  16603 growth.h  16681 factor_setup.h  17021 factor.h  17236 leftlooking.h  17390 factor_query.h
- *  17525 combination.h
+ *  13561 factor_types.h  13764 panel_load.h  13877 pivot_check.h  13993 storage.h
+ *  14131 pivot_search.h  14477 pivoted.h  14546 scatter.h  14704 uplooking.h  14776 null_product.h
+ *  14980 null_dense.h  15057 null_basis.h  15377 null_vectors.h  15519 multifrontal.h
+ *  15713 gather.h  15761 kept.h  15931 front_tasks.h  16274 null_center.h  16398 nullspace.h
+ *  16605 growth.h  16683 factor_setup.h  17023 factor.h  17238 leftlooking.h  17392 factor_query.h
+ *  17527 combination.h
  * (solve: full and local solves)
- *  17586 region_types.h  17690 work.h  17790 query.h  18008 singular.h  18268 backward.h
- *  18298 sweep_tasks.h  18629 sweep.h  18837 compile.h  19030 plan.h  19137 local.h  19289 parts.h
- *  19578 refine.h  19757 refine_local.h  19973 rcond.h  20132 defects.h
+ *  17588 region_types.h  17692 work.h  17792 query.h  18010 singular.h  18270 backward.h
+ *  18300 sweep_tasks.h  18631 sweep.h  18839 compile.h  19032 plan.h  19139 local.h  19291 parts.h
+ *  19580 refine.h  19759 refine_local.h  19975 rcond.h  20134 defects.h
  * (inverse: entries of the inverse, regions)
- *  20191 traversal.h  20440 traversal_run.h  20633 row_sets.h  20667 unit_vectors.h
- *  20894 bilinear.h  21066 entries.h  21343 block.h  21578 reserve.h  21770 selected.h
- *  21980 selected_query.h  22082 region_choose.h  22309 region.h
+ *  20193 traversal.h  20442 traversal_run.h  20635 row_sets.h  20669 unit_vectors.h
+ *  20896 bilinear.h  21068 entries.h  21345 block.h  21580 reserve.h  21772 selected.h
+ *  21982 selected_query.h  22084 region_choose.h  22311 region.h
  * (change: a factor that follows changes of its matrix)
- *  22557 update.h  22952 path.h  23053 rank.h  23448 edges.h  23602 choose.h  23853 pins_types.h
- *  23919 pins_nulls.h  24100 pins_capacitance.h  24369 pins_rows.h  24489 pins_balance.h
- *  24651 pins_held.h  24867 pins_choose.h  24933 pins_rebuild.h  25156 pins_matrix.h  25307 pins.h
- *  25569 pins_solve.h  25842 subset.h  25970 restrict_kept.h  26168 restrict_analysis.h
- *  26414 restrict_symbolic.h  26609 restrict.h  26841 edit_match.h  27040 edit_place.h
- *  27289 edit_separate.h  27603 edit_order.h  27758 edit_graph.h  27840 edit_join.h  28116 edit.h
- *  28279 edit_factor.h
+ *  22559 update.h  22954 path.h  23055 rank.h  23450 edges.h  23604 choose.h  23855 pins_types.h
+ *  23921 pins_nulls.h  24102 pins_capacitance.h  24371 pins_rows.h  24491 pins_balance.h
+ *  24653 pins_held.h  24869 pins_choose.h  24935 pins_rebuild.h  25158 pins_matrix.h  25309 pins.h
+ *  25571 pins_solve.h  25844 subset.h  25972 restrict_kept.h  26170 restrict_analysis.h
+ *  26416 restrict_symbolic.h  26611 restrict.h  26843 edit_match.h  27042 edit_place.h
+ *  27291 edit_separate.h  27605 edit_order.h  27760 edit_graph.h  27842 edit_join.h  28118 edit.h
+ *  28281 edit_factor.h
  * (save: factors in files)
- *  28564 format.h  28861 decode.h  29009 check.h  29339 write.h  29648 load.h  29916 load_inverse.h
- *  30246 load_calls.h
+ *  28566 format.h  28863 decode.h  29011 check.h  29341 write.h  29650 load.h  29918 load_inverse.h
+ *  30248 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30445 batch_solve.h  30654 batch_factor.h  30855 batch_diagonal.h
+ *  30447 batch_solve.h  30656 batch_factor.h  30857 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30995 hermitian.h  31157 complex_rows.h
+ *  30997 hermitian.h  31159 complex_rows.h
  * (last: undefine every internal macro)
- *  31325 undef.h
+ *  31327 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31613 front.inl.h  31615 product.inl.h  32126 copy_rows.inl.h  32164 sweeps.inl.h
- *  32166 unit_triangle.inl.h  32203 two_rhs.inl.h  32377 small_supernode.inl.h
- *  32579 single_rhs.inl.h  32819 multi_rhs.inl.h  32838 complex_groups.inl.h
- *  32977 multi_rhs_small.inl.h  33149 multi_rhs_tiles.inl.h  33426 kernel_set.inl.h
- *  33428 complex_small.inl.h  33618 complex_rows.inl.h  33833 inverse_front.inl.h  34118 row.inl.h
- *  34148 change.inl.h  34391 interleave.inl.h  34525 lanes_undef.inl.h  34544 words_undef.inl.h
+ *  31615 front.inl.h  31617 product.inl.h  32128 copy_rows.inl.h  32166 sweeps.inl.h
+ *  32168 unit_triangle.inl.h  32205 two_rhs.inl.h  32379 small_supernode.inl.h
+ *  32581 single_rhs.inl.h  32821 multi_rhs.inl.h  32840 complex_groups.inl.h
+ *  32979 multi_rhs_small.inl.h  33151 multi_rhs_tiles.inl.h  33428 kernel_set.inl.h
+ *  33430 complex_small.inl.h  33620 complex_rows.inl.h  33835 inverse_front.inl.h  34120 row.inl.h
+ *  34150 change.inl.h  34393 interleave.inl.h  34527 lanes_undef.inl.h  34546 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12202,6 +12202,7 @@ typedef struct sli_analysis {
   sl_int *earlier;
   sli_septree septree;
   size_t ordered;
+  sl_int *moved;
   sl_int *spare;
   sl_symbolic *S;
   int has_rows;
@@ -12216,7 +12217,7 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
   sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
   sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-  sl_int *column = w->column, *moved = w->spare;
+  sl_int *column = w->column, *moved = w->moved;
   if (!is_counted) {
     memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
   }
@@ -12247,6 +12248,7 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
 static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
   const sl_int ranges = sli_max(w->workers, 1);
   sl_int r, unread;
+  w->moved = w->choice.has_tree || sli_nnz(w->A) / 7 >= w->n ? w->spare : w->parent;
   w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
   sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
   sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));

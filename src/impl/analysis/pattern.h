@@ -32,6 +32,7 @@ typedef struct sli_analysis {
     sl_int *earlier;         /* n: the part before each supernode, if it was split, or -1 */
     sli_septree septree;     /* n each: by rows of A */
     size_t ordered;          /* bytes of the block that hold what the ordering fills */
+    sl_int *moved;           /* nnz: rows of the entries of A in P A P' */
     sl_int *spare;           /* 3 for each entry: the ordering, rows, entries */
     sl_symbolic *S;          /* what is filled, by runs of supernodes, in descending order */
     int has_rows;            /* the rows of its supernodes are filled */
@@ -42,14 +43,14 @@ typedef struct sli_analysis {
 #define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
 
 /* Counts or fills the range of entries of one worker. Counting turns the column of each entry into
- * that in P A P', or n if it is not read, and keeps its row in the spare memory. */
+ * that in P A P', or n if it is not read, and keeps its row. */
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
     const sl_int *row = w->A->i, *iperm = w->scratch, side = w->side;
     const sl_int ranges = sli_max(w->workers, 1);
     const sl_int end = (sl_int)((int64_t)sli_nnz(w->A) * (r + 1) / ranges);
     sl_int *at = w->room + (uint64_t)r * SLI_ANALYSIS_ROOM(w->n);
     sl_int p = (sl_int)((int64_t)sli_nnz(w->A) * r / ranges);
-    sl_int *column = w->column, *moved = w->spare;
+    sl_int *column = w->column, *moved = w->moved;
     if (!is_counted) {
         memset(at, 0, ((size_t)w->n + 1) * sizeof(sl_int));
     }
@@ -82,6 +83,8 @@ static void sli_pattern_fill_item(void *data, sl_int r, sl_int worker) {
 static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *team) {
     const sl_int ranges = sli_max(w->workers, 1);
     sl_int r, unread;
+    /* Tree and supernodes fill 7 n elements from parent on later: pages are touched once. */
+    w->moved = w->choice.has_tree || sli_nnz(w->A) / 7 >= w->n ? w->spare : w->parent;
     w->side = triangle == SL_TRIANGLE_NONE ? 0 : triangle == SL_TRIANGLE_UPPER ? -1 : 1;
     sli_team_loop(team, ranges, NULL, sli_pattern_count_item, w);
     sli_pattern_starts(&w->columns, w->n, w->room, ranges, (size_t)SLI_ANALYSIS_ROOM(w->n));

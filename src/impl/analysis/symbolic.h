@@ -21,7 +21,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->columns.entry = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz);
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
-    w->parent = SLI_TAKE(b, sl_int, n);
+    w->parent = SLI_TAKE(b, sl_int, n); /* sli_pattern_fill uses 7 n from here on */
     w->choice.parent = w->parent; /* the ordering of a forest needs none of this memory */
     w->counts = SLI_TAKE(b, sl_int, n);
     w->super_of = SLI_TAKE(b, sl_int, n);
