@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d3ef3c87fcb76d72
+ * FNV-1a of the lines after this comment, without the license: 322e5c0aacf47d99
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -12833,7 +12833,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
   w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 5 + 1));
+  w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 4 + 1));
   if (w->list != NULL) {
     w->room = (sl_int *)(void *)w->list;
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);

@@ -29,7 +29,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 5 + 1));
+    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 4 + 1));
     if (w->list != NULL) { /* none of these is used together with the room of the workers */
         w->room = (sl_int *)(void *)w->list;
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
