@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 322e5c0aacf47d99
+ * FNV-1a of the lines after this comment, without the license: 0a033381d71ed00e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -67,28 +67,28 @@
  *  21982 selected_query.h  22084 region_choose.h  22311 region.h
  * (change: a factor that follows changes of its matrix)
  *  22559 update.h  22954 path.h  23055 rank.h  23450 edges.h  23604 choose.h  23855 pins_types.h
- *  23921 pins_nulls.h  24102 pins_capacitance.h  24371 pins_rows.h  24491 pins_balance.h
- *  24653 pins_held.h  24869 pins_choose.h  24935 pins_rebuild.h  25158 pins_matrix.h  25309 pins.h
- *  25571 pins_solve.h  25844 subset.h  25972 restrict_kept.h  26170 restrict_analysis.h
- *  26416 restrict_symbolic.h  26611 restrict.h  26843 edit_match.h  27042 edit_place.h
- *  27291 edit_separate.h  27605 edit_order.h  27760 edit_graph.h  27842 edit_join.h  28118 edit.h
- *  28281 edit_factor.h
+ *  23921 pins_nulls.h  24102 pins_capacitance.h  24368 pins_rows.h  24488 pins_balance.h
+ *  24650 pins_held.h  24866 pins_choose.h  24932 pins_rebuild.h  25155 pins_matrix.h  25306 pins.h
+ *  25568 pins_solve.h  25841 subset.h  25969 restrict_kept.h  26167 restrict_analysis.h
+ *  26413 restrict_symbolic.h  26608 restrict.h  26840 edit_match.h  27039 edit_place.h
+ *  27288 edit_separate.h  27602 edit_order.h  27757 edit_graph.h  27839 edit_join.h  28115 edit.h
+ *  28278 edit_factor.h
  * (save: factors in files)
- *  28566 format.h  28863 decode.h  29011 check.h  29341 write.h  29650 load.h  29918 load_inverse.h
- *  30248 load_calls.h
+ *  28563 format.h  28860 decode.h  29008 check.h  29338 write.h  29647 load.h  29915 load_inverse.h
+ *  30245 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30447 batch_solve.h  30656 batch_factor.h  30857 batch_diagonal.h
+ *  30444 batch_solve.h  30653 batch_factor.h  30854 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30997 hermitian.h  31159 complex_rows.h
+ *  30994 hermitian.h  31156 complex_rows.h
  * (last: undefine every internal macro)
- *  31327 undef.h
+ *  31324 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31615 front.inl.h  31617 product.inl.h  32128 copy_rows.inl.h  32166 sweeps.inl.h
- *  32168 unit_triangle.inl.h  32205 two_rhs.inl.h  32379 small_supernode.inl.h
- *  32581 single_rhs.inl.h  32821 multi_rhs.inl.h  32840 complex_groups.inl.h
- *  32979 multi_rhs_small.inl.h  33151 multi_rhs_tiles.inl.h  33428 kernel_set.inl.h
- *  33430 complex_small.inl.h  33620 complex_rows.inl.h  33835 inverse_front.inl.h  34120 row.inl.h
- *  34150 change.inl.h  34393 interleave.inl.h  34527 lanes_undef.inl.h  34546 words_undef.inl.h
+ *  31612 front.inl.h  31614 product.inl.h  32125 copy_rows.inl.h  32163 sweeps.inl.h
+ *  32165 unit_triangle.inl.h  32202 two_rhs.inl.h  32376 small_supernode.inl.h
+ *  32578 single_rhs.inl.h  32818 multi_rhs.inl.h  32837 complex_groups.inl.h
+ *  32976 multi_rhs_small.inl.h  33148 multi_rhs_tiles.inl.h  33425 kernel_set.inl.h
+ *  33427 complex_small.inl.h  33617 complex_rows.inl.h  33832 inverse_front.inl.h  34117 row.inl.h
+ *  34147 change.inl.h  34390 interleave.inl.h  34524 lanes_undef.inl.h  34543 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -24249,21 +24249,18 @@ static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
 
 static void sli_pins_remove(sl_pins *P, sl_int p) {
   const size_t ld = (size_t)P->capacity;
-  double *w = P->scratch, alpha = P->K[(size_t)p * ld + (size_t)p];
+  double *y = P->scratch, *b = y + ld, alpha = P->K[(size_t)p * ld + (size_t)p];
   sl_int i, j;
   for (i = p + 1; i < P->n_pins; i++) {
-    w[i] = P->K[(size_t)i * ld + (size_t)p];
-  }
-  for (j = p + 1; j < P->n_pins; j++) {
-    double *at = &P->K[(size_t)j * ld + (size_t)j];
-    const double y = w[j], d = *at, e = d + alpha * y * y, b = alpha * y / e;
-    alpha *= d / e;
-    *at = e;
-    for (i = j + 1; i < P->n_pins; i++) {
-      double *l = &P->K[(size_t)i * ld + (size_t)j];
-      w[i] -= y * *l;
-      *l += b * w[i];
+    double *l = P->K + (size_t)i * ld, x = l[p], d = l[i];
+    for (j = p + 1; j < i; j++) {
+      x -= y[j] * l[j];
+      l[j] += b[j] * x;
     }
+    l[i] = d + alpha * x * x;
+    y[i] = x;
+    b[i] = alpha * x / l[i];
+    alpha *= d / l[i];
   }
   for (i = p; i + 1 < P->n_pins; i++) {
     double *to = P->K + (size_t)i * ld;

@@ -163,21 +163,18 @@ static sl_status sli_pins_factor(sl_pins *P, sl_int k) {
  * their factor. */
 static void sli_pins_remove(sl_pins *P, sl_int p) {
     const size_t ld = (size_t)P->capacity;
-    double *w = P->scratch, alpha = P->K[(size_t)p * ld + (size_t)p];
+    double *y = P->scratch, *b = y + ld, alpha = P->K[(size_t)p * ld + (size_t)p];
     sl_int i, j;
-    for (i = p + 1; i < P->n_pins; i++) {
-        w[i] = P->K[(size_t)i * ld + (size_t)p];
-    }
-    for (j = p + 1; j < P->n_pins; j++) {
-        double *at = &P->K[(size_t)j * ld + (size_t)j];
-        const double y = w[j], d = *at, e = d + alpha * y * y, b = alpha * y / e;
-        alpha *= d / e;
-        *at = e;
-        for (i = j + 1; i < P->n_pins; i++) {
-            double *l = &P->K[(size_t)i * ld + (size_t)j];
-            w[i] -= y * *l;
-            *l += b * w[i];
+    for (i = p + 1; i < P->n_pins; i++) { /* by rows: entries of a column are far apart */
+        double *l = P->K + (size_t)i * ld, x = l[p], d = l[i];
+        for (j = p + 1; j < i; j++) {
+            x -= y[j] * l[j];
+            l[j] += b[j] * x;
         }
+        l[i] = d + alpha * x * x;
+        y[i] = x;
+        b[i] = alpha * x / l[i];
+        alpha *= d / l[i];
     }
     for (i = p; i + 1 < P->n_pins; i++) {
         double *to = P->K + (size_t)i * ld;
