@@ -19,7 +19,7 @@ static void scene_make(scene_t *s, const char *surface, deform_method method) {
     assert_int_equal(s->d.n_components, 1);
     for (sl_int k = 0; k < N_HANDLES; k++) {
         s->handles[k] = (sl_int)((long)(k + 1) * 7919 % s->m.n_vertices);
-        SL_CHECK(deformer_hold(&s->d, s->handles[k]));
+        SL_CHECK(deformer_hold(&s->d, &s->handles[k], 1));
     }
 }
 
@@ -122,15 +122,15 @@ static void handles_come_and_go(void **state) {
         double *before = test_reals(3 * n);
         memcpy(before, s.d.Y, 3 * n * sizeof *before);
         for (int h = 0; h < N_HANDLES; h += 2) {
-            SL_CHECK(deformer_release(&s.d, s.handles[h]));
-            SL_CHECK(deformer_release(&s.d, s.handles[h])); /* nothing */
+            SL_CHECK(deformer_release(&s.d, &s.handles[h], 1));
+            SL_CHECK(deformer_release(&s.d, &s.handles[h], 1)); /* nothing */
         }
-        SL_CHECK(deformer_hold(&s.d, s.handles[1])); /* held already */
+        SL_CHECK(deformer_hold(&s.d, &s.handles[1], 1)); /* held already */
         assert_int_equal(sl_pins_count(s.d.pins), N_HANDLES / 2);
         SL_CHECK(deformer_solve(&s.d)); /* with the same rotations */
         assert_agrees_with_new_factor(&s);
         for (int h = 0; h < N_HANDLES; h += 2) {
-            SL_CHECK(deformer_hold(&s.d, s.handles[h]));
+            SL_CHECK(deformer_hold(&s.d, &s.handles[h], 1));
             deformer_move(&s.d, s.handles[h], to[h]);
         }
         SL_CHECK(deformer_solve(&s.d));
@@ -138,7 +138,7 @@ static void handles_come_and_go(void **state) {
             assert_true(fabs(s.d.Y[v] - before[v]) < 1e-9);
         }
         for (int h = 0; h < N_HANDLES; h++) {
-            SL_CHECK(deformer_release(&s.d, s.handles[h]));
+            SL_CHECK(deformer_release(&s.d, &s.handles[h], 1));
         }
         double mean[3] = {0}, after[3] = {0};
         for (size_t v = 0; v < 3 * n; v++) {
@@ -176,7 +176,7 @@ static void watched_vertices_are_those_of_the_surface(void **state) {
             }
         }
         for (int h = 0; h < N_HANDLES; h++) {
-            SL_CHECK(deformer_release(&s.d, s.handles[h]));
+            SL_CHECK(deformer_release(&s.d, &s.handles[h], 1));
         }
         SL_CHECK(deformer_solve_watched(&s.d, Y));
         for (size_t i = 0; i < 15; i++) {
@@ -203,7 +203,7 @@ static void components_move_by_themselves(void **state) {
         deformer d;
         SL_CHECK(deformer_create(&d, &m, k ? DEFORM_BIHARMONIC : DEFORM_ARAP));
         assert_int_equal(d.n_components, 3);
-        SL_CHECK(deformer_hold(&d, 1));
+        SL_CHECK(deformer_hold(&d, (const sl_int[]){1}, 1));
         deformer_move(&d, 1, to);
         (void)deformer_rotations(&d);
         SL_CHECK(deformer_solve(&d));
@@ -212,7 +212,7 @@ static void components_move_by_themselves(void **state) {
             const double want = xyz[v % 9 * 3 + v / 9] + (v % 9 < 4 ? shift[v / 9] : 0);
             assert_true(fabs(d.Y[v] - want) < 1e-12);
         }
-        SL_CHECK(deformer_hold(&d, 8));
+        SL_CHECK(deformer_hold(&d, (const sl_int[]){8}, 1));
         deformer_move(&d, 8, to);
         SL_CHECK(deformer_solve(&d));
         assert_true(d.Y[8] == 2 && d.Y[17] == 2 && d.Y[26] == 2);

@@ -42,6 +42,12 @@ static void points_have_the_expected_positions(void **state) {
     assert_true(strstr(svg, ">10</text>") != NULL && strstr(svg, ">one<") == NULL);
     assert_true(strstr(svg, "nan") == NULL && strstr(svg, "inf") == NULL);
     free(svg);
+    /* The legend has a line and a dot. */
+    assert_true(plot_add(p, "two", PLOT_POINTS, 1, 1));
+    svg = write_and_read(p);
+    assert_true(strstr(svg, ">one<") != NULL && strstr(svg, ">two<") != NULL);
+    assert_true(occurrences(svg, "h24\"") == 1 && occurrences(svg, "h0\"") == 1);
+    free(svg);
     plot_free(p);
 }
 

@@ -15,19 +15,20 @@ static const options_usage usage = {
 
 static const options_manual manual = {
     "Vertices that handles hold are pins on the factor of a singular matrix, the Laplacian L "
-    "(arap) "
-    "or L M^-1 L (biharmonic), which is factored once. Grabbing a vertex is a forward sweep, "
-    "releasing it changes a small matrix only, and a frame takes full solves with three right-hand "
-    "sides. As-rigid-as-possible deformations alternate rotations of vertices with such solves. "
-    "Biharmonic displacements need one solve; --at computes them near the wanted vertices only. "
-    "A component without handles keeps its mean position (arap) or is at rest.\n"
+    "(arap) or L M^-1 L (biharmonic), which is factored once. Grabbing a handle takes a forward "
+    "sweep for up to 8 of its vertices, releasing it changes a small matrix only, and a frame "
+    "takes full solves with three right-hand sides. As-rigid-as-possible deformations alternate "
+    "rotations of vertices with such solves. Biharmonic displacements need one solve; --at "
+    "computes them near the wanted vertices only. A component without handles keeps its mean "
+    "position (arap) or is at rest.\n"
     "The script has a step per line; # starts a comment:\n"
     "grab VERTICES [within R]: 3,17,100-200 and all vertices within the distance R of these; "
     "handles are numbered 0, 1, ... in order of their grabs\n"
     "move HANDLE DX DY DZ\n"
     "turn HANDLE AX AY AZ DEGREES: about an axis through the mean of the handle\n"
     "release HANDLE\n"
-    "frame: computes the surface, and draws it with --frames",
+    "frame: computes the surface, and draws it with --frames; dots are the vertices that are held, "
+    "red where they have moved, else blue",
     "Milliseconds of processor time: of the factor, of each pin, of each frame. --csv has the last "
     "positions and displacements; with --at only those vertices, which are then all that is "
     "computed. --steps has a row per step of the script. --check solves each frame again with a "
@@ -167,12 +168,10 @@ static void report(deform_command *cmd, const script_step *step, const step_time
 static void grab(deform_command *cmd, const script_handle *h, const script_step *step,
                  step_times *t) {
     const double began = app_processor_ms();
-    for (sl_int k = 0; k < h->count; k++) {
-        sl_status status = deformer_hold(&cmd->d, h->vertices[k]);
-        if (status != SL_OK) {
-            app_die("%s:%ld: vertex %d cannot be held: %s", cmd->script_path, step->line,
-                    (int)h->vertices[k], sl_status_string(status));
-        }
+    const sl_status status = deformer_hold(&cmd->d, h->vertices, h->count);
+    if (status != SL_OK) {
+        app_die("%s:%ld: vertex %d cannot be held: %s", cmd->script_path, step->line,
+                (int)cmd->d.stats.error.row, sl_status_string(status));
     }
     t->pin = app_processor_ms() - began;
     cmd->pinned += h->count;
@@ -180,9 +179,7 @@ static void grab(deform_command *cmd, const script_handle *h, const script_step 
 
 static void release(deform_command *cmd, const script_handle *h, step_times *t) {
     const double began = app_processor_ms();
-    for (sl_int k = h->count - 1; k >= 0; k--) { /* the last pins are the cheapest to release */
-        app_must(deformer_release(&cmd->d, h->vertices[k]), "release", NULL);
-    }
+    app_must(deformer_release(&cmd->d, h->vertices, h->count), "release", NULL);
     t->release = app_processor_ms() - began;
     cmd->released += h->count;
 }

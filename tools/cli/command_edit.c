@@ -248,7 +248,9 @@ static void open_command(edit_command *cmd, const char *operand) {
                             "backward_error\n");
     }
     if (cmd->svg != NULL) {
-        cmd->drawn = plot_create("Following edits", "edits", "milliseconds", false, true);
+        char title[80];
+        (void)snprintf(title, sizeof title, "Processor time of each edit, %d vertices", (int)most);
+        cmd->drawn = plot_create(title, "edits", "milliseconds", false, true);
         if (cmd->drawn == NULL) {
             app_die("out of memory");
         }

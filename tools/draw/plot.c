@@ -244,8 +244,12 @@ static void print_legend(FILE *f, const plot *p) {
         const series *s = &p->all[k];
         rgb c = color_of_kind(s->kind);
         double x = width - 4, y = top + 8 + 18 * k;
-        fprintf(f, "<path d=\"M%.1f %.1fh24\" stroke=\"#%02x%02x%02x\" stroke-width=\"3\"%s/>\n", x,
-                y - 4, c.r, c.g, c.b, s->style == PLOT_DASHES ? " stroke-dasharray=\"6 4\"" : "");
+        bool is_dot = s->style == PLOT_POINTS; /* a short path with round ends */
+        fprintf(f, "<path d=\"M%.1f %.1fh%d\" stroke=\"#%02x%02x%02x\" stroke-width=\"%d\"%s/>\n",
+                is_dot ? x + 12 : x, y - 4, is_dot ? 0 : 24, c.r, c.g, c.b, is_dot ? 6 : 3,
+                is_dot                      ? " stroke-linecap=\"round\""
+                : s->style == PLOT_DASHES ? " stroke-dasharray=\"6 4\""
+                                            : "");
         print_text(f, x + 30, y, "start", s->name);
     }
 }

@@ -162,20 +162,30 @@ static bool is_alone(const deformer *d, sl_int vertex) {
     return d->sizes[d->component[vertex]] == 1;
 }
 
-sl_status deformer_hold(deformer *d, sl_int vertex) {
-    if (d->is_held[vertex]) {
-        return SL_OK;
-    }
-    sl_status status = is_alone(d, vertex) ? SL_OK : sl_pins_add(d->pins, vertex, NULL);
-    if (status == SL_OK) {
-        size_t n = (size_t)d->n, v = (size_t)vertex;
-        if (!is_alone(d, vertex)) {
-            d->held[sl_pins_count(d->pins) - 1] = vertex;
+/* is_held while a set of vertices is held or released. */
+enum { HELD = 1, CHANGING = 2 };
+
+sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
+    size_t n = (size_t)d->n;
+    sl_int *added = d->held + sl_pins_count(d->pins), n_added = 0;
+    for (sl_int k = 0; k < count; k++) {
+        size_t v = (size_t)vertices[k];
+        if (d->is_held[v]) {
+            continue;
         }
-        d->is_held[v] = 1;
-        d->n_held[d->component[v]]++;
+        if (!is_alone(d, vertices[k])) {
+            added[n_added++] = vertices[k];
+        }
+        d->is_held[v] = CHANGING;
         for (size_t c = 0; c < 3; c++) {
             d->target[3 * v + c] = d->Y[c * n + v];
+        }
+    }
+    sl_status status = sl_pins_add_rows(d->pins, added, n_added, &d->stats);
+    for (sl_int k = 0; k < count; k++) {
+        if (d->is_held[vertices[k]] == CHANGING) {
+            d->is_held[vertices[k]] = status == SL_OK ? HELD : 0;
+            d->n_held[d->component[vertices[k]]] += status == SL_OK;
         }
     }
     return status;
@@ -187,25 +197,32 @@ void deformer_move(deformer *d, sl_int vertex, const double position[3]) {
     }
 }
 
-sl_status deformer_release(deformer *d, sl_int vertex) {
-    if (!d->is_held[vertex]) {
-        return SL_OK;
+sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count) {
+    sl_int n_pins = sl_pins_count(d->pins), n_gone = 0, n_left = 0;
+    sl_int *gone = malloc(((size_t)n_pins + 1) * sizeof *gone);
+    for (sl_int k = 0; k < count; k++) {
+        d->is_held[vertices[k]] = d->is_held[vertices[k]] ? CHANGING : 0;
     }
-    if (!is_alone(d, vertex)) {
-        sl_int count = sl_pins_count(d->pins), index = 0;
-        while (d->held[index] != vertex) {
-            index++;
+    for (sl_int k = 0; k < n_pins && gone != NULL; k++) {
+        if (d->is_held[d->held[k]] == CHANGING) {
+            gone[n_gone++] = k;
         }
-        sl_status status = sl_pins_release(d->pins, index);
-        if (status != SL_OK) {
-            return status;
-        }
-        memmove(d->held + index, d->held + index + 1,
-                (size_t)(count - 1 - index) * sizeof *d->held);
     }
-    d->is_held[vertex] = 0;
-    d->n_held[d->component[vertex]]--;
-    return SL_OK;
+    sl_status status =
+        gone == NULL ? SL_ERR_MEMORY : sl_pins_release_rows(d->pins, gone, n_gone, &d->stats);
+    for (sl_int k = 0; k < n_pins && status == SL_OK; k++) {
+        if (d->is_held[d->held[k]] != CHANGING) {
+            d->held[n_left++] = d->held[k];
+        }
+    }
+    for (sl_int k = 0; k < count; k++) {
+        if (d->is_held[vertices[k]] == CHANGING) {
+            d->is_held[vertices[k]] = status == SL_OK ? 0 : HELD;
+            d->n_held[d->component[vertices[k]]] -= status == SL_OK;
+        }
+    }
+    free(gone);
+    return status;
 }
 
 /* ---- steps ---- */

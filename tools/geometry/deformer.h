@@ -62,18 +62,18 @@ sl_status deformer_create(deformer *out, const mesh *m, deform_method method);
 /** Releases everything and sets d to all zero. */
 void deformer_free(deformer *d);
 
-/** Holds a vertex where it is. One that is held already stays so.
+/** Holds vertices where they are, all or none. Those that are held already stay so.
  *
- *  Returns  SL_OK; as sl_pins_add.
- *  Cost     that of sl_pins_add.
+ *  Returns  SL_OK; as sl_pins_add_rows, with the vertex in stats.error.row.
+ *  Cost     that of sl_pins_add_rows.
  */
-sl_status deformer_hold(deformer *d, sl_int vertex);
+sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count);
 
 /** Moves a held vertex to a position, which the next solve reaches. */
 void deformer_move(deformer *d, sl_int vertex, const double position[3]);
 
-/** Releases a held vertex; others are left alone. Returns as sl_pins_release. */
-sl_status deformer_release(deformer *d, sl_int vertex);
+/** Releases the held ones of some vertices, all or none. Returns as sl_pins_release_rows. */
+sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count);
 
 /** Computes the best rotations for the present positions; returns the energy. 0 and no effect for
  *  DEFORM_BIHARMONIC. */
