@@ -279,6 +279,25 @@ static void held_rows_of_a_singular_matrix_change(void **state) {
     pinned_free(&p);
 }
 
+/* A row that is named twice among many, beside pins that are there: all of them stay away. */
+static void a_row_twice_among_many_is_refused(void **state) {
+    (void)state;
+    pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
+    sl_int rows[20];
+    sl_stats stats;
+    pin(&p, 50);
+    for (sl_int k = 0; k < 20; k++) {
+        rows[k] = 2 * (k % 19);
+    }
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows, 20, &stats));
+    assert_int_equal(stats.error.row, 0);
+    assert_int_equal(sl_pins_count(p.P), 1);
+    assert_pinned(&p, 3);
+    pin_rows(&p, rows, 19, NULL);
+    assert_pinned(&p, 4);
+    pinned_free(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(failing_allocations_refuse_solves),
@@ -287,6 +306,7 @@ int main(void) {
         cmocka_unit_test(some_factors_are_unsuited),
         cmocka_unit_test(every_suited_factor_is_eliminated),
         cmocka_unit_test(held_rows_of_a_singular_matrix_change),
+        cmocka_unit_test(a_row_twice_among_many_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
