@@ -93,7 +93,13 @@ static void check_solves(const pair_t *y, sl_isa isa) {
 
 static void solves_are_exact_and_local(void **state) {
     (void)state;
+    const isa_list_t isas = isas_present();
     for_each(check_solves);
+    for (int k = 0; k < isas.count; k++) { /* small supernodes between wide ones */
+        pair_t y = pair_make(GEN_GRID2, 900, 0, isas.isa[k]);
+        check_solves(&y, isas.isa[k]);
+        pair_free(&y);
+    }
 }
 
 /* What reads L in other ways agrees with L in double. */
