@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0a033381d71ed00e
+ * FNV-1a of the lines after this comment, without the license: 8a4f198c7fb96d2e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -66,29 +66,29 @@
  *  20896 bilinear.h  21068 entries.h  21345 block.h  21580 reserve.h  21772 selected.h
  *  21982 selected_query.h  22084 region_choose.h  22311 region.h
  * (change: a factor that follows changes of its matrix)
- *  22559 update.h  22954 path.h  23055 rank.h  23450 edges.h  23604 choose.h  23855 pins_types.h
- *  23921 pins_nulls.h  24102 pins_capacitance.h  24368 pins_rows.h  24488 pins_balance.h
- *  24650 pins_held.h  24866 pins_choose.h  24932 pins_rebuild.h  25155 pins_matrix.h  25306 pins.h
- *  25568 pins_solve.h  25841 subset.h  25969 restrict_kept.h  26167 restrict_analysis.h
- *  26413 restrict_symbolic.h  26608 restrict.h  26840 edit_match.h  27039 edit_place.h
- *  27288 edit_separate.h  27602 edit_order.h  27757 edit_graph.h  27839 edit_join.h  28115 edit.h
- *  28278 edit_factor.h
+ *  22559 update.h  22961 path.h  23063 rank.h  23455 edges.h  23609 choose.h  23860 pins_types.h
+ *  23926 pins_nulls.h  24107 pins_capacitance.h  24373 pins_rows.h  24493 pins_balance.h
+ *  24655 pins_held.h  24871 pins_choose.h  24937 pins_rebuild.h  25160 pins_matrix.h  25311 pins.h
+ *  25573 pins_solve.h  25846 subset.h  25974 restrict_kept.h  26172 restrict_analysis.h
+ *  26418 restrict_symbolic.h  26613 restrict.h  26845 edit_match.h  27044 edit_place.h
+ *  27293 edit_separate.h  27607 edit_order.h  27762 edit_graph.h  27844 edit_join.h  28120 edit.h
+ *  28283 edit_factor.h
  * (save: factors in files)
- *  28563 format.h  28860 decode.h  29008 check.h  29338 write.h  29647 load.h  29915 load_inverse.h
- *  30245 load_calls.h
+ *  28568 format.h  28865 decode.h  29013 check.h  29343 write.h  29652 load.h  29920 load_inverse.h
+ *  30250 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30444 batch_solve.h  30653 batch_factor.h  30854 batch_diagonal.h
+ *  30449 batch_solve.h  30658 batch_factor.h  30859 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30994 hermitian.h  31156 complex_rows.h
+ *  30999 hermitian.h  31161 complex_rows.h
  * (last: undefine every internal macro)
- *  31324 undef.h
+ *  31329 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31612 front.inl.h  31614 product.inl.h  32125 copy_rows.inl.h  32163 sweeps.inl.h
- *  32165 unit_triangle.inl.h  32202 two_rhs.inl.h  32376 small_supernode.inl.h
- *  32578 single_rhs.inl.h  32818 multi_rhs.inl.h  32837 complex_groups.inl.h
- *  32976 multi_rhs_small.inl.h  33148 multi_rhs_tiles.inl.h  33425 kernel_set.inl.h
- *  33427 complex_small.inl.h  33617 complex_rows.inl.h  33832 inverse_front.inl.h  34117 row.inl.h
- *  34147 change.inl.h  34390 interleave.inl.h  34524 lanes_undef.inl.h  34543 words_undef.inl.h
+ *  31617 front.inl.h  31619 product.inl.h  32130 copy_rows.inl.h  32168 sweeps.inl.h
+ *  32170 unit_triangle.inl.h  32207 two_rhs.inl.h  32381 small_supernode.inl.h
+ *  32583 single_rhs.inl.h  32823 multi_rhs.inl.h  32842 complex_groups.inl.h
+ *  32981 multi_rhs_small.inl.h  33153 multi_rhs_tiles.inl.h  33430 kernel_set.inl.h
+ *  33432 complex_small.inl.h  33622 complex_rows.inl.h  33837 inverse_front.inl.h  34122 row.inl.h
+ *  34152 change.inl.h  34395 interleave.inl.h  34529 lanes_undef.inl.h  34548 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22569,6 +22569,7 @@ typedef struct sli_update {
   sl_int lanes;
   int kind;
   double most;
+  double loss;
   double fall;
   double least;
   double top;
@@ -22733,6 +22734,11 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
   const sl_int k = step->column + first - SLI_TILE * step->first_tile;
   const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
   sl_int j, r;
+  for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
+    if (first + j + 1 < step->width + step->below) {
+      u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
+    }
+  }
   if (status == SL_OK) {
     u->F->kernels->change[u->kind - 1](l, columns, at, w);
     for (r = 0; r < columns; r++) {
@@ -22889,6 +22895,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->state->ranks = count;
   u->state->lanes = u->lanes;
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
+  u->loss = 1.0;
   memset(u->state->U, 0, sizeof u->state->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
   memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
@@ -23013,6 +23020,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   one.b = u->b;
   one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
   u->most = u->top = u->entry = u->growth = 0.0;
+  u->loss = 1.0;
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];
@@ -23289,10 +23297,7 @@ static void sli_rank_note(const sli_update *u) {
   const double local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
-  double most = local > 0.0 ? u->most / local : 0.0;
-  if (u->sign == 0.0 && local > 0.0) {
-    most *= fmax(1.0, fmin(64.0, F->scale / local));
-  }
+  const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
   F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, most);

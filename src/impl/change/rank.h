@@ -263,10 +263,7 @@ static void sli_rank_note(const sli_update *u) {
     const double local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
-    double most = local > 0.0 ? u->most / local : 0.0;
-    if (u->sign == 0.0 && local > 0.0) { /* losses add up on the way: by 22 was measured */
-        most *= fmax(1.0, fmin(64.0, F->scale / local));
-    }
+    const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
     F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, most);

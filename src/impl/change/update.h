@@ -27,6 +27,7 @@ typedef struct sli_update {
     sl_int lanes;    /* that hold the vectors of the pass */
     int kind;
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
+    double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
     double fall;   /* by at most this much the pass changes the largest |a| */
     double least;  /* a smaller pivot may be null, and is refused where it was larger */
     double top;    /* the largest new pivot */
@@ -206,6 +207,11 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     const sl_int k = step->column + first - SLI_TILE * step->first_tile;
     const sl_status status = sli_update_pivots(u, k, columns, l, w, at);
     sl_int j, r;
+    for (j = 0; j < columns && u->sign == 0.0 && status == SL_OK; j++) {
+        if (first + j + 1 < step->width + step->below) {
+            u->loss = fmax(u->loss, u->state->magnitude[j] / fabs(u->state->e[j]));
+        }
+    }
     if (status == SL_OK) {
         u->F->kernels->change[u->kind - 1](l, columns, at, w);
         /* the kernel has changed the part above them, too; memset is slow for a few bytes */
@@ -374,6 +380,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->state->ranks = count;
     u->state->lanes = u->lanes;
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
+    u->loss = 1.0;
     memset(u->state->U, 0, sizeof u->state->U);
     memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
     memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
