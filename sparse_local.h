@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8a4f198c7fb96d2e
+ * FNV-1a of the lines after this comment, without the license: 64dd9df435861732
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,47 +48,47 @@
  *  10477 levels.h  10530 border.h  10583 forest.h  10670 peel.h  10870 quotient.h
  *  11287 graph_kind.h  11358 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12179 pattern.h  12264 structure.h
- *  12532 schedule.h  12812 symbolic.h  13285 reach.h
+ *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12175 pattern.h  12260 structure.h
+ *  12528 schedule.h  12808 symbolic.h  13281 reach.h
  * (factor: the numbers of L and D)
- *  13561 factor_types.h  13764 panel_load.h  13877 pivot_check.h  13993 storage.h
- *  14131 pivot_search.h  14477 pivoted.h  14546 scatter.h  14704 uplooking.h  14776 null_product.h
- *  14980 null_dense.h  15057 null_basis.h  15377 null_vectors.h  15519 multifrontal.h
- *  15713 gather.h  15761 kept.h  15931 front_tasks.h  16274 null_center.h  16398 nullspace.h
- *  16605 growth.h  16683 factor_setup.h  17023 factor.h  17238 leftlooking.h  17392 factor_query.h
- *  17527 combination.h
+ *  13557 factor_types.h  13760 panel_load.h  13873 pivot_check.h  13989 storage.h
+ *  14127 pivot_search.h  14473 pivoted.h  14542 scatter.h  14700 uplooking.h  14772 null_product.h
+ *  14976 null_dense.h  15053 null_basis.h  15373 null_vectors.h  15515 multifrontal.h
+ *  15709 gather.h  15757 kept.h  15927 front_tasks.h  16270 null_center.h  16394 nullspace.h
+ *  16601 growth.h  16679 factor_setup.h  17019 factor.h  17234 leftlooking.h  17388 factor_query.h
+ *  17523 combination.h
  * (solve: full and local solves)
- *  17588 region_types.h  17692 work.h  17792 query.h  18010 singular.h  18270 backward.h
- *  18300 sweep_tasks.h  18631 sweep.h  18839 compile.h  19032 plan.h  19139 local.h  19291 parts.h
- *  19580 refine.h  19759 refine_local.h  19975 rcond.h  20134 defects.h
+ *  17584 region_types.h  17688 work.h  17788 query.h  18006 singular.h  18266 backward.h
+ *  18296 sweep_tasks.h  18627 sweep.h  18835 compile.h  19028 plan.h  19135 local.h  19287 parts.h
+ *  19576 refine.h  19755 refine_local.h  19971 rcond.h  20130 defects.h
  * (inverse: entries of the inverse, regions)
- *  20193 traversal.h  20442 traversal_run.h  20635 row_sets.h  20669 unit_vectors.h
- *  20896 bilinear.h  21068 entries.h  21345 block.h  21580 reserve.h  21772 selected.h
- *  21982 selected_query.h  22084 region_choose.h  22311 region.h
+ *  20189 traversal.h  20438 traversal_run.h  20631 row_sets.h  20665 unit_vectors.h
+ *  20892 bilinear.h  21064 entries.h  21341 block.h  21576 reserve.h  21768 selected.h
+ *  21978 selected_query.h  22080 region_choose.h  22307 region.h
  * (change: a factor that follows changes of its matrix)
- *  22559 update.h  22961 path.h  23063 rank.h  23455 edges.h  23609 choose.h  23860 pins_types.h
- *  23926 pins_nulls.h  24107 pins_capacitance.h  24373 pins_rows.h  24493 pins_balance.h
- *  24655 pins_held.h  24871 pins_choose.h  24937 pins_rebuild.h  25160 pins_matrix.h  25311 pins.h
- *  25573 pins_solve.h  25846 subset.h  25974 restrict_kept.h  26172 restrict_analysis.h
- *  26418 restrict_symbolic.h  26613 restrict.h  26845 edit_match.h  27044 edit_place.h
- *  27293 edit_separate.h  27607 edit_order.h  27762 edit_graph.h  27844 edit_join.h  28120 edit.h
- *  28283 edit_factor.h
+ *  22555 update.h  22957 path.h  23059 rank.h  23451 edges.h  23605 choose.h  23856 pins_types.h
+ *  23922 pins_nulls.h  24103 pins_capacitance.h  24369 pins_rows.h  24489 pins_balance.h
+ *  24651 pins_held.h  24867 pins_choose.h  24933 pins_rebuild.h  25156 pins_matrix.h  25307 pins.h
+ *  25569 pins_solve.h  25842 subset.h  25970 restrict_kept.h  26168 restrict_analysis.h
+ *  26414 restrict_symbolic.h  26609 restrict.h  26841 edit_match.h  27040 edit_place.h
+ *  27289 edit_separate.h  27603 edit_order.h  27758 edit_graph.h  27840 edit_join.h  28116 edit.h
+ *  28279 edit_factor.h
  * (save: factors in files)
- *  28568 format.h  28865 decode.h  29013 check.h  29343 write.h  29652 load.h  29920 load_inverse.h
- *  30250 load_calls.h
+ *  28564 format.h  28861 decode.h  29009 check.h  29339 write.h  29648 load.h  29916 load_inverse.h
+ *  30246 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30449 batch_solve.h  30658 batch_factor.h  30859 batch_diagonal.h
+ *  30445 batch_solve.h  30654 batch_factor.h  30855 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30999 hermitian.h  31161 complex_rows.h
+ *  30995 hermitian.h  31157 complex_rows.h
  * (last: undefine every internal macro)
- *  31329 undef.h
+ *  31325 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31617 front.inl.h  31619 product.inl.h  32130 copy_rows.inl.h  32168 sweeps.inl.h
- *  32170 unit_triangle.inl.h  32207 two_rhs.inl.h  32381 small_supernode.inl.h
- *  32583 single_rhs.inl.h  32823 multi_rhs.inl.h  32842 complex_groups.inl.h
- *  32981 multi_rhs_small.inl.h  33153 multi_rhs_tiles.inl.h  33430 kernel_set.inl.h
- *  33432 complex_small.inl.h  33622 complex_rows.inl.h  33837 inverse_front.inl.h  34122 row.inl.h
- *  34152 change.inl.h  34395 interleave.inl.h  34529 lanes_undef.inl.h  34548 words_undef.inl.h
+ *  31613 front.inl.h  31615 product.inl.h  32126 copy_rows.inl.h  32164 sweeps.inl.h
+ *  32166 unit_triangle.inl.h  32203 two_rhs.inl.h  32377 small_supernode.inl.h
+ *  32579 single_rhs.inl.h  32819 multi_rhs.inl.h  32838 complex_groups.inl.h
+ *  32977 multi_rhs_small.inl.h  33149 multi_rhs_tiles.inl.h  33426 kernel_set.inl.h
+ *  33428 complex_small.inl.h  33618 complex_rows.inl.h  33833 inverse_front.inl.h  34118 row.inl.h
+ *  34148 change.inl.h  34391 interleave.inl.h  34525 lanes_undef.inl.h  34544 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12017,11 +12017,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
       list[count++] =
         sli_keyed(zeros < INT32_MAX ? (sl_int)zeros : INT32_MAX, c); /* untested: 2^31 */
     }
-    if (count == 2 && sli_key(list[0]) > sli_key(list[1])) {
-      const uint64_t first = list[0];
-      list[0] = list[1];
-      list[1] = first;
-    } else if (count > 2) {
+    if (count > 1) {
       sli_sort(list, count, scratch);
     }
     for (k = 0; k < count; k++) {

@@ -131,11 +131,7 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
             list[count++] =
                 sli_keyed(zeros < INT32_MAX ? (sl_int)zeros : INT32_MAX, c); /* untested: 2^31 */
         }
-        if (count == 2 && sli_key(list[0]) > sli_key(list[1])) {
-            const uint64_t first = list[0];
-            list[0] = list[1];
-            list[1] = first;
-        } else if (count > 2) {
+        if (count > 1) {
             sli_sort(list, count, scratch);
         }
         for (k = 0; k < count; k++) {
