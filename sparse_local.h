@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 64dd9df435861732
+ * FNV-1a of the lines after this comment, without the license: da0e7d4732fedb13
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -2772,7 +2772,7 @@ SL_API void sl_pins_free(sl_pins *P);
  *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 16 bytes per column
  *           of the path, and 4 per row below its supernodes. If the matrix is known, k counts the
  *           pins since the last elimination, and once their cost exceeds that of the next one, all
- *           are eliminated: pins that come one by one cost at most about twice as much as together.
+ *           are eliminated. sl_pins_add_rows takes about half as long for 100 pins together.
  *  Threads  exclusive use of P; F is read.
  */
 SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
