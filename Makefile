@@ -35,7 +35,8 @@ say = @echo '  $(1)  $@'
 SL_DATA ?= $(wildcard $(DATA))
 export SL_DATA BENCH MESH
 
-WARN_BOTH = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+# clang warns of constants of an enum in sums of doubles from version 19 on.
+WARN_BOTH = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror $(if $(findstring clang,$(CC)),-Wno-enum-float-conversion)
 WARN = $(WARN_BOTH) -Wstrict-prototypes -Wmissing-prototypes
 C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(METIS) $(INCLUDES) $(CFLAGS)
 CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(METIS) $(INCLUDES) $(CXXFLAGS)
@@ -76,7 +77,7 @@ REPLAYS = $(FUZZERS:tests/fuzz/fuzz_%.c=$(B)/tests/replay_%)
 .DELETE_ON_ERROR:
 .SECONDARY:
 .PHONY: deps-locales all help judge map header header-flat size style deps-tcc test-no-simd check-header layers parts check-promises programs deps deps-cxx deps-peers deps-clang \
-	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov fuzz bench bench-peers readme-table \
+	deps-cov deps-png test test-clang test-cxx test-tcc platforms platform-table sanitize valgrind cov mcdc fuzz bench bench-peers readme-table \
 	figures bench-eigenpairs deps-arpack format tidy clean always test-figures test-page build-tests run-tests run-fuzz run-bench races test-openmp test-no-metis \
 	deps-mingw deps-wasm test-msan test-mingw test-mingw-clang test-wasm test-exchange deps-mpi cluster test-cluster
 
@@ -444,6 +445,23 @@ cov: deps deps-cov deps-png sparse_local.h ## line and branch coverage of the he
 	echo 'tools/'; $(GCOVR) --filter 'tools/' --html build/cov/tools.html build/cov/obj 2>build/cov/gcovr.log || cat build/cov/gcovr.log; \
 	echo 'sparse_local.h'; $(GCOVR) --filter 'sparse_local\.h' --html-details build/cov/index.html \
 	--fail-under-line $(COV_LINES) --fail-under-branch $(COV_BRANCHES) build/cov/obj 2>>build/cov/gcovr.log >build/cov/summary.txt; found=$$?; cat build/cov/summary.txt; [ $$found -eq 0 ] || { tail -n 5 build/cov/gcovr.log; exit 1; }; exit $$status
+
+# Each condition has to decide its decision alone. Conditions of one variable, as in a == 1 || a == 2, never do, so that
+# there is no limit. clang counts them from version 18 on.
+MCDC = 19
+MCDC_TESTS = $(sort $(filter-out $(OWN_BODIES),$(wildcard $(patsubst %,tests/core/test_%*.c,arguments options csc matrix save forged) tests/core/test_*_use.c tests/core/test_*_wrong.c)))
+
+mcdc: deps sparse_local.h ## conditions of the checks of arguments and files that decide alone (MC/DC); needs clang $(MCDC)
+	@+if ! tools/build/deps.sh clang-$(MCDC)=clang-$(MCDC) llvm-cov-$(MCDC)=llvm-$(MCDC) \
+	'/usr/lib/llvm-$(MCDC)/lib/clang/*/lib/linux/libclang_rt.profile-*.a=libclang-rt-$(MCDC)-dev'; then \
+	echo 'mcdc: skipped, clang-$(MCDC) could not be installed'; exit 0; fi; rm -rf build/mcdc/raw; \
+	LLVM_PROFILE_FILE=build/mcdc/raw/%p $(SUB_MAKE) run-tests B=build/mcdc CC=clang-$(MCDC) SL_DATA= \
+	OPT='-O0 -DSL_NO_SIMD' LINK='$$(CC) -fprofile-instr-generate' IMPL_COMPILE='$$(CC) $$(C_FLAGS) -w -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc' \
+	TEST_PROGRAMS='$(MCDC_TESTS:tests/%.c=build/mcdc/tests/%)' \
+	REPLAYS='build/mcdc/tests/replay_saved build/mcdc/tests/replay_matrix_market' && \
+	llvm-profdata-$(MCDC) merge -o build/mcdc/all build/mcdc/raw && \
+	llvm-cov-$(MCDC) report build/mcdc/obj/sparse_local.o -instr-profile=build/mcdc/all -show-mcdc-summary -show-functions sparse_local.h >build/mcdc/functions.txt && \
+	awk -f tools/build/mcdc.awk $(sort $(wildcard $(patsubst %,src/impl/%/*.h,base matrix save))) build/mcdc/functions.txt
 
 fuzz: deps deps-clang sparse_local.h ## each fuzzer for FUZZ_SECONDS, from tests/fuzz/corpus
 	@+$(SUB_MAKE) run-fuzz B=build/fuzz CC=clang OPT='-O1 -g -fno-omit-frame-pointer -DSL_VERIFY -DSL_NO_CLOCK \

@@ -141,7 +141,7 @@ static sl_storage storage_of(int last) {
     static const sl_storage storages[7] = {
         SL_STORAGE_DOUBLE,       SL_STORAGE_FLOAT,  SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_COMPLEX,
         SL_STORAGE_FLOAT_FRONTS, SL_STORAGE_DOUBLE, SL_STORAGE_DOUBLE};
-    return storages[last / (STAGES * PARTS) % 7];
+    return storages[last / ((int)STAGES * (int)PARTS) % 7];
 }
 
 static void take_options(case_t *c, input_t *in) {
