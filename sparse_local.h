@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: da0e7d4732fedb13
+ * FNV-1a of the lines after this comment, without the license: 4e42313c4122e731
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -68,27 +68,27 @@
  * (change: a factor that follows changes of its matrix)
  *  22555 update.h  22957 path.h  23059 rank.h  23451 edges.h  23605 choose.h  23856 pins_types.h
  *  23922 pins_nulls.h  24103 pins_capacitance.h  24369 pins_rows.h  24489 pins_balance.h
- *  24651 pins_held.h  24867 pins_choose.h  24933 pins_rebuild.h  25156 pins_matrix.h  25307 pins.h
- *  25569 pins_solve.h  25842 subset.h  25970 restrict_kept.h  26168 restrict_analysis.h
- *  26414 restrict_symbolic.h  26609 restrict.h  26841 edit_match.h  27040 edit_place.h
- *  27289 edit_separate.h  27603 edit_order.h  27758 edit_graph.h  27840 edit_join.h  28116 edit.h
- *  28279 edit_factor.h
+ *  24651 pins_held.h  24879 pins_choose.h  24945 pins_rebuild.h  25168 pins_matrix.h  25319 pins.h
+ *  25581 pins_solve.h  25854 subset.h  25982 restrict_kept.h  26180 restrict_analysis.h
+ *  26426 restrict_symbolic.h  26621 restrict.h  26853 edit_match.h  27052 edit_place.h
+ *  27301 edit_separate.h  27615 edit_order.h  27770 edit_graph.h  27852 edit_join.h  28128 edit.h
+ *  28291 edit_factor.h
  * (save: factors in files)
- *  28564 format.h  28861 decode.h  29009 check.h  29339 write.h  29648 load.h  29916 load_inverse.h
- *  30246 load_calls.h
+ *  28576 format.h  28873 decode.h  29021 check.h  29351 write.h  29660 load.h  29928 load_inverse.h
+ *  30258 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30445 batch_solve.h  30654 batch_factor.h  30855 batch_diagonal.h
+ *  30457 batch_solve.h  30666 batch_factor.h  30867 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30995 hermitian.h  31157 complex_rows.h
+ *  31007 hermitian.h  31169 complex_rows.h
  * (last: undefine every internal macro)
- *  31325 undef.h
+ *  31337 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31613 front.inl.h  31615 product.inl.h  32126 copy_rows.inl.h  32164 sweeps.inl.h
- *  32166 unit_triangle.inl.h  32203 two_rhs.inl.h  32377 small_supernode.inl.h
- *  32579 single_rhs.inl.h  32819 multi_rhs.inl.h  32838 complex_groups.inl.h
- *  32977 multi_rhs_small.inl.h  33149 multi_rhs_tiles.inl.h  33426 kernel_set.inl.h
- *  33428 complex_small.inl.h  33618 complex_rows.inl.h  33833 inverse_front.inl.h  34118 row.inl.h
- *  34148 change.inl.h  34391 interleave.inl.h  34525 lanes_undef.inl.h  34544 words_undef.inl.h
+ *  31634 front.inl.h  31636 product.inl.h  32147 copy_rows.inl.h  32185 sweeps.inl.h
+ *  32187 unit_triangle.inl.h  32224 two_rhs.inl.h  32398 small_supernode.inl.h
+ *  32600 single_rhs.inl.h  32840 multi_rhs.inl.h  32859 complex_groups.inl.h
+ *  32998 multi_rhs_small.inl.h  33170 multi_rhs_tiles.inl.h  33447 kernel_set.inl.h
+ *  33449 complex_small.inl.h  33639 complex_rows.inl.h  33854 inverse_front.inl.h  34139 row.inl.h
+ *  34169 change.inl.h  34412 interleave.inl.h  34546 lanes_undef.inl.h  34565 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22663,7 +22663,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_ERR_NOT_FINITE;
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-    (fabs(e) < fabs(d) && !u->is_tried &&
+    (fabs(e) < fabs(d) &&
      (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
     return SL_ERR_PIVOT;
   }
@@ -23791,10 +23791,10 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
   }
   if (*method == SL_CHANGE_UPDATE) {
     status = sli_rank_run(q);
-    if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
+    if (status != SL_OK) {
       c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
-    } else if (status == SL_OK && F->drift > SLI_CHANGE_DRIFT) {
+    } else if (F->drift > SLI_CHANGE_DRIFT) {
       c->reason = SL_CHANGE_DRIFT;
       *method = SL_CHANGE_REFACTOR;
     }
@@ -24800,6 +24800,17 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
   return sli_left_refactor(G, &left, &from, h->seeds, h->n_seeds, started, NULL);
 }
 
+static int sli_held_is_loose(const sl_pins *P) {
+  const sl_factor *G = P->G;
+  sl_int k;
+  for (k = 0; k < P->n_couplings && G->n_nulls > 0; k++) {
+    if (sli_is_skipped(G, G->last[P->coupling_column[k]])) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
 static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
   const sl_symbolic *S = P->F->S;
   const sl_off total = S->scatter_begin[S->n_supers];
@@ -24859,6 +24870,7 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
     for (k = 0; k < P->n_couplings; k++) {
       P->coupling_column[k] = S->iperm[rows[k]];
     }
+    status = sli_held_is_loose(P) ? SL_ERR_PIVOT : SL_OK;
   }
   sli_free(&P->allocator, b.base);
   return status;
@@ -31489,7 +31501,6 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_REUSE_ENTRY
 #undef SLI_REUSE_SHARE
 #undef SLI_MARK_BEGIN
-#undef SLI_NEIGHBORHOOD_SHRINK
 #undef SLI_NEIGHBORHOOD_PAIRS
 #undef SLI_WIDE_DEGREE
 #undef SLI_BLOCK_MOST
@@ -31523,7 +31534,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_DISSECT_LEAF
 #undef SLI_DISSECT_LEAF_REFINED
 #undef SLI_DISSECT_BISECT_MIN
+#undef SLI_DISSECT_BISECT_MIN_VOLUME
 #undef SLI_DISSECT_SHRINK
+#undef SLI_DISSECT_SHRINK_VOLUME
+#undef SLI_SEVEN_POINT_DEGREE
+#undef SLI_SEVEN_POINT_DEGREE_COARSE
+#undef SLI_VOLUME_DEGREE
 #undef SLI_DISSECT_FIRST
 #undef SLI_DISSECT_TRIES_FIRST
 #undef SLI_DISSECT_TRIES
@@ -31543,7 +31559,6 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PEEL_ENTRIES
 #undef SLI_COMPRESS_SHARE
 #undef SLI_LEVELSET_SHARE
-#undef SLI_VOLUME_BORDER
 #undef SLI_REACH_WALK
 #undef SLI_LANES_MAX
 #undef SLI_BLOCK_REQUESTS_MAX
@@ -31577,9 +31592,15 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_NULL_ANCHOR
 #undef SLI_NULL_DEPENDENT
 #undef SLI_PINS_ENTRY
+#undef SLI_PINS_JOINT
+#undef SLI_PINS_BLOCK
+#undef SLI_PINS_PRODUCT
+#undef SLI_PINS_NUMBER
+#undef SLI_PINS_PIN
+#undef SLI_PINS_WORTH
+#undef SLI_PINS_SINGLY
+#undef SLI_RANK_LOGGED
 #undef SLI_PINS_TERM
-#undef SLI_PINS_FAR
-#undef SLI_PINS_NEAR
 #undef SLI_PINS_STEP
 #undef SLI_PINS_DENSE
 #undef SLI_PINS_MAP

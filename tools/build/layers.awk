@@ -15,6 +15,8 @@
 #     bench/X      of tools/ and bench/lib
 # All of them include sparse_local.h, but nothing of src/.
 #
+# Each macro that impl/ defines has an #undef in src/.
+#
 # Each violation is printed as file:line, rule and fix. Any violation makes the exit status 1.
 
 BEGIN {
@@ -61,6 +63,14 @@ part ~ /^(public|impl)\// {
         macro = $0
         sub(/^[ \t]*#[ \t]*define[ \t]+/, "", macro)
         check_name(identifier(macro))
+        if (part ~ /^impl\// && !(identifier(macro) in defined_at)) {
+            defined_at[identifier(macro)] = FNR
+            defined_in[identifier(macro)] = file
+        }
+    } else if ($0 ~ /^[ \t]*#[ \t]*undef/) {
+        macro = $0
+        sub(/^[ \t]*#[ \t]*undef[ \t]+/, "", macro)
+        undefined[identifier(macro)] = 1
     } else if (!inside_comment && !continued && $0 ~ /^[A-Za-z_}]/) {
         check_declaration($0)
     }
@@ -71,9 +81,18 @@ part ~ /^(public|impl)\// {
 END {
     check_order()
     check_listed()
+    check_macros()
     if (failures) print failures " violation(s)"
     else print "layers: " n_checked " files, " n_includes " includes, all in order"
     exit failures > 0
+}
+
+# Macros of the implementation do not stay behind in the user's file.
+function check_macros(name) {
+    for (name in defined_at)
+        if (name !~ /_H$/ && !(name in undefined))
+            violation_at(defined_in[name], defined_at[name], name " is never undefined", \
+                         "#undef " name " in impl/base/undef.h")
 }
 
 # ---- messages and paths ----

@@ -211,10 +211,10 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     }
     if (*method == SL_CHANGE_UPDATE) {
         status = sli_rank_run(q);
-        if (status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE || status == SL_ERR_NOT_FINITE) {
+        if (status != SL_OK) {
             c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
             *method = SL_CHANGE_REFACTOR;
-        } else if (status == SL_OK && F->drift > SLI_CHANGE_DRIFT) {
+        } else if (F->drift > SLI_CHANGE_DRIFT) {
             c->reason = SL_CHANGE_DRIFT;
             *method = SL_CHANGE_REFACTOR;
         }

@@ -167,8 +167,21 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
     return sli_left_refactor(G, &left, &from, h->seeds, h->n_seeds, started, NULL);
 }
 
+/* Was a null pivot skipped in a component that is coupled to held rows? Where the couplings are as
+ * small as rounding, the null vector of A passes for one of the rest, too. */
+static int sli_held_is_loose(const sl_pins *P) {
+    const sl_factor *G = P->G;
+    sl_int k;
+    for (k = 0; k < P->n_couplings && G->n_nulls > 0; k++) {
+        if (sli_is_skipped(G, G->last[P->coupling_column[k]])) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Takes the held rows into P: their columns and pins, the entries of A that couple them to others,
- * and the reach of these. */
+ * and the reach of these. Refuses what the capacitance matrix has to hold. */
 static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
     const sl_symbolic *S = P->F->S;
     const sl_off total = S->scatter_begin[S->n_supers];
@@ -228,6 +241,7 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
         for (k = 0; k < P->n_couplings; k++) {
             P->coupling_column[k] = S->iperm[rows[k]];
         }
+        status = sli_held_is_loose(P) ? SL_ERR_PIVOT : SL_OK;
     }
     sli_free(&P->allocator, b.base);
     return status;

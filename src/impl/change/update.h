@@ -125,8 +125,7 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
-/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. Smaller
- * pivots of a pass that was tried are not null. */
+/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
     sl_factor *F = u->F;
     const double d = F->D[k];
@@ -136,7 +135,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         return SL_ERR_NOT_FINITE;
     }
     if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-        (fabs(e) < fabs(d) && !u->is_tried &&
+        (fabs(e) < fabs(d) &&
          (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
         return SL_ERR_PIVOT;
     }
