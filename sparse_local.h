@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 4e42313c4122e731
+ * FNV-1a of the lines after this comment, without the license: 3252af8509577a12
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,44 +51,44 @@
  *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12175 pattern.h  12260 structure.h
  *  12528 schedule.h  12808 symbolic.h  13281 reach.h
  * (factor: the numbers of L and D)
- *  13557 factor_types.h  13760 panel_load.h  13873 pivot_check.h  13989 storage.h
- *  14127 pivot_search.h  14473 pivoted.h  14542 scatter.h  14700 uplooking.h  14772 null_product.h
- *  14976 null_dense.h  15053 null_basis.h  15373 null_vectors.h  15515 multifrontal.h
- *  15709 gather.h  15757 kept.h  15927 front_tasks.h  16270 null_center.h  16394 nullspace.h
- *  16601 growth.h  16679 factor_setup.h  17019 factor.h  17234 leftlooking.h  17388 factor_query.h
- *  17523 combination.h
+ *  13557 factor_types.h  13762 panel_load.h  13875 pivot_check.h  13991 storage.h
+ *  14129 pivot_search.h  14475 pivoted.h  14544 scatter.h  14702 uplooking.h  14774 null_product.h
+ *  14978 null_dense.h  15055 null_basis.h  15375 null_vectors.h  15517 multifrontal.h
+ *  15711 gather.h  15759 kept.h  15929 front_tasks.h  16272 null_center.h  16396 nullspace.h
+ *  16603 growth.h  16681 factor_setup.h  17021 factor.h  17236 leftlooking.h  17390 factor_query.h
+ *  17525 combination.h
  * (solve: full and local solves)
- *  17584 region_types.h  17688 work.h  17788 query.h  18006 singular.h  18266 backward.h
- *  18296 sweep_tasks.h  18627 sweep.h  18835 compile.h  19028 plan.h  19135 local.h  19287 parts.h
- *  19576 refine.h  19755 refine_local.h  19971 rcond.h  20130 defects.h
+ *  17586 region_types.h  17690 work.h  17790 query.h  18008 singular.h  18268 backward.h
+ *  18298 sweep_tasks.h  18629 sweep.h  18837 compile.h  19030 plan.h  19137 local.h  19289 parts.h
+ *  19578 refine.h  19757 refine_local.h  19973 rcond.h  20132 defects.h
  * (inverse: entries of the inverse, regions)
- *  20189 traversal.h  20438 traversal_run.h  20631 row_sets.h  20665 unit_vectors.h
- *  20892 bilinear.h  21064 entries.h  21341 block.h  21576 reserve.h  21768 selected.h
- *  21978 selected_query.h  22080 region_choose.h  22307 region.h
+ *  20191 traversal.h  20440 traversal_run.h  20633 row_sets.h  20667 unit_vectors.h
+ *  20894 bilinear.h  21066 entries.h  21343 block.h  21578 reserve.h  21770 selected.h
+ *  21980 selected_query.h  22082 region_choose.h  22309 region.h
  * (change: a factor that follows changes of its matrix)
- *  22555 update.h  22957 path.h  23059 rank.h  23451 edges.h  23605 choose.h  23856 pins_types.h
- *  23922 pins_nulls.h  24103 pins_capacitance.h  24369 pins_rows.h  24489 pins_balance.h
- *  24651 pins_held.h  24879 pins_choose.h  24945 pins_rebuild.h  25168 pins_matrix.h  25319 pins.h
- *  25581 pins_solve.h  25854 subset.h  25982 restrict_kept.h  26180 restrict_analysis.h
- *  26426 restrict_symbolic.h  26621 restrict.h  26853 edit_match.h  27052 edit_place.h
- *  27301 edit_separate.h  27615 edit_order.h  27770 edit_graph.h  27852 edit_join.h  28128 edit.h
- *  28291 edit_factor.h
+ *  22557 update.h  22959 path.h  23061 rank.h  23453 edges.h  23607 choose.h  23857 pins_types.h
+ *  23923 pins_nulls.h  24104 pins_capacitance.h  24370 pins_rows.h  24490 pins_balance.h
+ *  24652 pins_held.h  24880 pins_choose.h  24946 pins_rebuild.h  25169 pins_matrix.h  25320 pins.h
+ *  25582 pins_solve.h  25857 subset.h  25985 restrict_kept.h  26183 restrict_analysis.h
+ *  26429 restrict_symbolic.h  26624 restrict.h  26856 edit_match.h  27055 edit_place.h
+ *  27304 edit_separate.h  27618 edit_order.h  27773 edit_graph.h  27855 edit_join.h  28131 edit.h
+ *  28294 edit_factor.h
  * (save: factors in files)
- *  28576 format.h  28873 decode.h  29021 check.h  29351 write.h  29660 load.h  29928 load_inverse.h
- *  30258 load_calls.h
+ *  28579 format.h  28876 decode.h  29024 check.h  29354 write.h  29663 load.h  29931 load_inverse.h
+ *  30261 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30457 batch_solve.h  30666 batch_factor.h  30867 batch_diagonal.h
+ *  30460 batch_solve.h  30669 batch_factor.h  30870 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31007 hermitian.h  31169 complex_rows.h
+ *  31010 hermitian.h  31172 complex_rows.h
  * (last: undefine every internal macro)
- *  31337 undef.h
+ *  31340 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31634 front.inl.h  31636 product.inl.h  32147 copy_rows.inl.h  32185 sweeps.inl.h
- *  32187 unit_triangle.inl.h  32224 two_rhs.inl.h  32398 small_supernode.inl.h
- *  32600 single_rhs.inl.h  32840 multi_rhs.inl.h  32859 complex_groups.inl.h
- *  32998 multi_rhs_small.inl.h  33170 multi_rhs_tiles.inl.h  33447 kernel_set.inl.h
- *  33449 complex_small.inl.h  33639 complex_rows.inl.h  33854 inverse_front.inl.h  34139 row.inl.h
- *  34169 change.inl.h  34412 interleave.inl.h  34546 lanes_undef.inl.h  34565 words_undef.inl.h
+ *  31637 front.inl.h  31639 product.inl.h  32150 copy_rows.inl.h  32188 sweeps.inl.h
+ *  32190 unit_triangle.inl.h  32227 two_rhs.inl.h  32401 small_supernode.inl.h
+ *  32603 single_rhs.inl.h  32843 multi_rhs.inl.h  32862 complex_groups.inl.h
+ *  33001 multi_rhs_small.inl.h  33173 multi_rhs_tiles.inl.h  33450 kernel_set.inl.h
+ *  33452 complex_small.inl.h  33642 complex_rows.inl.h  33857 inverse_front.inl.h  34142 row.inl.h
+ *  34172 change.inl.h  34415 interleave.inl.h  34549 lanes_undef.inl.h  34568 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13754,6 +13754,8 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
   return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
 }
 
+#define SLI_CHANGE_DRIFT 1e-11
+
 #define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
 #define SLI_SINGLE_LEAST 7.888609052210118e-31
 
@@ -23610,7 +23612,6 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 #define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
 #define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
 #define SLI_CHANGE_INPUT 2.5e-9
-#define SLI_CHANGE_DRIFT 1e-11
 
 typedef struct sli_way {
   uint64_t *seeds;
@@ -25602,7 +25603,9 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
   if (P->n_held > 0 && !sli_pins_is_whole(q)) {
     const sli_reach *R = &P->held_reach;
     w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
-    w->scratch = SLI_TAKE(b, double, sli_sweep_scratch(R->tallest, R->widest, 2) + 64);
+    w->scratch = SLI_TAKE(b, double,
+                sli_sweep_scratch(R->tallest, R->widest, 2) +
+                  sli_sweep_scratch(R->tallest, R->widest, SLI_TILE));
   }
   sli_pins_nulls_layout(&w->nulls, b, P);
 }
@@ -29401,7 +29404,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.pivot_max = info->pivot_max;
   g.entry_max = info->entry_max;
   g.growth = info->growth;
-  if (F->drift > 1e-11) {
+  if (F->drift > SLI_CHANGE_DRIFT) {
     g.entry_max = fmin(g.entry_max, F->scale);
     g.growth = fmax(g.growth, F->drift / DBL_EPSILON);
   }

@@ -13,8 +13,6 @@
 #define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop)) /* a front, beside its flops */
 #define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))  /* a descendant that updates a front */
 #define SLI_CHANGE_INPUT 2.5e-9                            /* an entry of A */
-/* Beyond this drift F is refactored: after some 40,000 changes of moderate size. */
-#define SLI_CHANGE_DRIFT 1e-11
 
 /* A choice between the three ways. */
 typedef struct sli_way {

@@ -28,7 +28,9 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
     if (P->n_held > 0 && !sli_pins_is_whole(q)) {
         const sli_reach *R = &P->held_reach;
         w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
-        w->scratch = SLI_TAKE(b, double, sli_sweep_scratch(R->tallest, R->widest, 2) + 64);
+        w->scratch = SLI_TAKE(b, double, /* for blocks of 8, and the rest: sli_vectors_bytes */
+                              sli_sweep_scratch(R->tallest, R->widest, 2) +
+                                  sli_sweep_scratch(R->tallest, R->widest, SLI_TILE));
     }
     sli_pins_nulls_layout(&w->nulls, b, P);
 }

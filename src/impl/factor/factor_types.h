@@ -246,6 +246,10 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
     return F->rule.shifts != NULL && F->rule.shifts[k] != 0.0;
 }
 
+/* Beyond this drift F is refactored, after some 40,000 changes of moderate size, and a saved factor
+ * has it as growth. */
+#define SLI_CHANGE_DRIFT 1e-11
+
 /* The largest entry of A and sum of magnitudes, and the smallest sum, of fronts in float. Products
  * of pivots and entries of L then neither overflow nor lose more by underflow than by rounding. */
 #define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)

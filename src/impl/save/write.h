@@ -56,7 +56,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.pivot_max = info->pivot_max;
     g.entry_max = info->entry_max;
     g.growth = info->growth;
-    if (F->drift > 1e-11) { /* as an error it is growth times epsilon */
+    if (F->drift > SLI_CHANGE_DRIFT) { /* as an error it is growth times epsilon */
         g.entry_max = fmin(g.entry_max, F->scale);
         g.growth = fmax(g.growth, F->drift / DBL_EPSILON);
     }
