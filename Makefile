@@ -503,8 +503,8 @@ bench: deps sparse_local.h ## times factorizations, full and local solves on thi
 # Peers in their best setting: OpenBLAS chooses its kernels itself, whatever core the environment names.
 PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
 # Eigen chooses its vector instructions at compile time: its best setting is -march=native, for its own file only.
-bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic, peers_shifted, peers_complex and peers_kkt: against CHOLMOD, Eigen and LDL
-	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted peers_complex peers_kkt" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic, peers_shifted, peers_complex, peers_kkt and peers_kinds: against CHOLMOD, Eigen and LDL
+	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted peers_complex peers_kkt peers_kinds" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
 	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
 	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lldl -lamd -lopenblas' \
 	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
@@ -517,7 +517,7 @@ bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigen
 
 readme-table: ## prints the measurements of the last bench-peers as Markdown tables
 	@awk -f tools/build/csv.awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
-	$(wildcard build/bench-out/peers_harmonic.csv)
+	$(wildcard build/bench-out/peers_harmonic.csv build/bench-out/peers_kinds.csv)
 
 # ---- clusters ----
 

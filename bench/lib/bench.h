@@ -55,12 +55,16 @@ void bench_peers_harmonic(bench_run *run);
 void bench_peers_shifted(bench_run *run);
 void bench_peers_complex(bench_run *run);
 void bench_peers_kkt(bench_run *run);
+void bench_peers_kinds(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, pseudo-random numbers (harness.c) ---- */
 
 /** Seconds of a monotonic clock. */
 double bench_now(void);
+
+/** Processor seconds of this process, of all threads. */
+double bench_processor_seconds(void);
 
 /** Order statistics of a list of times, in seconds. */
 typedef struct bench_sample {
@@ -229,6 +233,14 @@ int bench_check_bits(bench_run *run, const bench_system *system, const double *X
                      const sl_int *xset, sl_int nx, const double *full, sl_int nrhs,
                      const char *method);
 
+/** The mean over all rows of the path weight: the sum of the column counts from a row's column to
+ *  the root, which are the entries that a local solve at that row reads, without relaxation
+ *  (path_weight.c).
+ *
+ *  largest  [out]  the largest path weight; may be NULL.
+ */
+double bench_path_weight(const sl_symbolic *S, double *largest);
+
 /* ---- patches of a graph (patch_system.c) ---- */
 
 /** A connected set of vertices, its boundary and its submatrix. */
@@ -364,8 +376,8 @@ typedef struct bench_plot bench_plot;
 bench_plot *bench_plot_open(const bench_run *run, const char *name, const char *title,
                             const char *x_label, const char *y_label, const char *log);
 
-/** Appends a point to the named series, which the first point creates. style is "linespoints" or
- *  "boxes"; " lc K" adds a color, " dt 2" makes the line dashed.
+/** Appends a point to the named series, which the first point creates. style is "linespoints",
+ *  "points" or "boxes"; " lc K" adds a color, " dt 2" makes the line dashed.
  */
 void bench_plot_point(bench_plot *plot, const char *series, const char *style, double x, double y);
 

@@ -79,6 +79,8 @@ static const question questions[] = {
     {"peers_complex", "a connection Laplacian against CHOLMOD and Eigen, complex",
      bench_peers_complex},
     {"peers_kkt", "KKT systems of quadratic programs against LDL with AMD", bench_peers_kkt},
+    {"peers_kinds", "first factors on many kinds of small systems against CHOLMOD and Eigen",
+     bench_peers_kinds},
 #endif
 };
 

@@ -26,6 +26,7 @@ bench_plot *bench_plot_open(const bench_run *run, const char *name, const char *
 void bench_plot_point(bench_plot *p, const char *name, const char *style, double x, double y) {
     const char *color = strstr(style, "lc "), *dash = strstr(style, "dt ");
     plot_style drawn = strncmp(style, "boxes", 5) == 0      ? PLOT_BARS
+                       : strncmp(style, "points", 6) == 0   ? PLOT_POINTS
                        : dash != NULL && atoi(dash + 3) > 1 ? PLOT_DASHES
                                                             : PLOT_LINES;
     int added = plot_add(p->drawn, name, drawn, x, y);

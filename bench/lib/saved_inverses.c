@@ -1,11 +1,9 @@
 /* saved_inverses.c: regions and selected inverses read from a file, against made anew */
-#define _POSIX_C_SOURCE 200112L /* clock_gettime */
 #include "saved_inverses.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* Every way begins with a file and ends with a factor and what is made over it, ready for queries.
  * Times are those of the processor: the file stays in the page cache, and other programs run. */
@@ -20,12 +18,6 @@ typedef struct file_case {
     sl_int size;
     part what;
 } file_case;
-
-double bench_processor_seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Makes the region or the selected inverse over the factor of a set. */
 static void make(const file_case *c, sl_saved_set *set, sl_region **R) {

@@ -4,9 +4,6 @@
 
 #include "bench.h"
 
-/** Seconds of the processor that this process has used. */
-double bench_processor_seconds(void);
-
 /** Saves the factor of a system with the region of a patch and with a selected inverse in a file of
  *  run->out_dir, checks that what is read has the same bits, and adds rows for both. */
 void bench_saved_inverses(bench_run *run, bench_report *report, const bench_system *system);

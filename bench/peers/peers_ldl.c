@@ -22,6 +22,11 @@ static void must(int held, const char *doing) {
     bench_must(held ? SL_OK : SL_ERR_PIVOT, doing);
 }
 
+void peer_amd_order(const sl_csc *A, sl_int *perm) {
+    const int status = amd_order(A->n_cols, A->p, A->i, perm, NULL, NULL);
+    must(status == AMD_OK || status == AMD_OK_BUT_JUMBLED, "AMD");
+}
+
 /* Fills the upper triangle of P A P' by columns. */
 static void permute(peer_ldl *s) {
     const sl_csc *A = s->A;
@@ -67,8 +72,7 @@ peer_ldl *peer_ldl_create(const sl_csc *A) {
     s->C = reals;
     s->D = reals + nnz;
     s->y = s->D + n;
-    const int status = amd_order(s->n, A->p, A->i, s->perm, NULL, NULL);
-    must(status == AMD_OK || status == AMD_OK_BUT_JUMBLED, "AMD");
+    peer_amd_order(A, s->perm);
     for (int k = 0; k < s->n; k++) {
         s->iperm[s->perm[k]] = k;
     }

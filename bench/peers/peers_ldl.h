@@ -4,6 +4,10 @@
 
 #include "sparse_local.h"
 
+/** AMD's order of A, which stores its lower triangle. perm has n entries. Exits with a message on
+ *  an error. */
+void peer_amd_order(const sl_csc *A, sl_int *perm);
+
 /** P A P' = L D L', with 1x1 pivots of any sign in the order given by AMD. */
 typedef struct peer_ldl peer_ldl;
 

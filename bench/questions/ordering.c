@@ -11,9 +11,8 @@
 
 /* METIS's numbers are means over some of its seeds, because one seed alone scatters by several
  * percent. Times are the processor seconds that the library reports for the ordering, with its
- * graph, the minimum of the repetitions; those of METIS include the same graph. The path weight
- * of a row is the sum of the column counts from its column to the root: the entries that a local
- * solve at that row reads, without relaxation. Shuffled systems have their rows in random order.
+ * graph, the minimum of the repetitions; those of METIS include the same graph. Shuffled systems
+ * have their rows in random order.
  * "order to factor" is ordering, analysis and first factorization together. */
 enum { SEEDS = 3, MAX_REPEATS = 5, BIG = 300000 };
 
@@ -45,16 +44,9 @@ static quality quality_of(const sl_csc *A, const sl_options *opt) {
     sl_symbolic *S;
     sl_stats stats;
     bench_must(sl_symbolic_create(&S, A, opt, &stats), "analysis");
-    const sl_symbolic_arrays v = sl_symbolic_view(S);
     quality y = {stats.symbolic.seconds_order, (double)stats.symbolic.nnz_l, stats.symbolic.flops,
                  0, 0};
-    double *path = bench_alloc((size_t)v.n, sizeof *path);
-    for (sl_int k = v.n; k-- > 0;) {
-        path[k] = (double)v.counts[k] + (v.parent[k] == -1 ? 0 : path[v.parent[k]]);
-        y.path_mean += path[k] / (double)v.n;
-        y.path_largest = path[k] > y.path_largest ? path[k] : y.path_largest;
-    }
-    free(path);
+    y.path_mean = bench_path_weight(S, &y.path_largest);
     sl_symbolic_free(S);
     return y;
 }

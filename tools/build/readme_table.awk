@@ -1,7 +1,7 @@
 # readme_table.awk: the results of `make bench-peers` as Markdown tables (make readme-table)
 #
 #     awk -f tools/build/csv.awk -f tools/build/readme_table.awk peers.machine.txt peers.csv \
-#         [peers_harmonic.csv ...]
+#         [peers_harmonic.csv ...] [peers_kinds.csv]
 #
 # The files are in build/bench-out. There is a table per CSV file, with a column per system and a
 # row per step. A cell has three numbers:
@@ -12,6 +12,9 @@
 #     use need to read L or to do the floating-point operations, whichever is longer.
 # A local solve has two rows, one with the plan created inside the timed call and one on a plan
 # created before. Both have the same peers: cholmod_solve2 finds its reach in every call.
+#
+# peers_kinds.csv makes a table with a row per kind of system: geometric means, and the worst of
+# them in parentheses.
 
 BEGIN {
     add_step("order to factor", "order + analyze + factor")
@@ -44,9 +47,17 @@ BEGIN {
 
 FNR == 1 && FILENAME ~ /machine\.txt$/ { machine = $0; next }
 FNR == 1 {
-    n_tables++
     split_csv($0)
     for (c = 1; c <= n_fields; c++) column[field[c]] = c
+    is_of_kinds = "ratio_one" in column
+    if (!is_of_kinds) n_tables++
+    next
+}
+
+is_of_kinds {
+    split_csv($0)
+    add_kind(field[column["group"]])
+    add_kind("all")
     next
 }
 
@@ -83,7 +94,7 @@ FNR == 1 {
 }
 
 END {
-    if (n_systems == 0) {
+    if (n_systems + n_kinds == 0) {
         print "readme_table.awk: no results; run make bench-peers first" >"/dev/stderr"
         exit 1
     }
@@ -98,6 +109,7 @@ END {
     print "its default, `E` in our ordering. \"For one factor\": `options.purpose` is"
     print "`SL_PURPOSE_ONE_FACTOR`; by default the order suits many local solves."
     for (t = 1; t <= n_tables; t++) table(t)
+    if (n_kinds > 0) table_of_kinds()
 }
 
 function add_step(name, label) {
@@ -133,6 +145,47 @@ function table(t, c, r, line, rule, filled, text) {
             line = line " " text " |"
         }
         if (filled) print line
+    }
+}
+
+# Adds the ratios of the current line to those of a kind.
+function add_kind(kind, k, name, ratio, is_size, is_worse) {
+    if (!(kind in kind_count)) kinds[++n_kinds] = kind
+    kind_count[kind]++
+    for (k = 1; k <= split("ratio ratio_one ratio_order ratio_order_one nnz_l path", \
+                           ratio_names, " "); k++) {
+        name = ratio_names[k]
+        ratio = field[column[name]]
+        is_size = name ~ /^(nnz_l|path)/
+        is_worse = is_size ? ratio > worst[kind, name] : ratio < worst[kind, name]
+        if (kind_count[kind] == 1 || is_worse) worst[kind, name] = ratio + 0
+        logarithm[kind, name] += log(ratio)
+    }
+}
+
+function mean_and_worst(kind, name) {
+    return sprintf("%.2f (%.2f)", exp(logarithm[kind, name] / kind_count[kind]), worst[kind, name])
+}
+
+function table_of_kinds(r, k, line) {
+    print "\nSmall systems of many kinds, from the matrix to a factor: geometric means over the"
+    print "systems of a kind, with the worst of them in parentheses. The first two columns are the"
+    print "time of the fastest peer, in its own ordering, as a multiple of ours, by default and for"
+    print "one factor. Then the orderings alone: the time of METIS_NodeND as a multiple of ours by"
+    print "default, and the time of AMD as a multiple of ours for one factor. The last two compare"
+    print "the order by default with that of METIS: entries of L, and the mean path weight, which"
+    print "is what a local solve reads."
+    print "\n| kinds of systems | order + analyze + factor | the same, for one factor | order" \
+          " | order, for one factor | nnz(L) | path weight |"
+    print "|---|---|---|---|---|---|---|"
+    for (r = 1; r <= n_kinds; r++) { # "all" comes after the others
+        k = kinds[r == 1 ? 1 : r == n_kinds ? 2 : r + 1]
+        line = "| " k ", " kind_count[k] " |"
+        line = line " " mean_and_worst(k, "ratio") " | " mean_and_worst(k, "ratio_one") " |"
+        line = line " " mean_and_worst(k, "ratio_order") " |"
+        line = line " " mean_and_worst(k, "ratio_order_one") " |"
+        line = line " " mean_and_worst(k, "nnz_l") " | " mean_and_worst(k, "path") " |"
+        print line
     }
 }
 

@@ -1,0 +1,386 @@
+/* graph_kinds.c: lattices, quadtrees, networks and random graphs, and their Laplacians */
+#include "graph_kinds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/geometry/polyharmonic.h"
+#include "tools/matrix/triplets.h"
+#include "tools/mesh/grid.h"
+#include "tools/mesh/surface_generator.h"
+
+const char *const kind_group_names[KIND_GROUPS] = {"surfaces", "thin",     "graded",
+                                                   "volumes",  "networks", "dense rows"};
+
+/* The neighbors of a point of a lattice of one, two or three dimensions. */
+typedef enum stencil {
+    STENCIL_AXES,      /* along the axes: 5 or 7 points */
+    STENCIL_SIMPLICES, /* squares as two triangles, cubes as six tetrahedra */
+    STENCIL_BOX        /* all around: 9 or 27 points */
+} stencil;
+
+typedef struct kind kind;
+
+typedef struct graph {
+    sl_int n;
+    triplets edges; /* i > j, value -1; a repeated edge has twice the weight */
+} graph;
+
+struct kind {
+    kind_group group;
+    const char *name;
+    void (*make)(graph *g, const kind *k);
+    sl_int size[3];
+    stencil neighbors; /* of a lattice, as are the next two */
+    int periodic;      /* its first dimensions that are closed to rings */
+    int (*contains)(const kind *k, const sl_int *at); /* NULL: all points */
+    int block;                                        /* rows a vertex; 0 means 1 */
+};
+
+static void add(graph *g, sl_int a, sl_int b) {
+    bench_must(triplets_add(&g->edges, a > b ? a : b, a > b ? b : a, -1.0) ? SL_OK : SL_ERR_MEMORY,
+               "adding an edge");
+}
+
+/* Uniform in (0, 1). */
+static double random_share(uint64_t *state) {
+    return 0.5 + 0.5 * bench_random_unit(state);
+}
+
+/* ---- lattices ---- */
+
+static sl_int lattice_index(const kind *k, const sl_int *at) {
+    return at[0] + k->size[0] * (at[1] + k->size[1] * at[2]);
+}
+
+/* Adds the edges to those of the neighbors that follow in the order of an unbounded lattice. */
+static void lattice_edges(graph *g, const kind *k, const sl_int *at, const sl_int *name) {
+    for (int c = 14; c < 27; c++) { /* of the 27 offsets, number 13 is the point itself */
+        const int step[3] = {c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1};
+        const int along = abs(step[0]) + abs(step[1]) + abs(step[2]);
+        const int falls = step[0] < 0 || step[1] < 0;
+        sl_int to[3];
+        int is_inside =
+            k->neighbors == STENCIL_BOX || (k->neighbors == STENCIL_AXES ? along == 1 : !falls);
+        for (int d = 0; d < 3; d++) {
+            to[d] = at[d] + step[d];
+            if (d < k->periodic) {
+                to[d] = (to[d] + k->size[d]) % k->size[d];
+            }
+            is_inside = is_inside && to[d] >= 0 && to[d] < k->size[d];
+        }
+        if (is_inside && name[lattice_index(k, to)] != -1) {
+            add(g, name[lattice_index(k, at)], name[lattice_index(k, to)]);
+        }
+    }
+}
+
+static void lattice(graph *g, const kind *k) {
+    const size_t points = (size_t)k->size[0] * (size_t)k->size[1] * (size_t)k->size[2];
+    sl_int *name = bench_alloc(points, sizeof *name);
+    for (int pass = 0; pass < 2; pass++) { /* names the points, then joins them */
+        sl_int at[3];
+        for (at[2] = 0; at[2] < k->size[2]; at[2]++) {
+            for (at[1] = 0; at[1] < k->size[1]; at[1]++) {
+                for (at[0] = 0; at[0] < k->size[0]; at[0]++) {
+                    sl_int *v = &name[lattice_index(k, at)];
+                    if (pass == 0) {
+                        *v = !k->contains || k->contains(k, at) ? g->n++ : -1;
+                    } else if (*v != -1) {
+                        lattice_edges(g, k, at, name);
+                    }
+                }
+            }
+        }
+    }
+    free(name);
+}
+
+/* A hole of radius 8 for every 700 squares. */
+static int has_no_hole(const kind *k, const sl_int *at) {
+    const double radius = 8, area = 700;
+    uint64_t state = 5;
+    int inside = 1;
+    for (int hole = 0; hole < k->size[0] * k->size[1] / area; hole++) {
+        const double x = k->size[0] * random_share(&state), y = k->size[1] * random_share(&state);
+        inside = inside && hypot(at[0] - x, at[1] - y) > radius;
+    }
+    return inside;
+}
+
+/* Teeth of 8 columns, 8 apart, on a spine of 8 rows. */
+static int is_comb(const kind *k, const sl_int *at) {
+    (void)k;
+    return at[1] < 8 || at[0] % 16 < 8;
+}
+
+/* ---- surfaces and graded meshes ---- */
+
+static void sphere(graph *g, const kind *k) {
+    char text[32];
+    mesh m;
+    adjacency a;
+    snprintf(text, sizeof text, "sphere:%d", (int)k->size[0]);
+    bench_must(surface_generate(&m, text, NULL, 0) && adjacency_from_mesh(&a, &m) ? SL_OK
+                                                                                  : SL_ERR_MEMORY,
+               "creating a sphere");
+    g->n = a.n;
+    for (sl_int v = 0; v < a.n; v++) {
+        for (sl_off p = a.begin[v]; p < a.begin[v + 1]; p++) {
+            if (a.neighbor[p] > v) {
+                add(g, a.neighbor[p], v);
+            }
+        }
+    }
+    adjacency_free(&a);
+    mesh_free(&m);
+}
+
+/* Divides a square of side `size` until its cells are as small as their place asks for, and names
+ * the cells. */
+static void divide(sl_int *cell, graph *g, const kind *k, sl_int x, sl_int y, sl_int size) {
+    const sl_int side = (sl_int)1 << k->size[0];
+    const double u = (x + 0.5 * size) / side, v = (y + 0.5 * size) / side;
+    const double to_circle = fabs(hypot(u - 0.5, v - 0.5) - 0.3);
+    const double distance = fmin(to_circle, hypot(u, v)); /* from a circle and a corner */
+    if (size > 1 && size > 1 + 0.01 * k->size[1] * distance * side) {
+        for (int c = 0; c < 4; c++) {
+            divide(cell, g, k, x + c % 2 * (size / 2), y + c / 2 * (size / 2), size / 2);
+        }
+        return;
+    }
+    for (sl_int row = y; row < y + size; row++) {
+        for (sl_int column = x; column < x + size; column++) {
+            cell[row * side + column] = g->n;
+        }
+    }
+    g->n++;
+}
+
+/* The cells of a quadtree, joined where they share a side. size: levels, growth of the cells in
+ * percent of their distance. */
+static void quadtree(graph *g, const kind *k) {
+    const sl_int side = (sl_int)1 << k->size[0];
+    sl_int *cell = bench_alloc((size_t)side * (size_t)side, sizeof *cell);
+    divide(cell, g, k, 0, 0, side);
+    for (sl_int p = 0; p < side * side; p++) {
+        if (p % side + 1 < side && cell[p] != cell[p + 1]) {
+            add(g, cell[p], cell[p + 1]);
+        }
+        if (p + side < side * side && cell[p] != cell[p + side]) {
+            add(g, cell[p], cell[p + side]);
+        }
+    }
+    free(cell);
+}
+
+/* ---- networks ---- */
+
+/* Random points of the unit square or cube, joined up to a distance; by buckets as wide as it.
+ * size: vertices, dimensions, mean number of neighbors. */
+static void geometric(graph *g, const kind *k) {
+    const double pi = 3.141592653589793, density = (double)k->size[2] / k->size[0];
+    const int is_flat = k->size[1] == 2;
+    const double r = is_flat ? sqrt(density / pi) : cbrt(density / (4 * pi / 3));
+    const sl_int wide = (sl_int)(1 / r), deep = is_flat ? 1 : wide;
+    sl_int *first = bench_alloc((size_t)wide * (size_t)wide * (size_t)deep, sizeof *first);
+    sl_int *next = bench_alloc((size_t)k->size[0], sizeof *next);
+    double(*at)[3] = bench_alloc((size_t)k->size[0], sizeof *at);
+    uint64_t state = 7;
+    memset(first, -1, (size_t)wide * (size_t)wide * (size_t)deep * sizeof *first);
+    for (sl_int v = 0; v < k->size[0]; v++) {
+        sl_int box[3];
+        for (int d = 0; d < 3; d++) {
+            at[v][d] = d < 2 || !is_flat ? random_share(&state) : 0;
+            box[d] = (sl_int)(at[v][d] * wide);
+        }
+        for (int c = 0; c < 27; c++) {
+            const sl_int x = box[0] + c % 3 - 1, y = box[1] + c / 3 % 3 - 1, z = box[2] + c / 9 - 1;
+            const int is_there = x >= 0 && x < wide && y >= 0 && y < wide && z >= 0 && z < deep;
+            sl_int u = is_there ? first[x + wide * (y + wide * z)] : -1;
+            for (; u != -1; u = next[u]) {
+                const double dx = at[u][0] - at[v][0], dy = at[u][1] - at[v][1];
+                if (hypot(hypot(dx, dy), at[u][2] - at[v][2]) < r) {
+                    add(g, u, v);
+                }
+            }
+        }
+        sl_int *head = &first[box[0] + wide * (box[1] + wide * box[2])];
+        next[v] = *head;
+        *head = v;
+    }
+    g->n = k->size[0];
+    free(at);
+    free(next);
+    free(first);
+}
+
+/* Streets of a square grid, one in five closed, with up to seven vertices along each. */
+static void roads(graph *g, const kind *k) {
+    const sl_int side = k->size[0];
+    uint64_t state = 11;
+    g->n = side * side;
+    for (sl_int v = 0; v < side * side; v++) {
+        for (int d = 0; d < 2; d++) {
+            const int is_inside = d == 0 ? v % side + 1 < side : v + side < side * side;
+            sl_int from = v, vertices = bench_random_below(&state, 8);
+            if (is_inside && bench_random_below(&state, 5) != 0) {
+                for (; vertices > 0; vertices--) {
+                    add(g, from, g->n);
+                    from = g->n++;
+                }
+                add(g, from, d == 0 ? v + 1 : v + side);
+            }
+        }
+    }
+}
+
+/* A path whose vertices are numbered at random. */
+static void path(graph *g, const kind *k) {
+    sl_int *name = bench_alloc((size_t)k->size[0], sizeof *name);
+    uint64_t state = 13;
+    g->n = k->size[0];
+    for (sl_int v = 0; v < g->n; v++) {
+        const sl_int other = bench_random_below(&state, v + 1);
+        name[v] = name[other];
+        name[other] = v;
+    }
+    for (sl_int v = 1; v < g->n; v++) {
+        add(g, name[v - 1], name[v]);
+    }
+    free(name);
+}
+
+static void tree(graph *g, const kind *k) {
+    uint64_t state = 17;
+    g->n = k->size[0];
+    for (sl_int v = 1; v < g->n; v++) {
+        add(g, v, bench_random_below(&state, v));
+    }
+}
+
+/* A path of size[1] hubs to which all other vertices are attached in turn. */
+static void hubs(graph *g, const kind *k) {
+    g->n = k->size[0];
+    for (sl_int v = 1; v < g->n; v++) {
+        add(g, v, v < k->size[1] ? v - 1 : v % k->size[1]);
+    }
+}
+
+/* ---- matrices ---- */
+
+/* Every vertex becomes `size` rows, all of them adjacent to one another and to those of the
+ * neighbors, as in elasticity. */
+static void make_blocks(graph *g, int size) {
+    triplets edges = g->edges;
+    memset(&g->edges, 0, sizeof g->edges);
+    for (sl_int v = 0; v < g->n; v++) {
+        for (int i = 0; i < size; i++) {
+            for (int j = 0; j < i; j++) {
+                add(g, v * size + i, v * size + j);
+            }
+        }
+    }
+    for (size_t e = 0; e < edges.count; e++) {
+        for (int c = 0; c < size * size; c++) {
+            add(g, edges.i[e] * size + c % size, edges.j[e] * size + c / size);
+        }
+    }
+    triplets_free(&edges);
+    g->n *= size;
+}
+
+/* The Laplacian plus 0.01; releases the edges. */
+static sl_matrix *graph_matrix(graph *g) {
+    double *diagonal = bench_alloc((size_t)g->n, sizeof *diagonal);
+    sl_matrix *M;
+    int held = 1;
+    for (sl_int v = 0; v < g->n; v++) {
+        diagonal[v] = 0.01;
+    }
+    for (size_t e = 0; e < g->edges.count; e++) {
+        diagonal[g->edges.i[e]] += 1;
+        diagonal[g->edges.j[e]] += 1;
+    }
+    for (sl_int v = 0; v < g->n; v++) {
+        held = held && triplets_add(&g->edges, v, v, diagonal[v]);
+    }
+    bench_must(held ? triplets_finish(&M, g->n, g->n, &g->edges, true) : SL_ERR_MEMORY,
+               "assembling a Laplacian");
+    free(diagonal);
+    return M;
+}
+
+/* The k-harmonic system of a grid that smooths over a tenth of its diagonal. size: side, k. */
+static sl_matrix *k_harmonic(const kind *k) {
+    const double square = 0.02; /* of a tenth of the diagonal */
+    const int order = (int)k->size[1];
+    sl_matrix *M;
+    mesh m;
+    bench_must(mesh_grid(&m, k->size[0], k->size[0], 0.2, 1) &&
+                       polyharmonic_system(&M, &m, order, pow(square, order))
+                   ? SL_OK
+                   : SL_ERR_MEMORY,
+               "assembling a k-harmonic matrix");
+    mesh_free(&m);
+    return M;
+}
+
+#define AXES STENCIL_AXES
+#define SIMPLICES STENCIL_SIMPLICES
+#define BOX STENCIL_BOX
+
+static const kind kinds[KINDS] = {
+    {KIND_SURFACES, "grid 20^2", lattice, {20, 20, 1}, SIMPLICES, 0, NULL, 0},
+    {KIND_SURFACES, "grid 50^2", lattice, {50, 50, 1}, SIMPLICES, 0, NULL, 0},
+    {KIND_SURFACES, "grid 100^2", lattice, {100, 100, 1}, SIMPLICES, 0, NULL, 0},
+    {KIND_SURFACES, "grid 316^2", lattice, {316, 316, 1}, SIMPLICES, 0, NULL, 0},
+    {KIND_SURFACES, "5-point 100^2", lattice, {100, 100, 1}, AXES, 0, NULL, 0},
+    {KIND_SURFACES, "9-point 100^2", lattice, {100, 100, 1}, BOX, 0, NULL, 0},
+    {KIND_SURFACES, "torus 120^2", lattice, {120, 120, 1}, SIMPLICES, 2, NULL, 0},
+    {KIND_SURFACES, "sphere", sphere, {5, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_SURFACES, "plate with holes", lattice, {200, 200, 1}, SIMPLICES, 0, has_no_hole, 0},
+    {KIND_THIN, "strip 4x5000", lattice, {4, 5000, 1}, SIMPLICES, 0, NULL, 0},
+    {KIND_THIN, "strip 20x3000", lattice, {20, 3000, 1}, SIMPLICES, 0, NULL, 0},
+    {KIND_THIN, "tube 12x3000", lattice, {12, 3000, 1}, SIMPLICES, 1, NULL, 0},
+    {KIND_THIN, "comb", lattice, {320, 208, 1}, SIMPLICES, 0, is_comb, 0},
+    {KIND_THIN, "strip with holes", lattice, {60, 600, 1}, SIMPLICES, 0, has_no_hole, 0},
+    {KIND_GRADED, "quadtree 2^8", quadtree, {8, 6, 0}, AXES, 0, NULL, 0},
+    {KIND_GRADED, "quadtree 2^9", quadtree, {9, 6, 0}, AXES, 0, NULL, 0},
+    {KIND_GRADED, "quadtree, steep", quadtree, {10, 25, 0}, AXES, 0, NULL, 0},
+    {KIND_VOLUMES, "7-point 24^3", lattice, {24, 24, 24}, AXES, 0, NULL, 0},
+    {KIND_VOLUMES, "27-point 12^3", lattice, {12, 12, 12}, BOX, 0, NULL, 0},
+    {KIND_VOLUMES, "tetrahedra 18^3", lattice, {18, 18, 18}, SIMPLICES, 0, NULL, 0},
+    {KIND_VOLUMES, "plate 60x60x4", lattice, {60, 60, 4}, SIMPLICES, 0, NULL, 0},
+    {KIND_VOLUMES, "bar 8x8x400", lattice, {8, 8, 400}, SIMPLICES, 0, NULL, 0},
+    {KIND_NETWORKS, "roads", roads, {100, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "random points, 2D", geometric, {20000, 2, 7}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "random points, 3D", geometric, {20000, 3, 10}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "path", path, {100000, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "tree", tree, {100000, 0, 0}, AXES, 0, NULL, 0},
+    {KIND_NETWORKS, "star", hubs, {20000, 1, 0}, AXES, 0, NULL, 0},
+    {KIND_DENSE_ROWS, "biharmonic 120^2", NULL, {120, 2, 0}, AXES, 0, NULL, 0},
+    {KIND_DENSE_ROWS, "triharmonic 80^2", NULL, {80, 3, 0}, AXES, 0, NULL, 0},
+    {KIND_DENSE_ROWS, "tetrahedra 10^3 x 3", lattice, {10, 10, 10}, SIMPLICES, 0, NULL, 3}};
+
+const char *kind_name(int k) {
+    return kinds[k].name;
+}
+
+kind_group kind_group_of(int k) {
+    return kinds[k].group;
+}
+
+sl_matrix *kind_matrix(int k) {
+    graph g;
+    memset(&g, 0, sizeof g);
+    if (!kinds[k].make) {
+        return k_harmonic(&kinds[k]);
+    }
+    kinds[k].make(&g, &kinds[k]);
+    if (kinds[k].block > 1) {
+        make_blocks(&g, kinds[k].block);
+    }
+    return graph_matrix(&g);
+}
