@@ -5,13 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POINTS_MAX = 15 };
+#include "tools/mesh/path_heap.h"
 
-/* An entry of the binary heap, shortest on top. */
-typedef struct entry {
-    double length;
-    int64_t point;
-} entry;
+enum { POINTS_MAX = 15 };
 
 /* Points are the vertices, then `points` of each edge, from its lower to its higher vertex. */
 struct surface_search {
@@ -26,43 +22,8 @@ struct surface_search {
     int64_t *found;  /* the points with a path, in the order of discovery */
     size_t n_found;
     double limit;
-    entry *heap;
-    size_t used, capacity;
+    path_heap heap;
 };
-
-static bool push(surface_search *s, double length, int64_t point) {
-    if (s->used == s->capacity) {
-        size_t wanted = s->capacity < 64 ? 64 : 2 * s->capacity;
-        entry *larger = (entry *)realloc(s->heap, wanted * sizeof *larger);
-        if (larger == NULL) {
-            return false;
-        }
-        s->heap = larger;
-        s->capacity = wanted;
-    }
-    size_t at = s->used++;
-    for (; at > 0 && s->heap[(at - 1) / 2].length > length; at = (at - 1) / 2) {
-        s->heap[at] = s->heap[(at - 1) / 2];
-    }
-    entry e = {length, point};
-    s->heap[at] = e;
-    return true;
-}
-
-static entry pop(surface_search *s) {
-    entry top = s->heap[0], last = s->heap[--s->used];
-    size_t at = 0;
-    for (size_t child = 1; child < s->used; child = 2 * at + 1) {
-        child += child + 1 < s->used && s->heap[child + 1].length < s->heap[child].length;
-        if (s->heap[child].length >= last.length) {
-            break;
-        }
-        s->heap[at] = s->heap[child];
-        at = child;
-    }
-    s->heap[at] = last;
-    return top;
-}
 
 /* The ends of the edge opposite to corner s % 3 of face s / 3, lower number first. */
 static void ends_of(sl_int ends[2], const mesh *m, sl_int s) {
@@ -135,11 +96,11 @@ static bool reach(surface_search *s, double length, int64_t point, sl_int origin
     }
     s->length[point] = length;
     s->origin[point] = origin;
-    return push(s, length, point);
+    return path_heap_push(&s->heap, length, point);
 }
 
 /* Extends a path to all points of a face. */
-static bool extend(surface_search *s, entry e, sl_int face) {
+static bool extend(surface_search *s, path_end e, sl_int face) {
     const mesh *m = s->inc->m;
     double from[3], to[3];
     place(from, s, e.point);
@@ -167,13 +128,13 @@ bool surface_search_run(surface_search *s, const sl_int *sources, sl_int count, 
         s->length[s->found[k]] = INFINITY;
     }
     s->n_found = 0;
-    s->used = 0;
+    s->heap.count = 0;
     s->limit = limit;
     for (sl_int k = 0; k < count && ok; k++) {
         ok = s->length[sources[k]] == 0 || reach(s, 0, sources[k], k);
     }
-    while (ok && s->used > 0) {
-        entry e = pop(s);
+    while (ok && s->heap.count > 0) {
+        path_end e = path_heap_pop(&s->heap);
         if (e.length > s->length[e.point]) {
             continue;
         }
@@ -232,7 +193,7 @@ const sl_int *surface_search_origins(const surface_search *s) {
 
 void surface_search_free(surface_search *s) {
     if (s != NULL) {
-        free(s->heap);
+        free(s->heap.at);
         free(s->found);
         free(s->origin);
         free(s->length);

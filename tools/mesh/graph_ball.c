@@ -6,60 +6,15 @@
 #include <string.h>
 
 #include "int_list.h"
-
-/* An entry of the binary heap, nearest on top. A vertex is pushed again when its distance
- * decreases. */
-typedef struct entry {
-    double distance;
-    sl_int vertex;
-} entry;
+#include "path_heap.h"
 
 typedef struct search {
     incidence *inc; /* local_index[v]: position of v in reached, -1: not reached */
-    entry *heap;
-    size_t n_heap, heap_capacity;
+    path_heap heap;
     int_list reached;
     double *distance; /* shortest path so far, by position in reached */
     size_t capacity;  /* elements at distance */
 } search;
-
-static bool push(search *s, double distance, sl_int vertex) {
-    if (s->n_heap == s->heap_capacity) {
-        size_t wanted = s->heap_capacity < 64 ? 64 : 2 * s->heap_capacity;
-        entry *larger = (entry *)realloc(s->heap, wanted * sizeof *larger);
-        if (larger == NULL) {
-            return false;
-        }
-        s->heap = larger;
-        s->heap_capacity = wanted;
-    }
-    size_t at = s->n_heap++;
-    for (; at > 0 && s->heap[(at - 1) / 2].distance > distance; at = (at - 1) / 2) {
-        s->heap[at] = s->heap[(at - 1) / 2];
-    }
-    entry e = {distance, vertex};
-    s->heap[at] = e;
-    return true;
-}
-
-static entry pop(search *s) {
-    entry top = s->heap[0], last = s->heap[--s->n_heap];
-    size_t at = 0;
-    for (;;) {
-        size_t child = 2 * at + 1;
-        if (child >= s->n_heap) {
-            break;
-        }
-        child += child + 1 < s->n_heap && s->heap[child + 1].distance < s->heap[child].distance;
-        if (s->heap[child].distance >= last.distance) {
-            break;
-        }
-        s->heap[at] = s->heap[child];
-        at = child;
-    }
-    s->heap[at] = last;
-    return top;
-}
 
 /* Records a path of this length to v. */
 static bool record_path(search *s, sl_int v, double distance) {
@@ -69,7 +24,7 @@ static bool record_path(search *s, sl_int v, double distance) {
             return true;
         }
         s->distance[local_index] = distance;
-        return push(s, distance, v);
+        return path_heap_push(&s->heap, distance, v);
     }
     size_t count = s->reached.count;
     if (count == s->capacity) {
@@ -86,7 +41,7 @@ static bool record_path(search *s, sl_int v, double distance) {
     }
     s->inc->local_index[v] = (sl_int)count;
     s->distance[count] = distance;
-    return push(s, distance, v);
+    return path_heap_push(&s->heap, distance, v);
 }
 
 /* Extends the path to v by one edge, to the other corners of v's faces. */
@@ -129,9 +84,10 @@ bool graph_ball_create(graph_ball *out, incidence *inc, const sl_int *sources, s
     out->path_length = (double *)malloc(sizeof *out->path_length);
     ok = ok && out->vertices != NULL && out->path_length != NULL;
     size_t capacity = 1;
-    while (ok && s.n_heap > 0) {
-        entry e = pop(&s);
-        if (e.distance > s.distance[inc->local_index[e.vertex]]) {
+    while (ok && s.heap.count > 0) {
+        const path_end e = path_heap_pop(&s.heap);
+        const sl_int v = (sl_int)e.point;
+        if (e.length > s.distance[inc->local_index[v]]) {
             continue; /* an outdated entry: a shorter path was found later */
         }
         if ((size_t)out->n == capacity) {
@@ -145,14 +101,14 @@ bool graph_ball_create(graph_ball *out, incidence *inc, const sl_int *sources, s
                 break;
             }
         }
-        out->vertices[out->n] = e.vertex;
-        out->path_length[out->n++] = e.distance;
-        ok = extend_paths(&s, e.vertex, e.distance, radius);
+        out->vertices[out->n] = v;
+        out->path_length[out->n++] = e.length;
+        ok = extend_paths(&s, v, e.length, radius);
     }
     for (size_t k = 0; k < s.reached.count; k++) {
         inc->local_index[s.reached.at[k]] = -1;
     }
-    free(s.heap);
+    free(s.heap.at);
     free(s.reached.at);
     free(s.distance);
     if (!ok) {
