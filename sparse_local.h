@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3252af8509577a12
+ * FNV-1a of the lines after this comment, without the license: 96b47fdd3f1f310a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,49 +46,49 @@
  *   9014 dissect.h   9305 tree_cost.h   9368 levelset.h   9453 geometric.h   9628 cells.h
  *   9808 septree.h   9884 metis.h  10033 metis_refined.h  10148 nd.h  10356 compress.h
  *  10477 levels.h  10530 border.h  10583 forest.h  10670 peel.h  10870 quotient.h
- *  11287 graph_kind.h  11358 order.h
+ *  11296 graph_kind.h  11385 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11683 symbolic_types.h  11720 etree.h  11917 supernodes.h  12175 pattern.h  12260 structure.h
- *  12528 schedule.h  12808 symbolic.h  13281 reach.h
+ *  11711 symbolic_types.h  11748 etree.h  11945 supernodes.h  12203 pattern.h  12288 structure.h
+ *  12556 schedule.h  12836 symbolic.h  13311 reach.h
  * (factor: the numbers of L and D)
- *  13557 factor_types.h  13762 panel_load.h  13875 pivot_check.h  13991 storage.h
- *  14129 pivot_search.h  14475 pivoted.h  14544 scatter.h  14702 uplooking.h  14774 null_product.h
- *  14978 null_dense.h  15055 null_basis.h  15375 null_vectors.h  15517 multifrontal.h
- *  15711 gather.h  15759 kept.h  15929 front_tasks.h  16272 null_center.h  16396 nullspace.h
- *  16603 growth.h  16681 factor_setup.h  17021 factor.h  17236 leftlooking.h  17390 factor_query.h
- *  17525 combination.h
+ *  13587 factor_types.h  13792 panel_load.h  13905 pivot_check.h  14021 storage.h
+ *  14159 pivot_search.h  14505 pivoted.h  14574 scatter.h  14732 uplooking.h  14804 null_product.h
+ *  15008 null_dense.h  15085 null_basis.h  15405 null_vectors.h  15547 multifrontal.h
+ *  15741 gather.h  15789 kept.h  15959 front_tasks.h  16302 null_center.h  16426 nullspace.h
+ *  16633 growth.h  16711 factor_setup.h  17051 factor.h  17266 leftlooking.h  17420 factor_query.h
+ *  17555 combination.h
  * (solve: full and local solves)
- *  17586 region_types.h  17690 work.h  17790 query.h  18008 singular.h  18268 backward.h
- *  18298 sweep_tasks.h  18629 sweep.h  18837 compile.h  19030 plan.h  19137 local.h  19289 parts.h
- *  19578 refine.h  19757 refine_local.h  19973 rcond.h  20132 defects.h
+ *  17616 region_types.h  17720 work.h  17820 query.h  18038 singular.h  18298 backward.h
+ *  18328 sweep_tasks.h  18659 sweep.h  18867 compile.h  19060 plan.h  19167 local.h  19319 parts.h
+ *  19608 refine.h  19787 refine_local.h  20003 rcond.h  20162 defects.h
  * (inverse: entries of the inverse, regions)
- *  20191 traversal.h  20440 traversal_run.h  20633 row_sets.h  20667 unit_vectors.h
- *  20894 bilinear.h  21066 entries.h  21343 block.h  21578 reserve.h  21770 selected.h
- *  21980 selected_query.h  22082 region_choose.h  22309 region.h
+ *  20221 traversal.h  20470 traversal_run.h  20663 row_sets.h  20697 unit_vectors.h
+ *  20924 bilinear.h  21096 entries.h  21373 block.h  21608 reserve.h  21800 selected.h
+ *  22010 selected_query.h  22112 region_choose.h  22339 region.h
  * (change: a factor that follows changes of its matrix)
- *  22557 update.h  22959 path.h  23061 rank.h  23453 edges.h  23607 choose.h  23857 pins_types.h
- *  23923 pins_nulls.h  24104 pins_capacitance.h  24370 pins_rows.h  24490 pins_balance.h
- *  24652 pins_held.h  24880 pins_choose.h  24946 pins_rebuild.h  25169 pins_matrix.h  25320 pins.h
- *  25582 pins_solve.h  25857 subset.h  25985 restrict_kept.h  26183 restrict_analysis.h
- *  26429 restrict_symbolic.h  26624 restrict.h  26856 edit_match.h  27055 edit_place.h
- *  27304 edit_separate.h  27618 edit_order.h  27773 edit_graph.h  27855 edit_join.h  28131 edit.h
- *  28294 edit_factor.h
+ *  22587 update.h  22989 path.h  23091 rank.h  23483 edges.h  23637 choose.h  23887 pins_types.h
+ *  23953 pins_nulls.h  24134 pins_capacitance.h  24400 pins_rows.h  24520 pins_balance.h
+ *  24682 pins_held.h  24910 pins_choose.h  24976 pins_rebuild.h  25199 pins_matrix.h  25350 pins.h
+ *  25612 pins_solve.h  25887 subset.h  26015 restrict_kept.h  26213 restrict_analysis.h
+ *  26459 restrict_symbolic.h  26654 restrict.h  26886 edit_match.h  27085 edit_place.h
+ *  27334 edit_separate.h  27648 edit_order.h  27803 edit_graph.h  27885 edit_join.h  28161 edit.h
+ *  28324 edit_factor.h
  * (save: factors in files)
- *  28579 format.h  28876 decode.h  29024 check.h  29354 write.h  29663 load.h  29931 load_inverse.h
- *  30261 load_calls.h
+ *  28609 format.h  28906 decode.h  29054 check.h  29384 write.h  29693 load.h  29961 load_inverse.h
+ *  30291 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30460 batch_solve.h  30669 batch_factor.h  30870 batch_diagonal.h
+ *  30490 batch_solve.h  30699 batch_factor.h  30900 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31010 hermitian.h  31172 complex_rows.h
+ *  31040 hermitian.h  31202 complex_rows.h
  * (last: undefine every internal macro)
- *  31340 undef.h
+ *  31370 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31637 front.inl.h  31639 product.inl.h  32150 copy_rows.inl.h  32188 sweeps.inl.h
- *  32190 unit_triangle.inl.h  32227 two_rhs.inl.h  32401 small_supernode.inl.h
- *  32603 single_rhs.inl.h  32843 multi_rhs.inl.h  32862 complex_groups.inl.h
- *  33001 multi_rhs_small.inl.h  33173 multi_rhs_tiles.inl.h  33450 kernel_set.inl.h
- *  33452 complex_small.inl.h  33642 complex_rows.inl.h  33857 inverse_front.inl.h  34142 row.inl.h
- *  34172 change.inl.h  34415 interleave.inl.h  34549 lanes_undef.inl.h  34568 words_undef.inl.h
+ *  31667 front.inl.h  31669 product.inl.h  32180 copy_rows.inl.h  32218 sweeps.inl.h
+ *  32220 unit_triangle.inl.h  32257 two_rhs.inl.h  32431 small_supernode.inl.h
+ *  32633 single_rhs.inl.h  32873 multi_rhs.inl.h  32892 complex_groups.inl.h
+ *  33031 multi_rhs_small.inl.h  33203 multi_rhs_tiles.inl.h  33480 kernel_set.inl.h
+ *  33482 complex_small.inl.h  33672 complex_rows.inl.h  33887 inverse_front.inl.h  34172 row.inl.h
+ *  34202 change.inl.h  34445 interleave.inl.h  34579 lanes_undef.inl.h  34598 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11233,24 +11233,33 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
 
 typedef struct sli_order_cost {
   double flops;
+  double entries;
   double paths;
   double widest;
+  double fronts;
 } sli_order_cost;
 
 static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
   sl_int k;
   cost->flops = 0.25 * q->flops;
   cost->widest = q->widest;
-  cost->paths = 0.0;
+  cost->entries = cost->paths = cost->fronts = 0.0;
   memset(below, 0, (size_t)q->n * sizeof(sl_int));
   for (k = 0; k < q->pivots; k++) {
     const sl_int v = q->sequence[k], width = q->weight[v];
     const double height = 2.0 * q->node[v].degree + width;
     below[v] += width;
+    cost->entries += 0.5 * (height + 1) * width;
     cost->paths += 0.5 * height * width * below[v];
     if (q->node[v].into != -1) {
       below[q->node[v].into] += below[v];
     }
+  }
+  for (k = q->pivots - 1; k >= 0; k--) {
+    const sl_int v = q->sequence[k], up = q->node[v].into;
+    const sl_int height = q->node[v].degree + q->weight[v];
+    below[v] = up != -1 && below[up] > height ? below[up] : height;
+    cost->fronts += 0.5 * below[v] * below[v] * q->weight[v];
   }
 }
 
@@ -11331,21 +11340,39 @@ static int sli_order_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   return 1;
 }
 
-static int sli_order_is_expanding(const sli_graph *G, sl_int *queue, sl_int *seen) {
-  const int64_t most = (int64_t)G->n * G->n / 8;
+static int sli_order_is_dense(const sli_graph *G) {
+  const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
+  return mean * mean > n;
+}
+
+typedef enum sli_graph_shape {
+  SLI_SHAPE_THIN,
+  SLI_SHAPE_OTHER,
+  SLI_SHAPE_EXPANDING
+} sli_graph_shape;
+
+static sli_graph_shape sli_order_shape(const sli_graph *G, sl_int *queue, sl_int *seen) {
+  const int64_t n = G->n, most = n * n / 8;
   int64_t entries = 0;
   sl_int v, tail = 0;
-  memset(seen, 0, (size_t)G->n * sizeof(sl_int));
+  memset(seen, 0, (size_t)n * sizeof(sl_int));
   for (v = 0; v < G->n && entries <= most; v++) {
     if (seen[v] == 0) {
       tail = sli_levels_search(G, v, queue, tail, seen, 1, most, &entries);
     }
   }
-  return entries > most;
+  return entries > most                               ? SLI_SHAPE_EXPANDING
+       : entries <= 32 * n && entries <= n * n / 32 ? SLI_SHAPE_THIN
+                            : SLI_SHAPE_OTHER;
 }
 
 static int sli_order_has_core(const sli_order_cost *c) {
   return c->widest * c->widest * c->widest > 1.5 * c->flops;
+}
+
+static int sli_order_is_without_fill(const sli_order_cost *c, const sli_graph *G) {
+  const double entries = 0.5 * (double)G->begin[G->n] + (double)G->n;
+  return c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts;
 }
 
 static double sli_order_path_share(const sli_order_cost *c, sl_int n) {
@@ -11483,7 +11510,7 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
     return SL_OK;
   }
   if (is_hurried) {
-    sli_order_cost cost = {0.0, 0.0, 0.0};
+    sli_order_cost cost = {0.0, 0.0, 0.0, 0.0, 0.0};
     const sl_status status = sli_order_mindeg(G, perm, &cost, a);
     if (status != SL_OK || ordering == SL_ORDERING_MINDEG ||
       0.5 * cost.flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n] ||
@@ -11501,18 +11528,19 @@ static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering o
                 sli_septree *septree, sli_order_choice *choice, sli_team *team,
                 const sl_allocator *a) {
   const int is_irregular = choice->is_wanted && sli_order_is_irregular(G, is_peeled);
-  const int may_be_kkt = choice->is_wanted && is_peeled;
-  const int is_bipartite = may_be_kkt && sli_order_is_bipartite(G, perm, scratch);
-  const int is_expanding =
-    may_be_kkt && !is_irregular && !is_bipartite && sli_order_is_expanding(G, perm, scratch);
-  if (is_irregular || is_bipartite || is_expanding) {
+  const int may_expand = choice->is_wanted && (is_peeled || sli_order_is_dense(G));
+  const sli_graph_shape shape =
+    is_irregular || may_expand ? sli_order_shape(G, perm, scratch) : SLI_SHAPE_OTHER;
+  const int is_bipartite = choice->is_wanted && is_peeled && shape != SLI_SHAPE_THIN &&
+               sli_order_is_bipartite(G, perm, scratch);
+  if ((is_irregular && shape != SLI_SHAPE_THIN) || is_bipartite || shape == SLI_SHAPE_EXPANDING) {
     sli_order_cost cost;
     const sl_status status = sli_order_mindeg(G, choice->other, &cost, a);
     const double share = status == SL_OK ? sli_order_path_share(&cost, G->n) : 0.0;
     if (status != SL_OK) {
       return status;
     }
-    if (sli_order_has_core(&cost) ||
+    if (sli_order_has_core(&cost) || sli_order_is_without_fill(&cost, G) ||
       (is_bipartite && share < SLI_ORDER_PATHS_SHORT)) {
       memcpy(perm, choice->other, (size_t)G->n * sizeof(sl_int));
       septree->count = 0;
@@ -12994,21 +13022,22 @@ static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entr
   }
 }
 
-static void sli_analyze_choice(sli_analysis *w, const sl_options *opt, sli_team *team,
-                 sl_stats *stats) {
+static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *team,
+               sl_stats *stats) {
   double entries[2], paths[2];
-  sl_int *first = w->perm;
-  sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
-  w->perm = w->choice.other;
-  (void)sli_csc_columns(w->A, w->column);
-  sli_analyze_order(w, opt, team, stats);
-  sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
-  if (entries[1] < entries[0] && paths[1] < paths[0]) {
-    w->septree.count = 0;
-  } else {
-    w->perm = first;
+  sl_int *const orders[3] = {w->choice.other, w->perm, w->choice.other};
+  int k, count = 2;
+  for (k = 0; k < count; k++) {
+    w->perm = orders[k];
     (void)sli_csc_columns(w->A, w->column);
     sli_analyze_order(w, opt, team, stats);
+    if (k < 2) {
+      sli_analysis_costs(w, w->scratch, &entries[k], &paths[k]);
+    }
+    if (k == 1 && entries[0] < entries[1] && paths[0] < paths[1]) {
+      w->septree.count = 0;
+      count = 3;
+    }
   }
 }
 
@@ -13130,9 +13159,10 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   if (status != SL_OK) {
     return status;
   }
-  sli_analyze_order(w, opt, team, stats);
   if (w->choice.is_there) {
-    sli_analyze_choice(w, opt, team, stats);
+    sli_analyze_both(w, opt, team, stats);
+  } else {
+    sli_analyze_order(w, opt, team, stats);
   }
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;

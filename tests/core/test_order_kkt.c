@@ -53,6 +53,37 @@ static gen_list_t random_program(sl_int variables) {
     return t;
 }
 
+/* Least squares: each of 100 residuals for each column is a constraint on a seventh of the
+ * columns. */
+static gen_list_t least_squares(sl_int columns) {
+    const sl_int m = 100 * columns, variables = columns + m;
+    gen_list_t t = kkt(variables, m);
+    uint64_t seed = 3;
+    for (sl_int k = 0; k < m; k++) {
+        gen_add(&t, variables + k, columns + k, -1.0);
+        for (sl_int v = 0; v < columns; v++) {
+            if (gen_below(&seed, 7) == 0) {
+                gen_add(&t, variables + k, v, 0.5);
+            }
+        }
+    }
+    return t;
+}
+
+/* Constraints without bounds: a sixth of all entries is not zero. */
+static gen_list_t dense_constraints(sl_int variables) {
+    gen_list_t t = kkt(variables, variables / 2);
+    uint64_t seed = 5;
+    for (sl_int k = 0; k < t.n; k++) {
+        for (sl_int v = 0; v < (k < variables ? k : variables); v++) {
+            if (gen_below(&seed, 6) == 0) {
+                gen_add(&t, k, v, 0.5);
+            }
+        }
+    }
+    return t;
+}
+
 /* A linear system of 8 states and 3 inputs over `steps` steps, half of its entries 0; bounds. */
 static gen_list_t horizon(sl_int steps) {
     enum { STATES = 8, STEP = 11 };
@@ -143,6 +174,22 @@ static void chains_of_constraints_are_dissected(void **state) {
     assert_true(q.path < 0.3);
 }
 
+/* By dissection: 1.75 times the entries, 1.36 times the path weight. No row is peeled. */
+static void dense_constraints_are_not_dissected(void **state) {
+    (void)state;
+    gen_list_t t = dense_constraints(400);
+    const order_quality q = relative(&t);
+    assert_true(q.fill < 1.02 && q.path < 1.02);
+}
+
+/* Dissection has no fill either, and 0.995 times the path weight. */
+static void least_squares_are_not_dissected(void **state) {
+    (void)state;
+    gen_list_t t = least_squares(30);
+    const order_quality q = relative(&t);
+    assert_true(q.fill == 1.0 && q.path == 1.0);
+}
+
 /* Without the bounds each row has too many neighbors for minimum degree, which counts none. */
 static void dense_programs_have_no_fill(void **state) {
     (void)state;
@@ -159,6 +206,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(control_in_the_plane_is_not_dissected),
         cmocka_unit_test(random_constraints_are_not_dissected),
+        cmocka_unit_test(dense_constraints_are_not_dissected),
+        cmocka_unit_test(least_squares_are_not_dissected),
         cmocka_unit_test(horizons_are_dissected),
         cmocka_unit_test(chains_of_constraints_are_dissected),
         cmocka_unit_test(dense_programs_have_no_fill),

@@ -203,22 +203,24 @@ static void sli_analysis_costs(const sli_analysis *w, sl_int *size, double *entr
     }
 }
 
-/* Takes the other order if it has fewer entries and shorter paths. */
-static void sli_analyze_choice(sli_analysis *w, const sl_options *opt, sli_team *team,
-                               sl_stats *stats) {
+/* Analyzes the other order, then the first one, which stays unless it has more entries and longer
+ * paths. */
+static void sli_analyze_both(sli_analysis *w, const sl_options *opt, sli_team *team,
+                             sl_stats *stats) {
     double entries[2], paths[2];
-    sl_int *first = w->perm;
-    sli_analysis_costs(w, w->scratch, &entries[0], &paths[0]);
-    w->perm = w->choice.other;
-    (void)sli_csc_columns(w->A, w->column);
-    sli_analyze_order(w, opt, team, stats);
-    sli_analysis_costs(w, w->scratch, &entries[1], &paths[1]);
-    if (entries[1] < entries[0] && paths[1] < paths[0]) {
-        w->septree.count = 0;
-    } else {
-        w->perm = first;
+    sl_int *const orders[3] = {w->choice.other, w->perm, w->choice.other};
+    int k, count = 2;
+    for (k = 0; k < count; k++) {
+        w->perm = orders[k];
         (void)sli_csc_columns(w->A, w->column);
         sli_analyze_order(w, opt, team, stats);
+        if (k < 2) {
+            sli_analysis_costs(w, w->scratch, &entries[k], &paths[k]);
+        }
+        if (k == 1 && entries[0] < entries[1] && paths[0] < paths[1]) {
+            w->septree.count = 0;
+            count = 3;
+        }
     }
 }
 
@@ -346,9 +348,10 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     if (status != SL_OK) {
         return status;
     }
-    sli_analyze_order(w, opt, team, stats);
     if (w->choice.is_there) {
-        sli_analyze_choice(w, opt, team, stats);
+        sli_analyze_both(w, opt, team, stats);
+    } else {
+        sli_analyze_order(w, opt, team, stats);
     }
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;

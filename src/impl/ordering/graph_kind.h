@@ -58,19 +58,35 @@ static int sli_order_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
     return 1;
 }
 
-/* Are most rows a few edges apart? Then a mean level of a breadth-first search has 1/8 of all rows:
- * a tenth of that in volumes of 1e4 rows. queue, seen: n of scratch. */
-static int sli_order_is_expanding(const sli_graph *G, sl_int *queue, sl_int *seen) {
-    const int64_t most = (int64_t)G->n * G->n / 8;
+/* May two edges lead from most rows to most others? */
+static int sli_order_is_dense(const sli_graph *G) {
+    const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
+    return mean * mean > n;
+}
+
+/* How far apart are the rows? In a thin graph the levels of a breadth-first search have at most 32
+ * rows in the mean, and there are at least 32: minimum degree has long paths then. In an expanding
+ * one most rows are a few edges apart, and a mean level has 1/8 of all: a tenth of that in volumes
+ * of 1e4 rows. queue, seen: n of scratch. */
+typedef enum sli_graph_shape {
+    SLI_SHAPE_THIN,
+    SLI_SHAPE_OTHER,
+    SLI_SHAPE_EXPANDING
+} sli_graph_shape;
+
+static sli_graph_shape sli_order_shape(const sli_graph *G, sl_int *queue, sl_int *seen) {
+    const int64_t n = G->n, most = n * n / 8;
     int64_t entries = 0;
     sl_int v, tail = 0;
-    memset(seen, 0, (size_t)G->n * sizeof(sl_int));
+    memset(seen, 0, (size_t)n * sizeof(sl_int));
     for (v = 0; v < G->n && entries <= most; v++) {
         if (seen[v] == 0) {
             tail = sli_levels_search(G, v, queue, tail, seen, 1, most, &entries);
         }
     }
-    return entries > most;
+    return entries > most                               ? SLI_SHAPE_EXPANDING
+           : entries <= 32 * n && entries <= n * n / 32 ? SLI_SHAPE_THIN
+                                                        : SLI_SHAPE_OTHER;
 }
 
 /* Where most operations are in one front, no small separator has been missed: graphs of random
@@ -78,6 +94,14 @@ static int sli_order_is_expanding(const sli_graph *G, sl_int *queue, sl_int *see
  * and longer paths then. */
 static int sli_order_has_core(const sli_order_cost *c) {
     return c->widest * c->widest * c->widest > 1.5 * c->flops;
+}
+
+/* Is there next to no fill, and are the paths little longer than those within the largest fronts?
+ * No other order is much better then. Programs of lasso, Huber and portfolio problems have no fill,
+ * and paths 1.0 to 1.2 times as long. */
+static int sli_order_is_without_fill(const sli_order_cost *c, const sli_graph *G) {
+    const double entries = 0.5 * (double)G->begin[G->n] + (double)G->n;
+    return c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts;
 }
 
 /* The entries on the path of a mean row relative to flops^(2/3), cubed: those of one dense block

@@ -149,7 +149,7 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
         return SL_OK;
     }
     if (is_hurried) {
-        sli_order_cost cost = {0.0, 0.0, 0.0};
+        sli_order_cost cost = {0.0, 0.0, 0.0, 0.0, 0.0};
         const sl_status status = sli_order_mindeg(G, perm, &cost, a);
         if (status != SL_OK || ordering == SL_ORDERING_MINDEG ||
             0.5 * cost.flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n] ||
@@ -163,26 +163,27 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
 }
 
 /* Orders a graph as sli_order_graph does, and *other by minimum degree if that is wanted and the
- * graph irregular. Minimum degree comes first, as it takes a fraction of the time, and its tree may
- * show which of the two is better. In bipartite graphs dissection saves little: with PDE control in
- * the plane, 13 to 20 % of the paths for 14 to 20 % more fill. */
+ * graph irregular, but not thin. Minimum degree comes first, as it takes a fraction of the time,
+ * and its tree may show which of the two is better. In bipartite graphs dissection saves little:
+ * with PDE control in the plane, 13 to 20 % of the paths for 14 to 20 % more fill. */
 static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering ordering,
                                 const sl_options *opt, sl_int *perm, sl_int *scratch,
                                 sli_septree *septree, sli_order_choice *choice, sli_team *team,
                                 const sl_allocator *a) {
     const int is_irregular = choice->is_wanted && sli_order_is_irregular(G, is_peeled);
-    const int may_be_kkt = choice->is_wanted && is_peeled;
-    const int is_bipartite = may_be_kkt && sli_order_is_bipartite(G, perm, scratch);
-    const int is_expanding =
-        may_be_kkt && !is_irregular && !is_bipartite && sli_order_is_expanding(G, perm, scratch);
-    if (is_irregular || is_bipartite || is_expanding) {
+    const int may_expand = choice->is_wanted && (is_peeled || sli_order_is_dense(G));
+    const sli_graph_shape shape =
+        is_irregular || may_expand ? sli_order_shape(G, perm, scratch) : SLI_SHAPE_OTHER;
+    const int is_bipartite = choice->is_wanted && is_peeled && shape != SLI_SHAPE_THIN &&
+                             sli_order_is_bipartite(G, perm, scratch);
+    if ((is_irregular && shape != SLI_SHAPE_THIN) || is_bipartite || shape == SLI_SHAPE_EXPANDING) {
         sli_order_cost cost;
         const sl_status status = sli_order_mindeg(G, choice->other, &cost, a);
         const double share = status == SL_OK ? sli_order_path_share(&cost, G->n) : 0.0;
         if (status != SL_OK) {
             return status;
         }
-        if (sli_order_has_core(&cost) ||
+        if (sli_order_has_core(&cost) || sli_order_is_without_fill(&cost, G) ||
             (is_bipartite && share < SLI_ORDER_PATHS_SHORT)) {
             memcpy(perm, choice->other, (size_t)G->n * sizeof(sl_int));
             septree->count = 0;

@@ -397,26 +397,35 @@ static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
 
 /* What an order costs: whole numbers, but for quarters. */
 typedef struct sli_order_cost {
-    double flops;  /* about the operations of a factorization */
-    double paths;  /* entries of L on the paths from all rows to the roots */
-    double widest; /* rows below the tallest pivot */
+    double flops;   /* about the operations of a factorization */
+    double entries; /* of L */
+    double paths;   /* entries of L on the paths from all rows to the roots */
+    double widest;  /* rows below the tallest pivot */
+    double fronts;  /* entries of a triangle as tall as the tallest pivot on the path of each row */
 } sli_order_cost;
 
-/* below: n of scratch, for the rows of each subtree. */
+/* below: n of scratch, for the rows of each subtree; then for the tallest pivot of each path. */
 static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_cost *cost) {
     sl_int k;
     cost->flops = 0.25 * q->flops;
     cost->widest = q->widest;
-    cost->paths = 0.0;
+    cost->entries = cost->paths = cost->fronts = 0.0;
     memset(below, 0, (size_t)q->n * sizeof(sl_int));
     for (k = 0; k < q->pivots; k++) {
         const sl_int v = q->sequence[k], width = q->weight[v];
         const double height = 2.0 * q->node[v].degree + width;
         below[v] += width;
+        cost->entries += 0.5 * (height + 1) * width;
         cost->paths += 0.5 * height * width * below[v];
         if (q->node[v].into != -1) {
             below[q->node[v].into] += below[v];
         }
+    }
+    for (k = q->pivots - 1; k >= 0; k--) {
+        const sl_int v = q->sequence[k], up = q->node[v].into;
+        const sl_int height = q->node[v].degree + q->weight[v];
+        below[v] = up != -1 && below[up] > height ? below[up] : height;
+        cost->fronts += 0.5 * below[v] * below[v] * q->weight[v];
     }
 }
 
