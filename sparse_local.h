@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 96b47fdd3f1f310a
+ * FNV-1a of the lines after this comment, without the license: 9c65de01ea260d36
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -66,29 +66,29 @@
  *  20924 bilinear.h  21096 entries.h  21373 block.h  21608 reserve.h  21800 selected.h
  *  22010 selected_query.h  22112 region_choose.h  22339 region.h
  * (change: a factor that follows changes of its matrix)
- *  22587 update.h  22989 path.h  23091 rank.h  23483 edges.h  23637 choose.h  23887 pins_types.h
- *  23953 pins_nulls.h  24134 pins_capacitance.h  24400 pins_rows.h  24520 pins_balance.h
- *  24682 pins_held.h  24910 pins_choose.h  24976 pins_rebuild.h  25199 pins_matrix.h  25350 pins.h
- *  25612 pins_solve.h  25887 subset.h  26015 restrict_kept.h  26213 restrict_analysis.h
- *  26459 restrict_symbolic.h  26654 restrict.h  26886 edit_match.h  27085 edit_place.h
- *  27334 edit_separate.h  27648 edit_order.h  27803 edit_graph.h  27885 edit_join.h  28161 edit.h
- *  28324 edit_factor.h
+ *  22587 update_pivots.h  22758 update.h  22991 path.h  23093 rank.h  23485 edges.h  23639 choose.h
+ *  23889 pins_types.h  23955 pins_nulls.h  24136 pins_capacitance.h  24402 pins_rows.h
+ *  24522 pins_balance.h  24684 pins_held.h  24912 pins_choose.h  24978 pins_rebuild.h
+ *  25201 pins_matrix.h  25352 pins.h  25614 pins_solve.h  25889 subset.h  26017 restrict_kept.h
+ *  26215 restrict_analysis.h  26461 restrict_symbolic.h  26656 restrict.h  26888 edit_match.h
+ *  27087 edit_place.h  27336 edit_separate.h  27650 edit_order.h  27805 edit_graph.h
+ *  27887 edit_join.h  28163 edit.h  28326 edit_factor.h
  * (save: factors in files)
- *  28609 format.h  28906 decode.h  29054 check.h  29384 write.h  29693 load.h  29961 load_inverse.h
- *  30291 load_calls.h
+ *  28611 format.h  28908 decode.h  29056 check.h  29386 write.h  29695 load.h  29963 load_inverse.h
+ *  30293 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30490 batch_solve.h  30699 batch_factor.h  30900 batch_diagonal.h
+ *  30492 batch_solve.h  30701 batch_factor.h  30902 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31040 hermitian.h  31202 complex_rows.h
+ *  31042 hermitian.h  31204 complex_rows.h
  * (last: undefine every internal macro)
- *  31370 undef.h
+ *  31372 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31667 front.inl.h  31669 product.inl.h  32180 copy_rows.inl.h  32218 sweeps.inl.h
- *  32220 unit_triangle.inl.h  32257 two_rhs.inl.h  32431 small_supernode.inl.h
- *  32633 single_rhs.inl.h  32873 multi_rhs.inl.h  32892 complex_groups.inl.h
- *  33031 multi_rhs_small.inl.h  33203 multi_rhs_tiles.inl.h  33480 kernel_set.inl.h
- *  33482 complex_small.inl.h  33672 complex_rows.inl.h  33887 inverse_front.inl.h  34172 row.inl.h
- *  34202 change.inl.h  34445 interleave.inl.h  34579 lanes_undef.inl.h  34598 words_undef.inl.h
+ *  31669 front.inl.h  31671 product.inl.h  32182 copy_rows.inl.h  32220 sweeps.inl.h
+ *  32222 unit_triangle.inl.h  32259 two_rhs.inl.h  32433 small_supernode.inl.h
+ *  32635 single_rhs.inl.h  32875 multi_rhs.inl.h  32894 complex_groups.inl.h
+ *  33033 multi_rhs_small.inl.h  33205 multi_rhs_tiles.inl.h  33482 kernel_set.inl.h
+ *  33484 complex_small.inl.h  33674 complex_rows.inl.h  33889 inverse_front.inl.h  34174 row.inl.h
+ *  34204 change.inl.h  34447 interleave.inl.h  34581 lanes_undef.inl.h  34600 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -22584,7 +22584,7 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R) {
 }
 
 /* change: a factor that follows changes of its matrix */
-/* src/impl/change/update.h: one pass of a rank-k change: the columns on the paths of up to 8 vectors */
+/* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
 
 typedef struct sli_update {
   sl_factor *F;
@@ -22754,6 +22754,8 @@ static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, cons
   const sl_int done = F->kernels->change_ranks(u->state, l, columns, F->D + k, w, c);
   return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
 }
+
+/* src/impl/change/update.h: one pass of a rank-k change: the columns on the paths of up to 8 vectors */
 
 static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, double *w) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, step->width - first);

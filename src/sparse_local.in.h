@@ -169,6 +169,7 @@ extern "C" {
 #include "impl/inverse/region_choose.h"
 #include "impl/inverse/region.h"
 /* change: a factor that follows changes of its matrix */
+#include "impl/change/update_pivots.h"
 #include "impl/change/update.h"
 #include "impl/change/path.h"
 #include "impl/change/rank.h"

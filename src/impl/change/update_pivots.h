@@ -1,0 +1,201 @@
+/* update_pivots.h: the state of a rank-k change, and the pivots that it changes */
+#ifndef SLI_CHANGE_UPDATE_PIVOTS_H
+#define SLI_CHANGE_UPDATE_PIVOTS_H
+
+#include "../analysis/reach.h"
+#include "../factor/factor.h"
+#include "../solve/query.h"
+
+/* L D L' + W M W' = K N K' for W of n x k, column by column [DH01]. With the row y of W and the
+ * column l of L that belong to pivot d:
+ *
+ *     e = d + y' M y,  W := W - l y',  l := l + W b  with b = M y / e,  M := M - M y y' M / e.
+ *
+ * e is the new pivot. W loses row and column, and is nonzero on the paths of its columns only. M is
+ * kept as U diag(alpha) U' with a unit upper triangular U, and updated in this form [Bie76]: so its
+ * signs stay those of the changes, and rounding is that of k changes one after the other. */
+
+/* The state of a change. Vectors in a compact vector of their reach, interleaved. */
+typedef struct sli_update {
+    sl_factor *F;
+    const sl_csc *V; /* the vectors: columns of an n x count matrix in the rows of A */
+    const double *sigma;
+    double sign;     /* of all pivots, 1 or -1; 0: they have both signs */
+    int keeps_signs; /* a pivot that changes its sign is refused */
+    int is_trial;    /* pivots are checked, and not changed */
+    int is_tried;    /* the trial of this pass has succeeded */
+    sl_int lanes;    /* that hold the vectors of the pass */
+    int kind;
+    double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
+    double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
+    double fall;   /* by at most this much the pass changes the largest |a| */
+    double least;  /* a smaller pivot may be null, and is refused where it was larger */
+    double top;    /* the largest new pivot */
+    double entry;  /* the largest |a| that is known of the columns of the pass */
+    double growth; /* the largest growth of rows in them */
+    sli_reach R;
+    sl_int pivot; /* the pivot that was refused, and its value */
+    double value;
+
+    sli_ranks *state;
+    sli_step *steps; /* of the reach */
+    sl_int *rows;
+    double *x;               /* lanes for each column of the reach */
+    double *gain;            /* for each column: what the pass adds to its sum of magnitudes */
+    double *local;           /* [tile][lane][8]: the rows of the current step */
+    double *c;               /* 2 lanes for each column of the current step: y and -b */
+    double *other, *b;       /* of one vector: the rows of the next step, and b of the columns */
+    double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
+} sli_update;
+
+/* The kernel for passes of `count` vectors. One vector takes another way (path.h) where all pivots
+ * have one sign. */
+SLI_INLINE int sli_update_kind(sl_int count) {
+    return count == 1 ? SLI_NRHS_2 : sli_lanes_kind(count);
+}
+
+static void sli_update_layout(sli_update *u, sli_block *b, const sli_reach *R, sl_int lanes,
+                              int has_trial) {
+    const uint64_t many = (uint64_t)lanes;
+    u->state = SLI_TAKE(b, sli_ranks, 1);
+    u->steps = SLI_TAKE(b, sli_step, R->count);
+    u->rows = SLI_TAKE(b, sl_int, R->n_rows);
+    u->x = SLI_TAKE(b, double, many *(uint64_t)R->columns);
+    u->gain = SLI_TAKE(b, double, R->columns);
+    u->local = SLI_TAKE(b, double, many *SLI_TILE *((uint64_t)sli_tiles(R->tallest) + 4));
+    u->c = SLI_TAKE(b, double, 2 * many * SLI_TILE * (uint64_t)sli_tiles(R->widest));
+    u->other = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->tallest));
+    u->b = SLI_TAKE(b, double, SLI_TILE *(uint64_t)sli_tiles(R->widest));
+    u->trial = SLI_TAKE(b, double, has_trial ? many *(uint64_t)R->columns : 0);
+    u->scratch =
+        SLI_TAKE(b, double, has_trial ? sli_sweep_scratch(R->tallest, R->widest, lanes) : 0);
+}
+
+/* The sum of the magnitudes |a_kk| + sum |l_kj d_j l_kj| that pivot k was computed from, at most.
+ * O(descendants). */
+static double sli_update_magnitude(const sl_factor *F, sl_int k) {
+    const sl_symbolic *S = F->S;
+    const sl_int own = S->super_of[k];
+    double sum = 0.0;
+    sl_int d, j;
+    for (d = own; d >= S->first_descendant[own];) {
+        const sli_step *step = &S->steps[d];
+        const sl_int *rows = S->rows + S->rows_begin[d];
+        const sl_int at = d == own ? 0 : sli_lower_bound(rows, step->below, k);
+        const sl_int r = d == own ? k - step->column : step->width + at;
+        if (d != own && at == step->below) { /* no descendant has a row there */
+            d = S->first_descendant[d] - 1;
+            continue;
+        }
+        for (j = 0; j < sli_min(r, step->width) && (d == own || rows[at] == k); j++) {
+            const double l = sli_entry(F, step->panel + sli_panel_at(step->width, r, j));
+            sum += fabs(l * F->D[step->column + j] * l);
+        }
+        d--;
+    }
+    return 2.0 * sum + fabs(F->D[k]);
+}
+
+/* Is pivot k, now d, null? magnitude: of its change alone. */
+static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
+    const double tolerance = F->rule.null_tolerance;
+    const double known = F->extents[F->S->super_of[k]].magnitude;
+    if (sli_is_null(d, magnitude, tolerance)) {
+        return 1;
+    }
+    return sli_is_null(d, magnitude + known, tolerance) &&
+           sli_is_null(d, magnitude + sli_update_magnitude(F, k), tolerance);
+}
+
+/* Counts a pivot that changed from d to e. */
+SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
+    const double size = fabs(e);
+    info->positive += (e > 0.0) - (d > 0.0);
+    info->negative += (e < 0.0) - (d < 0.0);
+    info->pivot_min = size < info->pivot_min ? size : info->pivot_min;
+    info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
+}
+
+/* Where a pivot grows, what is added to a row of L cancels the row: the error is that of the old
+ * row, times the new pivot. An entry of the row is at most the root of the largest |l d l| over
+ * |d|, which is not 0: a factor with null pivots is not changed. */
+static double sli_update_cancelled(const sl_factor *F, double d, double e) {
+    const sl_factor_info *info = &F->stats.factor;
+    const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
+    return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
+}
+
+/* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
+static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
+    sl_factor *F = u->F;
+    const double d = F->D[k];
+    u->value = e;
+    u->pivot = k;
+    if (!sli_is_finite(e)) {
+        return SL_ERR_NOT_FINITE;
+    }
+    if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
+        (fabs(e) < fabs(d) &&
+         (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
+        return SL_ERR_PIVOT;
+    }
+    if (!u->is_trial) {
+        u->most = fmax(u->most, fmax(magnitude, sli_update_cancelled(F, d, e)));
+        u->top = fabs(e) > u->top ? fabs(e) : u->top;
+        sli_update_count(&F->stats.factor, d, e);
+        F->D[k] = e;
+    }
+    return SL_OK;
+}
+
+/* Takes `count` pivots from k on, as a kernel computed them. magnitudes: the sums of magnitudes;
+ * NULL: of one vector. Nearly always the extremes show that all of them can be taken. */
+static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, const double *e,
+                                     const double *magnitudes) {
+    sl_factor *F = u->F;
+    sl_factor_info *info = &F->stats.factor;
+    const double known = F->extents[F->S->super_of[k]].magnitude;
+    double *D = F->D + k, least = DBL_MAX, top = 0.0, most = 0.0;
+    int are_usual = 1, shrink = 0;
+    sl_status status = SL_OK;
+    sl_int j;
+    for (j = 0; j < count; j++) {
+        const double d = D[j], size = fabs(e[j]), before = fabs(d);
+        const double magnitude = magnitudes != NULL ? magnitudes[j] : before + fabs(e[j] - d);
+        are_usual &= (size <= 4.0 * before) & ((e[j] < 0.0) == (d < 0.0));
+        shrink |= size < before;
+        least = size < least ? size : least;
+        top = size > top ? size : top;
+        most = magnitude > most ? magnitude : most;
+    }
+    if (are_usual && least >= DBL_MIN && top <= DBL_MAX &&
+        (!shrink || u->is_tried ||
+         (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
+        if (!u->is_trial) {
+            memcpy(D, e, (size_t)count * sizeof *D);
+            info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
+            info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
+            u->top = top > u->top ? top : u->top;
+            u->most = most > u->most ? most : u->most;
+        }
+        return SL_OK;
+    }
+    for (j = 0; j < count && status == SL_OK; j++) {
+        const double d = D[j], size = fabs(e[j]);
+        const double magnitude = magnitudes != NULL ? magnitudes[j] : fabs(d) + fabs(e[j] - d);
+        if (e[j] != d || magnitude != size) {
+            status = sli_update_take(u, k + j, e[j], magnitude);
+        }
+    }
+    return status;
+}
+
+/* Changes the pivots of `columns` columns from k on. l, w: as for the kernel. Writes their c. */
+static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
+                                   const double *w, double *c) {
+    sl_factor *F = u->F;
+    const sl_int done = F->kernels->change_ranks(u->state, l, columns, F->D + k, w, c);
+    return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
+}
+
+#endif
