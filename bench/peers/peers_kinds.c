@@ -186,7 +186,7 @@ static int measure(job *j) {
     }
     for (int round = 0; round < MAX_ROUNDS && j->passed; round++) {
         for (int c = 0; c < CONTENDERS; c++) {
-            if (round < MIN_CALLS || j->spent[c] < 2 * j->run->seconds) {
+            if (round < MIN_CALLS || j->spent[c] < 1.5 * j->run->seconds) {
                 call(j, c, 0);
             }
         }
