@@ -22,7 +22,7 @@ extern const char *const kind_group_names[KIND_GROUPS];
 const char *kind_name(int k);
 kind_group kind_group_of(int k);
 
-/** The lower triangle of system k, positive definite, the same on every machine; release with
+/** The lower triangle of system k, positive definite, the same in every run; release with
  *  sl_matrix_free. It is the Laplacian of a graph plus 0.01, or a k-harmonic system of a grid. */
 sl_matrix *kind_matrix(int k);
 
