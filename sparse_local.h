@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9c65de01ea260d36
+ * FNV-1a of the lines after this comment, without the license: 0a2f610b1702ca90
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,61 +34,61 @@
  *   3966 sort.h   4030 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
  *   4226 panel.h   4251 step.h   4330 pivot_rule.h   4404 front.h   4465 pairs.h
- *   4672 inverse_front.h   4744 table.h   4793 simd.h   4889 simd_scalar_single.h
- *   4933 simd_scalar.h   5059 simd_avx2_single.h   5111 simd_avx2.h   5337 simd_avx512_single.h
- *   5391 simd_avx512.h   5557 simd_neon_single.h   5597 simd_neon.h   5817 dispatch.h
+ *   4672 inverse_front.h   4744 table.h   4793 simd.h   4890 simd_scalar_single.h
+ *   4934 simd_scalar.h   5060 simd_avx2_single.h   5112 simd_avx2.h   5338 simd_avx512_single.h
+ *   5393 simd_avx512.h   5560 simd_neon_single.h   5600 simd_neon.h   5820 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5910 csc.h   6053 csc_build.h   6187 csc64.h   6258 csc_triangle.h   6323 csc_products.h
- *   6440 permute.h   6506 sum.h   6588 output_file.h   6797 text_reader.h   6978 matrix_market.h
+ *   5913 csc.h   6056 csc_build.h   6190 csc64.h   6261 csc_triangle.h   6326 csc_products.h
+ *   6443 permute.h   6509 sum.h   6591 output_file.h   6800 text_reader.h   6981 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7246 graph.h   7363 contract.h   7544 coarsen.h   7708 labels.h   7934 subgraph.h   8128 heap.h
- *   8190 bisect.h   8398 separator.h   8660 mindeg.h   8843 dissection.h   8952 weigh.h
- *   9014 dissect.h   9305 tree_cost.h   9368 levelset.h   9453 geometric.h   9628 cells.h
- *   9808 septree.h   9884 metis.h  10033 metis_refined.h  10148 nd.h  10356 compress.h
- *  10477 levels.h  10530 border.h  10583 forest.h  10670 peel.h  10870 quotient.h
- *  11296 graph_kind.h  11385 order.h
+ *   7249 graph.h   7366 contract.h   7547 coarsen.h   7711 labels.h   7937 subgraph.h   8131 heap.h
+ *   8193 bisect.h   8401 separator.h   8663 mindeg.h   8846 dissection.h   8955 weigh.h
+ *   9017 dissect.h   9308 tree_cost.h   9371 levelset.h   9456 geometric.h   9631 cells.h
+ *   9811 septree.h   9887 metis.h  10036 metis_refined.h  10151 nd.h  10359 compress.h
+ *  10480 levels.h  10533 border.h  10586 forest.h  10673 peel.h  10873 quotient.h
+ *  11299 graph_kind.h  11388 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11711 symbolic_types.h  11748 etree.h  11945 supernodes.h  12203 pattern.h  12288 structure.h
- *  12556 schedule.h  12836 symbolic.h  13311 reach.h
+ *  11714 symbolic_types.h  11751 etree.h  11948 supernodes.h  12206 pattern.h  12291 structure.h
+ *  12559 schedule.h  12839 symbolic.h  13314 reach.h
  * (factor: the numbers of L and D)
- *  13587 factor_types.h  13792 panel_load.h  13905 pivot_check.h  14021 storage.h
- *  14159 pivot_search.h  14505 pivoted.h  14574 scatter.h  14732 uplooking.h  14804 null_product.h
- *  15008 null_dense.h  15085 null_basis.h  15405 null_vectors.h  15547 multifrontal.h
- *  15741 gather.h  15789 kept.h  15959 front_tasks.h  16302 null_center.h  16426 nullspace.h
- *  16633 growth.h  16711 factor_setup.h  17051 factor.h  17266 leftlooking.h  17420 factor_query.h
- *  17555 combination.h
+ *  13590 factor_types.h  13795 panel_load.h  13908 pivot_check.h  14024 storage.h
+ *  14162 pivot_search.h  14508 pivoted.h  14577 scatter.h  14735 uplooking.h  14807 null_product.h
+ *  15011 null_dense.h  15088 null_basis.h  15408 null_vectors.h  15550 multifrontal.h
+ *  15744 gather.h  15792 kept.h  15962 front_tasks.h  16305 null_center.h  16429 nullspace.h
+ *  16636 growth.h  16714 factor_setup.h  17054 factor.h  17269 leftlooking.h  17423 factor_query.h
+ *  17558 combination.h
  * (solve: full and local solves)
- *  17616 region_types.h  17720 work.h  17820 query.h  18038 singular.h  18298 backward.h
- *  18328 sweep_tasks.h  18659 sweep.h  18867 compile.h  19060 plan.h  19167 local.h  19319 parts.h
- *  19608 refine.h  19787 refine_local.h  20003 rcond.h  20162 defects.h
+ *  17619 region_types.h  17723 work.h  17823 query.h  18041 singular.h  18301 backward.h
+ *  18331 sweep_tasks.h  18662 sweep.h  18870 compile.h  19063 plan.h  19170 local.h  19322 parts.h
+ *  19611 refine.h  19790 refine_local.h  20006 rcond.h  20165 defects.h
  * (inverse: entries of the inverse, regions)
- *  20221 traversal.h  20470 traversal_run.h  20663 row_sets.h  20697 unit_vectors.h
- *  20924 bilinear.h  21096 entries.h  21373 block.h  21608 reserve.h  21800 selected.h
- *  22010 selected_query.h  22112 region_choose.h  22339 region.h
+ *  20224 traversal.h  20473 traversal_run.h  20666 row_sets.h  20700 unit_vectors.h
+ *  20927 bilinear.h  21099 entries.h  21376 block.h  21611 reserve.h  21803 selected.h
+ *  22013 selected_query.h  22115 region_choose.h  22342 region.h
  * (change: a factor that follows changes of its matrix)
- *  22587 update_pivots.h  22758 update.h  22991 path.h  23093 rank.h  23485 edges.h  23639 choose.h
- *  23889 pins_types.h  23955 pins_nulls.h  24136 pins_capacitance.h  24402 pins_rows.h
- *  24522 pins_balance.h  24684 pins_held.h  24912 pins_choose.h  24978 pins_rebuild.h
- *  25201 pins_matrix.h  25352 pins.h  25614 pins_solve.h  25889 subset.h  26017 restrict_kept.h
- *  26215 restrict_analysis.h  26461 restrict_symbolic.h  26656 restrict.h  26888 edit_match.h
- *  27087 edit_place.h  27336 edit_separate.h  27650 edit_order.h  27805 edit_graph.h
- *  27887 edit_join.h  28163 edit.h  28326 edit_factor.h
+ *  22590 update_pivots.h  22761 update.h  22994 path.h  23096 rank.h  23488 edges.h  23642 choose.h
+ *  23892 pins_types.h  23958 pins_nulls.h  24139 pins_capacitance.h  24405 pins_rows.h
+ *  24525 pins_balance.h  24687 pins_held.h  24915 pins_choose.h  24981 pins_rebuild.h
+ *  25204 pins_matrix.h  25355 pins.h  25617 pins_solve.h  25892 subset.h  26020 restrict_kept.h
+ *  26218 restrict_analysis.h  26464 restrict_symbolic.h  26659 restrict.h  26891 edit_match.h
+ *  27090 edit_place.h  27339 edit_separate.h  27653 edit_order.h  27808 edit_graph.h
+ *  27890 edit_join.h  28166 edit.h  28329 edit_factor.h
  * (save: factors in files)
- *  28611 format.h  28908 decode.h  29056 check.h  29386 write.h  29695 load.h  29963 load_inverse.h
- *  30293 load_calls.h
+ *  28614 format.h  28911 decode.h  29059 check.h  29389 write.h  29698 load.h  29966 load_inverse.h
+ *  30296 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30492 batch_solve.h  30701 batch_factor.h  30902 batch_diagonal.h
+ *  30495 batch_solve.h  30704 batch_factor.h  30905 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31042 hermitian.h  31204 complex_rows.h
+ *  31045 hermitian.h  31207 complex_rows.h
  * (last: undefine every internal macro)
- *  31372 undef.h
+ *  31375 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31669 front.inl.h  31671 product.inl.h  32182 copy_rows.inl.h  32220 sweeps.inl.h
- *  32222 unit_triangle.inl.h  32259 two_rhs.inl.h  32433 small_supernode.inl.h
- *  32635 single_rhs.inl.h  32875 multi_rhs.inl.h  32894 complex_groups.inl.h
- *  33033 multi_rhs_small.inl.h  33205 multi_rhs_tiles.inl.h  33482 kernel_set.inl.h
- *  33484 complex_small.inl.h  33674 complex_rows.inl.h  33889 inverse_front.inl.h  34174 row.inl.h
- *  34204 change.inl.h  34447 interleave.inl.h  34581 lanes_undef.inl.h  34600 words_undef.inl.h
+ *  31673 front.inl.h  31675 product.inl.h  32195 copy_rows.inl.h  32233 sweeps.inl.h
+ *  32235 unit_triangle.inl.h  32272 two_rhs.inl.h  32446 small_supernode.inl.h
+ *  32648 single_rhs.inl.h  32888 multi_rhs.inl.h  32907 complex_groups.inl.h
+ *  33046 multi_rhs_small.inl.h  33218 multi_rhs_tiles.inl.h  33495 kernel_set.inl.h
+ *  33497 complex_small.inl.h  33687 complex_rows.inl.h  33902 inverse_front.inl.h  34187 row.inl.h
+ *  34217 change.inl.h  34460 interleave.inl.h  34594 lanes_undef.inl.h  34613 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4874,6 +4874,7 @@ typedef struct sli_kernels {
   SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
+#define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)
@@ -5341,6 +5342,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #undef SLV_SINGLE
 #define SLV_SINGLE 1
 #define SLV_NAME(f) sli_single_##f##_avx512
+#define SLV_NAME_PIVOTS(f) sli_single_##f##_avx2
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 
 #define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
@@ -5397,6 +5399,7 @@ SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d k
 #define SLV_NAME_4(f) sli_##f##4_avx2
 #define SLV_NAME_2(f) sli_##f##2_avx2
 #define SLV_NAME_SMALL(f) sli_##f##_avx2
+#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
@@ -31470,6 +31473,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLV_COMPLEX
 #undef SLV_PARTS
 #undef SLV_FRONT
+#undef SLV_FRONT_PIVOTS
 #undef SLV_VALUE
 #undef SLV_OF
 #undef SLV_LEAST
@@ -31988,6 +31992,12 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLV_STORE(update + SLI_TILE * (k), a##k) \
   }
 
+#if !defined(SLV_NAME_PIVOTS)
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#if defined(SLV_OWN_PIVOTS)
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
                         SLV_VALUE *reciprocals) {
   const sl_int first = SLI_TILE * c, columns = sli_min(SLI_TILE, f->width - first) / SLV_PARTS;
@@ -32022,6 +32032,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
     reciprocal[0] = 0;
   }
 }
+#endif
 
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
                         const SLV_VALUE *reciprocals) {
@@ -32096,9 +32107,11 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
     if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
       sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
     } else {
-      SLV_FRONT(tile_pivots)(f, c, reciprocals);
+      SLV_FRONT_PIVOTS(tile_pivots)(f, c, reciprocals);
     }
-    SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
+    if (c + 1 < c1) {
+      SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
+    }
   }
 }
 
@@ -34609,6 +34622,8 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_NAME_2
 #undef SLV_NAME_SMALL
 #undef SLV_OWN_SMALL
+#undef SLV_NAME_PIVOTS
+#undef SLV_OWN_PIVOTS
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE

@@ -99,6 +99,7 @@
 #undef SLV_COMPLEX
 #undef SLV_PARTS
 #undef SLV_FRONT
+#undef SLV_FRONT_PIVOTS
 #undef SLV_VALUE
 #undef SLV_OF
 #undef SLV_LEAST

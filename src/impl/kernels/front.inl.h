@@ -135,6 +135,12 @@
         SLV_STORE(update + SLI_TILE * (k), a##k) \
     }
 
+#if !defined(SLV_NAME_PIVOTS)
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#if defined(SLV_OWN_PIVOTS)
 /* The pivots of column tile c, 8 or fewer, and the update matrix of a small front. The columns
  * before it are already applied. */
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
@@ -172,6 +178,7 @@ SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
         reciprocal[0] = 0;
     }
 }
+#endif
 
 /* L in column tile c of row tiles t0 .. t1-1, all below its pivots. */
 SLV_FUNCTION static void SLV_FRONT(tile_rows)(const sli_front *f, sl_int c, sl_int t0, sl_int t1,
@@ -248,9 +255,11 @@ SLV_FUNCTION static void SLV_FRONT(pivots)(const sli_front *f, sl_int c0, void *
         if (!SLV_COMPLEX && sli_tile_has_pairs(f, c)) {
             sli_pair_tile(f, c, f->reciprocals + 3 * SLI_TILE * (ptrdiff_t)(c - c0));
         } else {
-            SLV_FRONT(tile_pivots)(f, c, reciprocals);
+            SLV_FRONT_PIVOTS(tile_pivots)(f, c, reciprocals);
         }
-        SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
+        if (c + 1 < c1) {
+            SLV_FRONT(tile_rows)(f, c, c + 1, c1, reciprocals);
+        }
     }
 }
 

@@ -15,6 +15,7 @@
  *  SLV_NAME_2(f)          the same of a complex sweep for 2 right-hand sides
  *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
  *                         columns, if that of another instruction set is used
+ *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots, in the same case
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a
@@ -177,6 +178,7 @@
     SLI_BY_TYPE(SLI_PACK_PAIRS_, SLV_SINGLE)(l, E, j, length, B)
 #define SLV_PARTS (1 + SLV_COMPLEX)
 #define SLV_FRONT(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME, f)
+#define SLV_FRONT_PIVOTS(f) SLI_BY_TYPE(SLI_FRONT_, SLV_COMPLEX)(SLV_NAME_PIVOTS, f)
 #define SLV_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME, f)
 #define SLV_SWEEP_SMALL(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLV_NAME_SMALL, f)
 #define SLW_SWEEP(f) SLI_BY_TYPE(SLI_SWEEP_, SLV_SINGLE)(SLW_NAME, f)

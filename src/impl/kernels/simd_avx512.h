@@ -17,6 +17,9 @@
 /* One right-hand side in supernodes of at most 8 columns gains nothing from longer registers: with
  * AVX-512 here, solves with 400 to 3600 unknowns took 1.03 to 1.08 of the time. */
 #define SLV_NAME_SMALL(f) sli_##f##_avx2
+/* The columns of a tile of pivots wait for each other's divisions, and a longer register divides
+ * half as fast. */
+#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
 #define SLV_ISA SL_ISA_AVX512
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 #define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)

@@ -2,6 +2,7 @@
 #ifndef SLI_KERNELS_SIMD_AVX512_SINGLE_H
 #define SLI_KERNELS_SIMD_AVX512_SINGLE_H
 
+#include "simd_avx2_single.h"
 #include "simd.h"
 #include "table.h"
 
@@ -13,6 +14,7 @@
 #undef SLV_SINGLE
 #define SLV_SINGLE 1
 #define SLV_NAME(f) sli_single_##f##_avx512
+#define SLV_NAME_PIVOTS(f) sli_single_##f##_avx2
 #define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
 
 /* Half a register, as the instructions for it take doubles. */

@@ -10,6 +10,8 @@
 #undef SLV_NAME_2
 #undef SLV_NAME_SMALL
 #undef SLV_OWN_SMALL
+#undef SLV_NAME_PIVOTS
+#undef SLV_OWN_PIVOTS
 #undef SLV_ISA
 #undef SLV_FUNCTION
 #undef SLV_DECLARE
