@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0a2f610b1702ca90
+ * FNV-1a of the lines after this comment, without the license: e34c6baec15acac2
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -51,44 +51,44 @@
  *  11714 symbolic_types.h  11751 etree.h  11948 supernodes.h  12206 pattern.h  12291 structure.h
  *  12559 schedule.h  12839 symbolic.h  13314 reach.h
  * (factor: the numbers of L and D)
- *  13590 factor_types.h  13795 panel_load.h  13908 pivot_check.h  14024 storage.h
- *  14162 pivot_search.h  14508 pivoted.h  14577 scatter.h  14735 uplooking.h  14807 null_product.h
- *  15011 null_dense.h  15088 null_basis.h  15408 null_vectors.h  15550 multifrontal.h
- *  15744 gather.h  15792 kept.h  15962 front_tasks.h  16305 null_center.h  16429 nullspace.h
- *  16636 growth.h  16714 factor_setup.h  17054 factor.h  17269 leftlooking.h  17423 factor_query.h
- *  17558 combination.h
+ *  13590 factor_types.h  13795 panel_load.h  13908 pivot_check.h  14027 storage.h
+ *  14165 pivot_search.h  14511 pivoted.h  14580 scatter.h  14738 uplooking.h  14810 null_product.h
+ *  15014 null_dense.h  15091 null_basis.h  15411 null_vectors.h  15553 multifrontal.h
+ *  15800 gather.h  15848 kept.h  16018 front_tasks.h  16361 null_center.h  16485 nullspace.h
+ *  16692 growth.h  16770 factor_setup.h  17110 factor.h  17325 leftlooking.h  17479 factor_query.h
+ *  17614 combination.h
  * (solve: full and local solves)
- *  17619 region_types.h  17723 work.h  17823 query.h  18041 singular.h  18301 backward.h
- *  18331 sweep_tasks.h  18662 sweep.h  18870 compile.h  19063 plan.h  19170 local.h  19322 parts.h
- *  19611 refine.h  19790 refine_local.h  20006 rcond.h  20165 defects.h
+ *  17675 region_types.h  17779 work.h  17879 query.h  18097 singular.h  18357 backward.h
+ *  18387 sweep_tasks.h  18718 sweep.h  18926 compile.h  19119 plan.h  19226 local.h  19378 parts.h
+ *  19667 refine.h  19846 refine_local.h  20062 rcond.h  20221 defects.h
  * (inverse: entries of the inverse, regions)
- *  20224 traversal.h  20473 traversal_run.h  20666 row_sets.h  20700 unit_vectors.h
- *  20927 bilinear.h  21099 entries.h  21376 block.h  21611 reserve.h  21803 selected.h
- *  22013 selected_query.h  22115 region_choose.h  22342 region.h
+ *  20280 traversal.h  20529 traversal_run.h  20722 row_sets.h  20756 unit_vectors.h
+ *  20983 bilinear.h  21155 entries.h  21432 block.h  21667 reserve.h  21859 selected.h
+ *  22069 selected_query.h  22171 region_choose.h  22398 region.h
  * (change: a factor that follows changes of its matrix)
- *  22590 update_pivots.h  22761 update.h  22994 path.h  23096 rank.h  23488 edges.h  23642 choose.h
- *  23892 pins_types.h  23958 pins_nulls.h  24139 pins_capacitance.h  24405 pins_rows.h
- *  24525 pins_balance.h  24687 pins_held.h  24915 pins_choose.h  24981 pins_rebuild.h
- *  25204 pins_matrix.h  25355 pins.h  25617 pins_solve.h  25892 subset.h  26020 restrict_kept.h
- *  26218 restrict_analysis.h  26464 restrict_symbolic.h  26659 restrict.h  26891 edit_match.h
- *  27090 edit_place.h  27339 edit_separate.h  27653 edit_order.h  27808 edit_graph.h
- *  27890 edit_join.h  28166 edit.h  28329 edit_factor.h
+ *  22646 update_pivots.h  22817 update.h  23050 path.h  23152 rank.h  23544 edges.h  23698 choose.h
+ *  23948 pins_types.h  24014 pins_nulls.h  24195 pins_capacitance.h  24461 pins_rows.h
+ *  24581 pins_balance.h  24743 pins_held.h  24971 pins_choose.h  25037 pins_rebuild.h
+ *  25260 pins_matrix.h  25411 pins.h  25673 pins_solve.h  25948 subset.h  26076 restrict_kept.h
+ *  26274 restrict_analysis.h  26520 restrict_symbolic.h  26715 restrict.h  26947 edit_match.h
+ *  27146 edit_place.h  27395 edit_separate.h  27709 edit_order.h  27864 edit_graph.h
+ *  27946 edit_join.h  28222 edit.h  28385 edit_factor.h
  * (save: factors in files)
- *  28614 format.h  28911 decode.h  29059 check.h  29389 write.h  29698 load.h  29966 load_inverse.h
- *  30296 load_calls.h
+ *  28670 format.h  28967 decode.h  29115 check.h  29445 write.h  29754 load.h  30022 load_inverse.h
+ *  30352 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30495 batch_solve.h  30704 batch_factor.h  30905 batch_diagonal.h
+ *  30551 batch_solve.h  30760 batch_factor.h  30961 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31045 hermitian.h  31207 complex_rows.h
+ *  31101 hermitian.h  31263 complex_rows.h
  * (last: undefine every internal macro)
- *  31375 undef.h
+ *  31431 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31673 front.inl.h  31675 product.inl.h  32195 copy_rows.inl.h  32233 sweeps.inl.h
- *  32235 unit_triangle.inl.h  32272 two_rhs.inl.h  32446 small_supernode.inl.h
- *  32648 single_rhs.inl.h  32888 multi_rhs.inl.h  32907 complex_groups.inl.h
- *  33046 multi_rhs_small.inl.h  33218 multi_rhs_tiles.inl.h  33495 kernel_set.inl.h
- *  33497 complex_small.inl.h  33687 complex_rows.inl.h  33902 inverse_front.inl.h  34187 row.inl.h
- *  34217 change.inl.h  34460 interleave.inl.h  34594 lanes_undef.inl.h  34613 words_undef.inl.h
+ *  31729 front.inl.h  31731 product.inl.h  32251 copy_rows.inl.h  32289 sweeps.inl.h
+ *  32291 unit_triangle.inl.h  32328 two_rhs.inl.h  32502 small_supernode.inl.h
+ *  32704 single_rhs.inl.h  32944 multi_rhs.inl.h  32963 complex_groups.inl.h
+ *  33102 multi_rhs_small.inl.h  33274 multi_rhs_tiles.inl.h  33551 kernel_set.inl.h
+ *  33553 complex_small.inl.h  33743 complex_rows.inl.h  33958 inverse_front.inl.h  34243 row.inl.h
+ *  34273 change.inl.h  34516 interleave.inl.h  34650 lanes_undef.inl.h  34669 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13997,7 +13997,10 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
   sl_int k;
   info.positive = info.negative = info.null = info.regularized = info.weak = 0;
   info.pivot_min = info.pivot_max = 0.0;
-  for (k = 0; k < count; k++) {
+  for (k = 0; k < count && F->E == NULL && !F->rule.replaces; k++) {
+    sli_count_pivot(&info, F->D[k]);
+  }
+  for (; k < count; k++) {
     double values[2] = {F->D[k], 0.0};
     int v, n_values = 1;
     if (sli_is_skipped(F, k)) {
@@ -15566,12 +15569,14 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
   double *magnitude = F->magnitude + (ptrdiff_t)worker * rows;
   double *reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
   sli_front f;
-  memset(&f, 0, sizeof f);
+  f.is_complex = f.is_small = 0;
+  f.pairs = NULL;
   f.width = step->width;
   f.below = step->below;
   f.rule = &F->rule;
   f.column = step->column;
   if (sli_is_single(F)) {
+    f.panel = f.update = f.D = f.magnitude = f.E = f.reciprocals = NULL;
     f.single.panel = (float *)F->values + step->panel;
     f.single.update = (float *)sli_update_matrix(F, s, worker);
     f.single.magnitude = (float *)(void *)magnitude;
@@ -15579,6 +15584,8 @@ static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
     f.single.reciprocals = (float *)(void *)reciprocals;
     return f;
   }
+  f.single.panel = f.single.update = f.single.D = NULL;
+  f.single.magnitude = f.single.reciprocals = NULL;
   f.panel = sli_front_panel(F, s, worker);
   f.update = (double *)sli_update_matrix(F, s, worker);
   f.D = F->D + step->column;
@@ -15613,26 +15620,41 @@ static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
   }
 }
 
+SLI_INLINE void sli_front_clear_small(const sli_front *f) {
+  double *update = f->update + SLI_TILE * (ptrdiff_t)f->width;
+  sl_int k;
+  for (k = 0; k < f->width; k++) {
+    memset(f->panel + SLI_TILE * (ptrdiff_t)k, 0, SLI_TILE * sizeof(double));
+  }
+  for (k = 0; k < f->below; k++) {
+    memset(update + SLI_TILE * (ptrdiff_t)k, 0, SLI_TILE * sizeof(double));
+  }
+}
+
 static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
                 sli_failure *failure) {
   const sl_status status = sli_panel_load(F, from, s, f->panel, f->single.panel, failure);
-  const sl_int rows = SLI_TILE * sli_front_tiles(f);
-  sl_int k;
+  const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
+  sl_int k, r;
   if (f->panel == NULL) {
     memset(f->single.magnitude, 0, (size_t)rows * sizeof(float));
-    for (k = 0; k < f->width; k++) {
-      f->single.magnitude[k] = (float)fabs(f->single.panel[sli_panel_at(f->width, k, k)]);
+    for (k = 0; k < w; k++) {
+      f->single.magnitude[k] = (float)fabs(f->single.panel[sli_panel_at(w, k, k)]);
     }
     return status;
   }
-  for (k = 0; k < f->width; k++) {
-    const sl_off at = sli_panel_at(f->width, k, k);
-    f->magnitude[k] = !f->is_complex ? fabs(f->panel[at])
-              : k % 2 == 0   ? fabs(f->panel[sli_half_at(at)])
-                     : 0.0;
-  }
-  for (; k < rows; k++) {
+  for (k = 0; k < rows; k++) {
     f->magnitude[k] = 0.0;
+  }
+  for (k = 0; k < w && f->is_complex; k += 2) {
+    f->magnitude[k] = fabs(f->panel[sli_half_at(sli_panel_at(w, k, k))]);
+  }
+  for (k = 0; k < w && !f->is_complex; k += SLI_TILE) {
+    const double *tile = f->panel + sli_panel_at(w, k, k);
+    const sl_int columns = sli_min(SLI_TILE, w - k);
+    for (r = 0; r < columns; r++) {
+      f->magnitude[k + r] = fabs(tile[(SLI_TILE + 1) * r]);
+    }
   }
   return status;
 }
@@ -15648,10 +15670,9 @@ static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s,
     const void *from = sli_update_matrix(F, c, worker);
     const sl_off magnitudes = child->width % SLI_TILE +
                   sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const sl_int first =
-      t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
-    const sl_int last = t1 == tiles ? child->below
-                    : sli_lower_bound(relative, child->below, SLI_TILE * t1);
+    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+    const sl_int last =
+      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
     sli_front_kernels_of(F)->assemble(f, from, child->width % SLI_TILE, relative, child->below,
                       first, last);
     if (f->panel == NULL) {
@@ -15684,19 +15705,47 @@ static void sli_front_hand_over(const sli_front *f) {
       to[k / 2] = from[k] + from[k + 1];
     }
   } else {
-    memcpy(f->update + sli_triangle_offset(tiles), f->magnitude + first, rows * sizeof(double));
+    double *to = f->update + sli_triangle_offset(tiles);
+    const double *from = f->magnitude + first;
+    size_t k;
+    for (k = 0; k < rows; k++) {
+      to[k] = from[k];
+    }
   }
+}
+
+static int sli_front_is_regular(const sl_factor *F, const sli_front *f, sl_int s) {
+  const double tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
+  const sl_int w = f->width;
+  double most = 0.0;
+  sl_int k, at = -1;
+  int is_regular = 1;
+  if (f->panel == NULL || f->pairs != NULL || F->rule.replaces) {
+    return 0;
+  }
+  for (k = 0; k < w; k++) {
+    const double size = fabs(f->D[k]), magnitude = f->magnitude[k];
+    is_regular &= (size > tolerance * magnitude) & (size <= DBL_MAX);
+    at = magnitude > most ? f->column + k : at;
+    most = magnitude > most ? magnitude : most;
+  }
+  if (is_regular) {
+    F->extents[s].magnitude = most;
+    F->extents[s].pivot = at;
+  }
+  return is_regular;
 }
 
 static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
                  sli_failure *failure) {
-  const sl_int first = F->S->steps[s].column;
+  const sl_int first = f->column;
+  const sl_int count = sli_front_is_regular(F, f, s) ? 0 : f->width;
   sl_status status = SL_OK;
   sl_int k;
-  for (k = 0; k < f->width && f->panel == NULL && status == SL_OK; k++) {
+  for (k = 0; k < count && f->panel == NULL && status == SL_OK; k++) {
     status = sli_check_single(F, s, first + k, f->single.D[k], f->single.magnitude[k], failure);
   }
-  for (k = 0; k < f->width && f->panel != NULL && status == SL_OK; k++) {
+  for (k = 0; k < count && f->panel != NULL && status == SL_OK; k++) {
     status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
            ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
            : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
@@ -15709,8 +15758,11 @@ static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_fron
   const sl_int tiles = sli_front_tiles(f), ends = sli_tiles(f->width);
   sl_int c0;
   for (c0 = 0; c0 < ends; c0 += SLI_GROUP_TILES) {
+    const sl_int t0 = sli_min(c0 + SLI_GROUP_TILES, ends);
     kernels->pivots(f, c0, scratch);
-    kernels->rows(f, c0, sli_min(c0 + SLI_GROUP_TILES, ends), tiles, scratch);
+    if (t0 < tiles) {
+      kernels->rows(f, c0, t0, tiles, scratch);
+    }
   }
 }
 
@@ -15729,7 +15781,11 @@ static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s
   double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
   f.is_small = tiles == 1 && f.pairs == NULL && !f.is_complex;
-  sli_front_clear(&f, 0, tiles);
+  if (f.is_small && f.panel != NULL) {
+    sli_front_clear_small(&f);
+  } else {
+    sli_front_clear(&f, 0, tiles);
+  }
   status = sli_front_load(F, from, &f, s, failure);
   if (status != SL_OK) {
     return status;

@@ -105,7 +105,10 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_int k;
     info.positive = info.negative = info.null = info.regularized = info.weak = 0;
     info.pivot_min = info.pivot_max = 0.0;
-    for (k = 0; k < count; k++) {
+    for (k = 0; k < count && F->E == NULL && !F->rule.replaces; k++) {
+        sli_count_pivot(&info, F->D[k]);
+    }
+    for (; k < count; k++) {
         double values[2] = {F->D[k], 0.0};
         int v, n_values = 1;
         if (sli_is_skipped(F, k)) {
