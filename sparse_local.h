@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e34c6baec15acac2
+ * FNV-1a of the lines after this comment, without the license: f9af88eddd76da79
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -31,64 +31,64 @@
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
  *   3160 base.h   3456 status.h   3517 options.h   3576 alloc.h   3739 hash.h   3869 file_map.h
- *   3966 sort.h   4030 parallel.h
+ *   3966 sort.h   4031 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4226 panel.h   4251 step.h   4330 pivot_rule.h   4404 front.h   4465 pairs.h
- *   4672 inverse_front.h   4744 table.h   4793 simd.h   4890 simd_scalar_single.h
- *   4934 simd_scalar.h   5060 simd_avx2_single.h   5112 simd_avx2.h   5338 simd_avx512_single.h
- *   5393 simd_avx512.h   5560 simd_neon_single.h   5600 simd_neon.h   5820 dispatch.h
+ *   4227 panel.h   4252 step.h   4331 pivot_rule.h   4405 front.h   4466 pairs.h
+ *   4673 inverse_front.h   4745 table.h   4794 simd.h   4891 simd_scalar_single.h
+ *   4935 simd_scalar.h   5061 simd_avx2_single.h   5113 simd_avx2.h   5339 simd_avx512_single.h
+ *   5394 simd_avx512.h   5561 simd_neon_single.h   5601 simd_neon.h   5821 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5913 csc.h   6056 csc_build.h   6190 csc64.h   6261 csc_triangle.h   6326 csc_products.h
- *   6443 permute.h   6509 sum.h   6591 output_file.h   6800 text_reader.h   6981 matrix_market.h
+ *   5914 csc.h   6057 csc_build.h   6191 csc64.h   6262 csc_triangle.h   6327 csc_products.h
+ *   6444 permute.h   6510 sum.h   6592 output_file.h   6801 text_reader.h   6982 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7249 graph.h   7366 contract.h   7547 coarsen.h   7711 labels.h   7937 subgraph.h   8131 heap.h
- *   8193 bisect.h   8401 separator.h   8663 mindeg.h   8846 dissection.h   8955 weigh.h
- *   9017 dissect.h   9308 tree_cost.h   9371 levelset.h   9456 geometric.h   9631 cells.h
- *   9811 septree.h   9887 metis.h  10036 metis_refined.h  10151 nd.h  10359 compress.h
- *  10480 levels.h  10533 border.h  10586 forest.h  10673 peel.h  10873 quotient.h
- *  11299 graph_kind.h  11388 order.h
+ *   7250 graph.h   7367 contract.h   7548 coarsen.h   7712 labels.h   7938 subgraph.h   8132 heap.h
+ *   8194 bisect.h   8402 separator.h   8664 mindeg.h   8847 dissection.h   8956 weigh.h
+ *   9018 dissect.h   9309 tree_cost.h   9372 levelset.h   9457 geometric.h   9632 cells.h
+ *   9812 septree.h   9888 metis.h  10037 metis_refined.h  10152 nd.h  10360 compress.h
+ *  10481 levels.h  10534 border.h  10587 forest.h  10674 peel.h  10874 quotient.h
+ *  11300 graph_kind.h  11389 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11714 symbolic_types.h  11751 etree.h  11948 supernodes.h  12206 pattern.h  12291 structure.h
- *  12559 schedule.h  12839 symbolic.h  13314 reach.h
+ *  11715 symbolic_types.h  11752 etree.h  11949 supernodes.h  12207 pattern.h  12292 structure.h
+ *  12560 schedule.h  12840 symbolic.h  13315 reach.h
  * (factor: the numbers of L and D)
- *  13590 factor_types.h  13795 panel_load.h  13908 pivot_check.h  14027 storage.h
- *  14165 pivot_search.h  14511 pivoted.h  14580 scatter.h  14738 uplooking.h  14810 null_product.h
- *  15014 null_dense.h  15091 null_basis.h  15411 null_vectors.h  15553 multifrontal.h
- *  15800 gather.h  15848 kept.h  16018 front_tasks.h  16361 null_center.h  16485 nullspace.h
- *  16692 growth.h  16770 factor_setup.h  17110 factor.h  17325 leftlooking.h  17479 factor_query.h
- *  17614 combination.h
+ *  13591 factor_types.h  13796 panel_load.h  13909 pivot_check.h  14028 storage.h
+ *  14166 pivot_search.h  14512 pivoted.h  14581 scatter.h  14739 uplooking.h  14813 null_product.h
+ *  15017 null_dense.h  15094 null_basis.h  15414 null_vectors.h  15556 multifrontal.h
+ *  15803 gather.h  15851 kept.h  16021 front_tasks.h  16364 null_center.h  16488 nullspace.h
+ *  16695 growth.h  16773 factor_setup.h  17113 factor.h  17328 leftlooking.h  17482 factor_query.h
+ *  17617 combination.h
  * (solve: full and local solves)
- *  17675 region_types.h  17779 work.h  17879 query.h  18097 singular.h  18357 backward.h
- *  18387 sweep_tasks.h  18718 sweep.h  18926 compile.h  19119 plan.h  19226 local.h  19378 parts.h
- *  19667 refine.h  19846 refine_local.h  20062 rcond.h  20221 defects.h
+ *  17678 region_types.h  17782 work.h  17882 query.h  18100 singular.h  18360 backward.h
+ *  18390 sweep_tasks.h  18721 sweep.h  18929 compile.h  19122 plan.h  19229 local.h  19381 parts.h
+ *  19670 refine.h  19849 refine_local.h  20065 rcond.h  20224 defects.h
  * (inverse: entries of the inverse, regions)
- *  20280 traversal.h  20529 traversal_run.h  20722 row_sets.h  20756 unit_vectors.h
- *  20983 bilinear.h  21155 entries.h  21432 block.h  21667 reserve.h  21859 selected.h
- *  22069 selected_query.h  22171 region_choose.h  22398 region.h
+ *  20283 traversal.h  20532 traversal_run.h  20725 row_sets.h  20759 unit_vectors.h
+ *  20986 bilinear.h  21158 entries.h  21435 block.h  21670 reserve.h  21862 selected.h
+ *  22072 selected_query.h  22174 region_choose.h  22401 region.h
  * (change: a factor that follows changes of its matrix)
- *  22646 update_pivots.h  22817 update.h  23050 path.h  23152 rank.h  23544 edges.h  23698 choose.h
- *  23948 pins_types.h  24014 pins_nulls.h  24195 pins_capacitance.h  24461 pins_rows.h
- *  24581 pins_balance.h  24743 pins_held.h  24971 pins_choose.h  25037 pins_rebuild.h
- *  25260 pins_matrix.h  25411 pins.h  25673 pins_solve.h  25948 subset.h  26076 restrict_kept.h
- *  26274 restrict_analysis.h  26520 restrict_symbolic.h  26715 restrict.h  26947 edit_match.h
- *  27146 edit_place.h  27395 edit_separate.h  27709 edit_order.h  27864 edit_graph.h
- *  27946 edit_join.h  28222 edit.h  28385 edit_factor.h
+ *  22649 update_pivots.h  22820 update.h  23053 path.h  23155 rank.h  23547 edges.h  23701 choose.h
+ *  23951 pins_types.h  24017 pins_nulls.h  24198 pins_capacitance.h  24464 pins_rows.h
+ *  24584 pins_balance.h  24746 pins_held.h  24974 pins_choose.h  25040 pins_rebuild.h
+ *  25263 pins_matrix.h  25414 pins.h  25676 pins_solve.h  25951 subset.h  26079 restrict_kept.h
+ *  26277 restrict_analysis.h  26523 restrict_symbolic.h  26718 restrict.h  26950 edit_match.h
+ *  27149 edit_place.h  27398 edit_separate.h  27712 edit_order.h  27867 edit_graph.h
+ *  27949 edit_join.h  28225 edit.h  28388 edit_factor.h
  * (save: factors in files)
- *  28670 format.h  28967 decode.h  29115 check.h  29445 write.h  29754 load.h  30022 load_inverse.h
- *  30352 load_calls.h
+ *  28673 format.h  28970 decode.h  29118 check.h  29448 write.h  29757 load.h  30025 load_inverse.h
+ *  30355 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30551 batch_solve.h  30760 batch_factor.h  30961 batch_diagonal.h
+ *  30554 batch_solve.h  30763 batch_factor.h  30964 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31101 hermitian.h  31263 complex_rows.h
+ *  31104 hermitian.h  31266 complex_rows.h
  * (last: undefine every internal macro)
- *  31431 undef.h
+ *  31434 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31729 front.inl.h  31731 product.inl.h  32251 copy_rows.inl.h  32289 sweeps.inl.h
- *  32291 unit_triangle.inl.h  32328 two_rhs.inl.h  32502 small_supernode.inl.h
- *  32704 single_rhs.inl.h  32944 multi_rhs.inl.h  32963 complex_groups.inl.h
- *  33102 multi_rhs_small.inl.h  33274 multi_rhs_tiles.inl.h  33551 kernel_set.inl.h
- *  33553 complex_small.inl.h  33743 complex_rows.inl.h  33958 inverse_front.inl.h  34243 row.inl.h
- *  34273 change.inl.h  34516 interleave.inl.h  34650 lanes_undef.inl.h  34669 words_undef.inl.h
+ *  31732 front.inl.h  31734 product.inl.h  32254 copy_rows.inl.h  32292 sweeps.inl.h
+ *  32294 unit_triangle.inl.h  32331 two_rhs.inl.h  32505 small_supernode.inl.h
+ *  32707 single_rhs.inl.h  32947 multi_rhs.inl.h  32966 complex_groups.inl.h
+ *  33105 multi_rhs_small.inl.h  33277 multi_rhs_tiles.inl.h  33554 kernel_set.inl.h
+ *  33556 complex_small.inl.h  33746 complex_rows.inl.h  33961 inverse_front.inl.h  34246 row.inl.h
+ *  34278 change.inl.h  34521 interleave.inl.h  34655 lanes_undef.inl.h  34674 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3995,7 +3995,7 @@ static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
 static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
   sl_int i, k;
   sl_int largest = 0;
-  int shift;
+  int shift, is_sorted = 1;
   if (count <= SLI_SORT_SMALL) {
     for (i = 1; i < count; i++) {
       const uint64_t here = a[i];
@@ -4007,9 +4007,10 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     return;
   }
   for (i = 0; i < count; i++) {
+    is_sorted &= sli_key(a[i]) >= largest;
     largest = sli_max(largest, sli_key(a[i]));
   }
-  for (shift = 32; shift < 64 && largest > 0; shift += 8, largest >>= 8) {
+  for (shift = 32; shift < 64 && largest > 0 && !is_sorted; shift += 8, largest >>= 8) {
     sl_int start[256], total = 0;
     memset(start, 0, sizeof start);
     for (i = 0; i < count; i++) {
@@ -14756,13 +14757,15 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
+  uint64_t *list = F->list + S->n_supers;
   sl_int s, m, count = 0;
   for (s = F->head[k]; s != -1; s = F->next[s]) {
-    F->list[count++] = sli_keyed(s, 0);
+    *--list = sli_keyed(s, 0);
+    count++;
   }
-  sli_sort(F->list, count, F->list_scratch);
+  sli_sort(list, count, F->list_scratch);
   for (m = 0; m < count; m++) {
-    s = sli_key(F->list[m]);
+    s = sli_key(list[m]);
     sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
     F->position[s]++;
     sli_row_link(F, s);
@@ -34253,10 +34256,12 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
     buf[i] = lq[SLI_TILE * i] + xs[i];
     xs[i] = 0.0;
   }
-  for (; i < SLI_TILE * sli_tiles(q); i++) {
-    buf[i] = 0.0;
+  if (q > 1) {
+    for (; i < SLI_TILE * sli_tiles(q); i++) {
+      buf[i] = 0.0;
+    }
+    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
   }
-  SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
   for (i = w; i < q; i++) {
     x[rows[i - w]] += buf[i];
   }

@@ -40,7 +40,7 @@ static sl_int sli_lower_bound(const sl_int *a, sl_int count, sl_int bound) {
 static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
     sl_int i, k;
     sl_int largest = 0;
-    int shift;
+    int shift, is_sorted = 1;
     if (count <= SLI_SORT_SMALL) {
         for (i = 1; i < count; i++) {
             const uint64_t here = a[i];
@@ -52,9 +52,10 @@ static void sli_sort(uint64_t *a, sl_int count, uint64_t *scratch) {
         return;
     }
     for (i = 0; i < count; i++) {
+        is_sorted &= sli_key(a[i]) >= largest;
         largest = sli_max(largest, sli_key(a[i]));
     }
-    for (shift = 32; shift < 64 && largest > 0; shift += 8, largest >>= 8) {
+    for (shift = 32; shift < 64 && largest > 0 && !is_sorted; shift += 8, largest >>= 8) {
         sl_int start[256], total = 0;
         memset(start, 0, sizeof start);
         for (i = 0; i < count; i++) {

@@ -29,13 +29,15 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
+    uint64_t *list = F->list + S->n_supers; /* filled from its end: in a star it is ascending */
     sl_int s, m, count = 0;
     for (s = F->head[k]; s != -1; s = F->next[s]) {
-        F->list[count++] = sli_keyed(s, 0);
+        *--list = sli_keyed(s, 0);
+        count++;
     }
-    sli_sort(F->list, count, F->list_scratch);
+    sli_sort(list, count, F->list_scratch);
     for (m = 0; m < count; m++) {
-        s = sli_key(F->list[m]);
+        s = sli_key(list[m]);
         sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
         F->position[s]++;
         sli_row_link(F, s);

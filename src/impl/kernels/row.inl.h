@@ -12,10 +12,12 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
         buf[i] = lq[SLI_TILE * i] + xs[i];
         xs[i] = 0.0;
     }
-    for (; i < SLI_TILE * sli_tiles(q); i++) {
-        buf[i] = 0.0;
+    if (q > 1) { /* before row 1 is the row of a pivot only */
+        for (; i < SLI_TILE * sli_tiles(q); i++) {
+            buf[i] = 0.0;
+        }
+        SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
     }
-    SLV_NAME(panel_forward)(panel, 0, w, columns, q, buf);
     for (i = w; i < q; i++) {
         x[rows[i - w]] += buf[i];
     }
