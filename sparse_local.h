@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f9af88eddd76da79
+ * FNV-1a of the lines after this comment, without the license: 1a02cd10237ac45e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -49,46 +49,46 @@
  *  11300 graph_kind.h  11389 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11715 symbolic_types.h  11752 etree.h  11949 supernodes.h  12207 pattern.h  12292 structure.h
- *  12560 schedule.h  12840 symbolic.h  13315 reach.h
+ *  12560 schedule.h  12891 symbolic.h  13366 reach.h
  * (factor: the numbers of L and D)
- *  13591 factor_types.h  13796 panel_load.h  13909 pivot_check.h  14028 storage.h
- *  14166 pivot_search.h  14512 pivoted.h  14581 scatter.h  14739 uplooking.h  14813 null_product.h
- *  15017 null_dense.h  15094 null_basis.h  15414 null_vectors.h  15556 multifrontal.h
- *  15803 gather.h  15851 kept.h  16021 front_tasks.h  16364 null_center.h  16488 nullspace.h
- *  16695 growth.h  16773 factor_setup.h  17113 factor.h  17328 leftlooking.h  17482 factor_query.h
- *  17617 combination.h
+ *  13642 factor_types.h  13847 panel_load.h  13960 pivot_check.h  14079 storage.h
+ *  14217 pivot_search.h  14563 pivoted.h  14632 scatter.h  14790 uplooking.h  14864 null_product.h
+ *  15068 null_dense.h  15145 null_basis.h  15465 null_vectors.h  15607 multifrontal.h
+ *  15854 gather.h  15902 kept.h  16072 front_tasks.h  16415 null_center.h  16539 nullspace.h
+ *  16746 growth.h  16824 factor_setup.h  17164 factor.h  17379 leftlooking.h  17533 factor_query.h
+ *  17668 combination.h
  * (solve: full and local solves)
- *  17678 region_types.h  17782 work.h  17882 query.h  18100 singular.h  18360 backward.h
- *  18390 sweep_tasks.h  18721 sweep.h  18929 compile.h  19122 plan.h  19229 local.h  19381 parts.h
- *  19670 refine.h  19849 refine_local.h  20065 rcond.h  20224 defects.h
+ *  17729 region_types.h  17833 work.h  17933 query.h  18151 singular.h  18411 backward.h
+ *  18441 sweep_tasks.h  18772 sweep.h  18980 compile.h  19173 plan.h  19280 local.h  19432 parts.h
+ *  19721 refine.h  19900 refine_local.h  20116 rcond.h  20275 defects.h
  * (inverse: entries of the inverse, regions)
- *  20283 traversal.h  20532 traversal_run.h  20725 row_sets.h  20759 unit_vectors.h
- *  20986 bilinear.h  21158 entries.h  21435 block.h  21670 reserve.h  21862 selected.h
- *  22072 selected_query.h  22174 region_choose.h  22401 region.h
+ *  20334 traversal.h  20583 traversal_run.h  20776 row_sets.h  20810 unit_vectors.h
+ *  21037 bilinear.h  21209 entries.h  21486 block.h  21721 reserve.h  21913 selected.h
+ *  22123 selected_query.h  22225 region_choose.h  22452 region.h
  * (change: a factor that follows changes of its matrix)
- *  22649 update_pivots.h  22820 update.h  23053 path.h  23155 rank.h  23547 edges.h  23701 choose.h
- *  23951 pins_types.h  24017 pins_nulls.h  24198 pins_capacitance.h  24464 pins_rows.h
- *  24584 pins_balance.h  24746 pins_held.h  24974 pins_choose.h  25040 pins_rebuild.h
- *  25263 pins_matrix.h  25414 pins.h  25676 pins_solve.h  25951 subset.h  26079 restrict_kept.h
- *  26277 restrict_analysis.h  26523 restrict_symbolic.h  26718 restrict.h  26950 edit_match.h
- *  27149 edit_place.h  27398 edit_separate.h  27712 edit_order.h  27867 edit_graph.h
- *  27949 edit_join.h  28225 edit.h  28388 edit_factor.h
+ *  22700 update_pivots.h  22871 update.h  23104 path.h  23206 rank.h  23598 edges.h  23752 choose.h
+ *  24002 pins_types.h  24068 pins_nulls.h  24249 pins_capacitance.h  24515 pins_rows.h
+ *  24635 pins_balance.h  24797 pins_held.h  25025 pins_choose.h  25091 pins_rebuild.h
+ *  25314 pins_matrix.h  25465 pins.h  25727 pins_solve.h  26002 subset.h  26130 restrict_kept.h
+ *  26328 restrict_analysis.h  26574 restrict_symbolic.h  26769 restrict.h  27001 edit_match.h
+ *  27200 edit_place.h  27449 edit_separate.h  27763 edit_order.h  27918 edit_graph.h
+ *  28000 edit_join.h  28276 edit.h  28439 edit_factor.h
  * (save: factors in files)
- *  28673 format.h  28970 decode.h  29118 check.h  29448 write.h  29757 load.h  30025 load_inverse.h
- *  30355 load_calls.h
+ *  28724 format.h  29021 decode.h  29169 check.h  29499 write.h  29808 load.h  30076 load_inverse.h
+ *  30406 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30554 batch_solve.h  30763 batch_factor.h  30964 batch_diagonal.h
+ *  30605 batch_solve.h  30814 batch_factor.h  31015 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31104 hermitian.h  31266 complex_rows.h
+ *  31155 hermitian.h  31317 complex_rows.h
  * (last: undefine every internal macro)
- *  31434 undef.h
+ *  31485 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31732 front.inl.h  31734 product.inl.h  32254 copy_rows.inl.h  32292 sweeps.inl.h
- *  32294 unit_triangle.inl.h  32331 two_rhs.inl.h  32505 small_supernode.inl.h
- *  32707 single_rhs.inl.h  32947 multi_rhs.inl.h  32966 complex_groups.inl.h
- *  33105 multi_rhs_small.inl.h  33277 multi_rhs_tiles.inl.h  33554 kernel_set.inl.h
- *  33556 complex_small.inl.h  33746 complex_rows.inl.h  33961 inverse_front.inl.h  34246 row.inl.h
- *  34278 change.inl.h  34521 interleave.inl.h  34655 lanes_undef.inl.h  34674 words_undef.inl.h
+ *  31783 front.inl.h  31785 product.inl.h  32305 copy_rows.inl.h  32343 sweeps.inl.h
+ *  32345 unit_triangle.inl.h  32382 two_rhs.inl.h  32556 small_supernode.inl.h
+ *  32758 single_rhs.inl.h  32998 multi_rhs.inl.h  33017 complex_groups.inl.h
+ *  33156 multi_rhs_small.inl.h  33328 multi_rhs_tiles.inl.h  33605 kernel_set.inl.h
+ *  33607 complex_small.inl.h  33797 complex_rows.inl.h  34012 inverse_front.inl.h  34297 row.inl.h
+ *  34329 change.inl.h  34572 interleave.inl.h  34706 lanes_undef.inl.h  34725 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12655,7 +12655,67 @@ static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const
   }
 }
 
-static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
+SLI_INLINE sl_off sli_waiting_size(const sl_symbolic *S, sl_int s, int is_top) {
+  const sli_step *step = &S->steps[s];
+  return sli_update_size(step) +
+       (is_top && sli_front_is_large(step) ? sli_large_scratch(step) : 0);
+}
+
+static sl_off sli_waiting_largest(const sl_symbolic *S, const sl_off *size, const sl_off *subtree,
+                  sl_int s, sl_int *child, sl_off *others) {
+  sl_off sum = 0, most = 0, both;
+  sl_int c;
+  *child = -1;
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    sum += subtree[c];
+    if (subtree[c] > most) {
+      most = subtree[c];
+      *child = c;
+    }
+  }
+  *others = sum - most;
+  both = size[s] + (*child == -1 ? 0 : size[*child]);
+  return both > most ? both : most;
+}
+
+static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
+               sl_off *size, sl_off *subtree) {
+  sl_off others;
+  sl_int m, c, child;
+  for (m = 0; m < p->n_tasks; m++) {
+    size[p->last[m]] = subtree[p->last[m]] = sli_waiting_size(S, p->last[m], 0);
+  }
+  for (m = 0; m < p->n_tops; m++) {
+    const sl_int s = p->top[m];
+    size[s] = sli_waiting_size(S, s, 1);
+    subtree[s] = sli_waiting_largest(S, size, subtree, s, &child, &others);
+    subtree[s] += others;
+  }
+  for (m = p->n_tops + p->n_tasks - 1; m >= 0; m--) {
+    const sl_int s = m >= p->n_tasks ? p->top[m - p->n_tasks] : p->last[m];
+    sl_off at;
+    if (S->super_parent[s] == -1) {
+      p->stack_begin[s] = p->stack + (side[s] == 0 ? 0 : subtree[s] - size[s]);
+      p->stack += subtree[s];
+    }
+    if (m < p->n_tasks || S->first_descendant[s] == s) {
+      continue;
+    }
+    at = sli_waiting_largest(S, size, subtree, s, &child, &others);
+    p->stack_begin[child] = side[s] == 0 ? p->stack_begin[s] + at - size[child]
+                       : p->stack_begin[s] + size[s] - at;
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+      if (c != child) {
+        at += subtree[c];
+        p->stack_begin[c] = side[s] == 0 ? p->stack_begin[s] + at - size[c]
+                         : p->stack_begin[s] + size[s] - at;
+      }
+    }
+  }
+}
+
+static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
+              sl_off *size, sl_off *subtree) {
   sl_int m, s;
   p->own = 0;
   for (m = 0; m < p->n_tasks; m++) {
@@ -12670,16 +12730,7 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
     p->own = k.most > p->own ? k.most : p->own;
   }
   p->stack = p->workers * p->own;
-  for (m = 0; m < p->n_tasks; m++) {
-    p->stack_begin[p->last[m]] = p->stack;
-    p->stack += sli_update_size(&S->steps[p->last[m]]);
-  }
-  for (m = 0; m < p->n_tops; m++) {
-    const sli_step *step = &S->steps[p->top[m]];
-    p->stack_begin[p->top[m]] = p->stack;
-    p->stack += sli_update_size(step);
-    p->stack += sli_front_is_large(step) ? sli_large_scratch(step) : 0;
-  }
+  sli_plan_waiting(p, S, side, size, subtree);
 }
 
 static void sli_find_tasks(sli_schedule *p, const sli_forest *f, sli_schedule_work *w,
@@ -12786,7 +12837,7 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedul
   for (s = S->n_supers - 1; s >= 0; s--) {
     w->side[s] = S->super_parent[s] == -1 ? 0 : 1 - w->side[S->super_parent[s]];
   }
-  sli_plan_stacks(p, S, w->side);
+  sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
 
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {

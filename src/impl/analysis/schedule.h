@@ -130,10 +130,78 @@ static void sli_stacks_push(sli_stacks *k, const sl_symbolic *S, sl_int s, const
     }
 }
 
-/* Lays out the update stacks. Each worker has room for the two stacks of any task. The update
- * matrices of task roots wait for the fronts above, which several workers may factor at the same
- * time, so that each of these has memory of its own. */
-static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side) {
+/* What a front above the tasks, or the root of a task, keeps until its parent is done. */
+SLI_INLINE sl_off sli_waiting_size(const sl_symbolic *S, sl_int s, int is_top) {
+    const sli_step *step = &S->steps[s];
+    return sli_update_size(step) +
+           (is_top && sli_front_is_large(step) ? sli_large_scratch(step) : 0);
+}
+
+/* The child of front s whose subtree has the most memory, or -1, and the memory of s and of that
+ * subtree. *others := that of the other children. */
+static sl_off sli_waiting_largest(const sl_symbolic *S, const sl_off *size, const sl_off *subtree,
+                                  sl_int s, sl_int *child, sl_off *others) {
+    sl_off sum = 0, most = 0, both;
+    sl_int c;
+    *child = -1;
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        sum += subtree[c];
+        if (subtree[c] > most) {
+            most = subtree[c];
+            *child = c;
+        }
+    }
+    *others = sum - most;
+    both = size[s] + (*child == -1 ? 0 : size[*child]);
+    return both > most ? both : most;
+}
+
+/* Lays out the update matrices of the fronts above the tasks and of the roots of tasks, from p->own
+ * for each worker on. Several workers may factor fronts of disjoint subtrees at the same time, so
+ * that these have disjoint memory. That of a front is at one end of its subtree's memory, at the
+ * start if side is 0. The child whose subtree has the most memory has its own at the other end, and
+ * shares what is between the two with its parent: it is free when that child is done. size,
+ * subtree: n_supers of scratch each. */
+static void sli_plan_waiting(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
+                             sl_off *size, sl_off *subtree) {
+    sl_off others;
+    sl_int m, c, child;
+    for (m = 0; m < p->n_tasks; m++) {
+        size[p->last[m]] = subtree[p->last[m]] = sli_waiting_size(S, p->last[m], 0);
+    }
+    for (m = 0; m < p->n_tops; m++) {
+        const sl_int s = p->top[m];
+        size[s] = sli_waiting_size(S, s, 1);
+        subtree[s] = sli_waiting_largest(S, size, subtree, s, &child, &others);
+        subtree[s] += others;
+    }
+    for (m = p->n_tops + p->n_tasks - 1; m >= 0; m--) {
+        const sl_int s = m >= p->n_tasks ? p->top[m - p->n_tasks] : p->last[m];
+        sl_off at;
+        if (S->super_parent[s] == -1) {
+            p->stack_begin[s] = p->stack + (side[s] == 0 ? 0 : subtree[s] - size[s]);
+            p->stack += subtree[s];
+        }
+        if (m < p->n_tasks || S->first_descendant[s] == s) {
+            continue;
+        }
+        at = sli_waiting_largest(S, size, subtree, s, &child, &others);
+        p->stack_begin[child] = side[s] == 0 ? p->stack_begin[s] + at - size[child]
+                                             : p->stack_begin[s] + size[s] - at;
+        for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+            if (c != child) {
+                at += subtree[c];
+                p->stack_begin[c] = side[s] == 0 ? p->stack_begin[s] + at - size[c]
+                                                 : p->stack_begin[s] + size[s] - at;
+            }
+        }
+    }
+}
+
+/* Lays out the update stacks. Each worker has room for the two stacks of any task. size, subtree:
+ * n_supers of scratch each. */
+static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int *side,
+                            sl_off *size, sl_off *subtree) {
     sl_int m, s;
     p->own = 0;
     for (m = 0; m < p->n_tasks; m++) {
@@ -148,16 +216,7 @@ static void sli_plan_stacks(sli_schedule *p, const sl_symbolic *S, const sl_int 
         p->own = k.most > p->own ? k.most : p->own;
     }
     p->stack = p->workers * p->own;
-    for (m = 0; m < p->n_tasks; m++) {
-        p->stack_begin[p->last[m]] = p->stack;
-        p->stack += sli_update_size(&S->steps[p->last[m]]);
-    }
-    for (m = 0; m < p->n_tops; m++) {
-        const sli_step *step = &S->steps[p->top[m]];
-        p->stack_begin[p->top[m]] = p->stack;
-        p->stack += sli_update_size(step);
-        p->stack += sli_front_is_large(step) ? sli_large_scratch(step) : 0;
-    }
+    sli_plan_waiting(p, S, side, size, subtree);
 }
 
 /* Finds the tasks: largest subtrees of at most `limit` flops, in ascending order of flops. */
@@ -273,7 +332,7 @@ static void sli_schedule_fill(sli_schedule *p, const sl_symbolic *S, sli_schedul
     for (s = S->n_supers - 1; s >= 0; s--) {
         w->side[s] = S->super_parent[s] == -1 ? 0 : 1 - w->side[S->super_parent[s]];
     }
-    sli_plan_stacks(p, S, w->side);
+    sli_plan_stacks(p, S, w->side, (sl_off *)(void *)w->flops, (sl_off *)(void *)w->path);
 }
 
 static void sli_schedule_layout(sli_schedule *p, sli_block *b, sl_int count) {
