@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1a02cd10237ac45e
+ * FNV-1a of the lines after this comment, without the license: 80bfa5a883fc6dab
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -62,33 +62,33 @@
  *  18441 sweep_tasks.h  18772 sweep.h  18980 compile.h  19173 plan.h  19280 local.h  19432 parts.h
  *  19721 refine.h  19900 refine_local.h  20116 rcond.h  20275 defects.h
  * (inverse: entries of the inverse, regions)
- *  20334 traversal.h  20583 traversal_run.h  20776 row_sets.h  20810 unit_vectors.h
- *  21037 bilinear.h  21209 entries.h  21486 block.h  21721 reserve.h  21913 selected.h
- *  22123 selected_query.h  22225 region_choose.h  22452 region.h
+ *  20334 traversal.h  20588 traversal_run.h  20781 row_sets.h  20815 unit_vectors.h
+ *  21042 bilinear.h  21214 entries.h  21491 block.h  21726 reserve.h  21918 selected.h
+ *  22128 selected_query.h  22230 region_choose.h  22457 region.h
  * (change: a factor that follows changes of its matrix)
- *  22700 update_pivots.h  22871 update.h  23104 path.h  23206 rank.h  23598 edges.h  23752 choose.h
- *  24002 pins_types.h  24068 pins_nulls.h  24249 pins_capacitance.h  24515 pins_rows.h
- *  24635 pins_balance.h  24797 pins_held.h  25025 pins_choose.h  25091 pins_rebuild.h
- *  25314 pins_matrix.h  25465 pins.h  25727 pins_solve.h  26002 subset.h  26130 restrict_kept.h
- *  26328 restrict_analysis.h  26574 restrict_symbolic.h  26769 restrict.h  27001 edit_match.h
- *  27200 edit_place.h  27449 edit_separate.h  27763 edit_order.h  27918 edit_graph.h
- *  28000 edit_join.h  28276 edit.h  28439 edit_factor.h
+ *  22705 update_pivots.h  22876 update.h  23109 path.h  23211 rank.h  23603 edges.h  23757 choose.h
+ *  24007 pins_types.h  24073 pins_nulls.h  24254 pins_capacitance.h  24520 pins_rows.h
+ *  24640 pins_balance.h  24802 pins_held.h  25030 pins_choose.h  25096 pins_rebuild.h
+ *  25319 pins_matrix.h  25470 pins.h  25732 pins_solve.h  26007 subset.h  26135 restrict_kept.h
+ *  26333 restrict_analysis.h  26579 restrict_symbolic.h  26774 restrict.h  27006 edit_match.h
+ *  27205 edit_place.h  27454 edit_separate.h  27768 edit_order.h  27923 edit_graph.h
+ *  28005 edit_join.h  28281 edit.h  28444 edit_factor.h
  * (save: factors in files)
- *  28724 format.h  29021 decode.h  29169 check.h  29499 write.h  29808 load.h  30076 load_inverse.h
- *  30406 load_calls.h
+ *  28729 format.h  29026 decode.h  29174 check.h  29504 write.h  29813 load.h  30081 load_inverse.h
+ *  30411 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30605 batch_solve.h  30814 batch_factor.h  31015 batch_diagonal.h
+ *  30610 batch_solve.h  30819 batch_factor.h  31020 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31155 hermitian.h  31317 complex_rows.h
+ *  31160 hermitian.h  31322 complex_rows.h
  * (last: undefine every internal macro)
- *  31485 undef.h
+ *  31490 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31783 front.inl.h  31785 product.inl.h  32305 copy_rows.inl.h  32343 sweeps.inl.h
- *  32345 unit_triangle.inl.h  32382 two_rhs.inl.h  32556 small_supernode.inl.h
- *  32758 single_rhs.inl.h  32998 multi_rhs.inl.h  33017 complex_groups.inl.h
- *  33156 multi_rhs_small.inl.h  33328 multi_rhs_tiles.inl.h  33605 kernel_set.inl.h
- *  33607 complex_small.inl.h  33797 complex_rows.inl.h  34012 inverse_front.inl.h  34297 row.inl.h
- *  34329 change.inl.h  34572 interleave.inl.h  34706 lanes_undef.inl.h  34725 words_undef.inl.h
+ *  31788 front.inl.h  31790 product.inl.h  32310 copy_rows.inl.h  32348 sweeps.inl.h
+ *  32350 unit_triangle.inl.h  32387 two_rhs.inl.h  32561 small_supernode.inl.h
+ *  32763 single_rhs.inl.h  33003 multi_rhs.inl.h  33022 complex_groups.inl.h
+ *  33161 multi_rhs_small.inl.h  33333 multi_rhs_tiles.inl.h  33610 kernel_set.inl.h
+ *  33612 complex_small.inl.h  33802 complex_rows.inl.h  34017 inverse_front.inl.h  34302 row.inl.h
+ *  34334 change.inl.h  34577 interleave.inl.h  34711 lanes_undef.inl.h  34730 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -20505,11 +20505,15 @@ static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
 static void sli_traversal_stack_all(sli_traversal *t) {
   sli_schedule *p = &t->schedule;
   const sl_int own_roots = p->workers > 1;
+  sl_off tops = 0;
   sl_int k, m;
-  p->stack = p->n_tops > 0 ? sli_traversal_stack_tops(t, 0) : 0;
+  p->stack = 0;
   for (m = 0; m < p->n_tasks && own_roots; m++) {
     p->stack_begin[p->last[m]] = p->stack;
     p->stack += sli_traversal_front_size(t, p->last[m]);
+  }
+  if (p->n_tops > 0) {
+    tops = p->stack + sli_traversal_stack_tops(t, p->stack);
   }
   for (k = 0; k < p->workers; k++) {
     sl_off most = 0;
@@ -20522,6 +20526,7 @@ static void sli_traversal_stack_all(sli_traversal *t) {
     }
     p->stack += most;
   }
+  p->stack = tops > p->stack ? tops : p->stack;
 }
 
 static void sli_traversal_measure(sli_traversal *t) {

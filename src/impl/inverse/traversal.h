@@ -204,15 +204,21 @@ static sl_off sli_traversal_stack_tops(sli_traversal *t, sl_off from) {
     return stacks.most;
 }
 
-/* Offsets of all fronts. */
+/* Offsets of all fronts. The root of a task has memory of its own, because its rows below are
+ * gathered before the tasks begin. The fronts above the tasks are not needed from then on, so that
+ * the workers' stacks take their place. */
 static void sli_traversal_stack_all(sli_traversal *t) {
     sli_schedule *p = &t->schedule;
-    const sl_int own_roots = p->workers > 1; /* the root of a task has memory of its own */
+    const sl_int own_roots = p->workers > 1;
+    sl_off tops = 0;
     sl_int k, m;
-    p->stack = p->n_tops > 0 ? sli_traversal_stack_tops(t, 0) : 0;
+    p->stack = 0;
     for (m = 0; m < p->n_tasks && own_roots; m++) {
         p->stack_begin[p->last[m]] = p->stack;
         p->stack += sli_traversal_front_size(t, p->last[m]);
+    }
+    if (p->n_tops > 0) {
+        tops = p->stack + sli_traversal_stack_tops(t, p->stack);
     }
     for (k = 0; k < p->workers; k++) {
         sl_off most = 0;
@@ -225,6 +231,7 @@ static void sli_traversal_stack_all(sli_traversal *t) {
         }
         p->stack += most;
     }
+    p->stack = tops > p->stack ? tops : p->stack;
 }
 
 /* Computes the kernel scratch that suffices for every front of the list. */
