@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 80bfa5a883fc6dab
+ * FNV-1a of the lines after this comment, without the license: 2ef27582cb9d664f
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -49,46 +49,46 @@
  *  11300 graph_kind.h  11389 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
  *  11715 symbolic_types.h  11752 etree.h  11949 supernodes.h  12207 pattern.h  12292 structure.h
- *  12560 schedule.h  12891 symbolic.h  13366 reach.h
+ *  12560 schedule.h  12891 symbolic.h  13365 reach.h
  * (factor: the numbers of L and D)
- *  13642 factor_types.h  13847 panel_load.h  13960 pivot_check.h  14079 storage.h
- *  14217 pivot_search.h  14563 pivoted.h  14632 scatter.h  14790 uplooking.h  14864 null_product.h
- *  15068 null_dense.h  15145 null_basis.h  15465 null_vectors.h  15607 multifrontal.h
- *  15854 gather.h  15902 kept.h  16072 front_tasks.h  16415 null_center.h  16539 nullspace.h
- *  16746 growth.h  16824 factor_setup.h  17164 factor.h  17379 leftlooking.h  17533 factor_query.h
- *  17668 combination.h
+ *  13641 factor_types.h  13846 panel_load.h  13959 pivot_check.h  14078 storage.h
+ *  14216 pivot_search.h  14562 pivoted.h  14631 scatter.h  14789 uplooking.h  14863 null_product.h
+ *  15067 null_dense.h  15144 null_basis.h  15464 null_vectors.h  15606 multifrontal.h
+ *  15853 gather.h  15901 kept.h  16071 front_tasks.h  16414 null_center.h  16538 nullspace.h
+ *  16745 growth.h  16823 factor_setup.h  17163 factor.h  17378 leftlooking.h  17532 factor_query.h
+ *  17667 combination.h
  * (solve: full and local solves)
- *  17729 region_types.h  17833 work.h  17933 query.h  18151 singular.h  18411 backward.h
- *  18441 sweep_tasks.h  18772 sweep.h  18980 compile.h  19173 plan.h  19280 local.h  19432 parts.h
- *  19721 refine.h  19900 refine_local.h  20116 rcond.h  20275 defects.h
+ *  17728 region_types.h  17832 work.h  17932 query.h  18150 singular.h  18410 backward.h
+ *  18440 sweep_tasks.h  18771 sweep.h  18979 compile.h  19172 plan.h  19279 local.h  19431 parts.h
+ *  19720 refine.h  19899 refine_local.h  20115 rcond.h  20274 defects.h
  * (inverse: entries of the inverse, regions)
- *  20334 traversal.h  20588 traversal_run.h  20781 row_sets.h  20815 unit_vectors.h
- *  21042 bilinear.h  21214 entries.h  21491 block.h  21726 reserve.h  21918 selected.h
- *  22128 selected_query.h  22230 region_choose.h  22457 region.h
+ *  20333 traversal.h  20587 traversal_run.h  20780 row_sets.h  20814 unit_vectors.h
+ *  21041 bilinear.h  21213 entries.h  21490 block.h  21725 reserve.h  21917 selected.h
+ *  22127 selected_query.h  22229 region_choose.h  22456 region.h
  * (change: a factor that follows changes of its matrix)
- *  22705 update_pivots.h  22876 update.h  23109 path.h  23211 rank.h  23603 edges.h  23757 choose.h
- *  24007 pins_types.h  24073 pins_nulls.h  24254 pins_capacitance.h  24520 pins_rows.h
- *  24640 pins_balance.h  24802 pins_held.h  25030 pins_choose.h  25096 pins_rebuild.h
- *  25319 pins_matrix.h  25470 pins.h  25732 pins_solve.h  26007 subset.h  26135 restrict_kept.h
- *  26333 restrict_analysis.h  26579 restrict_symbolic.h  26774 restrict.h  27006 edit_match.h
- *  27205 edit_place.h  27454 edit_separate.h  27768 edit_order.h  27923 edit_graph.h
- *  28005 edit_join.h  28281 edit.h  28444 edit_factor.h
+ *  22704 update_pivots.h  22875 update.h  23108 path.h  23210 rank.h  23602 edges.h  23756 choose.h
+ *  24006 pins_types.h  24072 pins_nulls.h  24253 pins_capacitance.h  24519 pins_rows.h
+ *  24639 pins_balance.h  24801 pins_held.h  25029 pins_choose.h  25095 pins_rebuild.h
+ *  25318 pins_matrix.h  25469 pins.h  25731 pins_solve.h  26006 subset.h  26134 restrict_kept.h
+ *  26332 restrict_analysis.h  26578 restrict_symbolic.h  26773 restrict.h  27005 edit_match.h
+ *  27204 edit_place.h  27453 edit_separate.h  27767 edit_order.h  27922 edit_graph.h
+ *  28004 edit_join.h  28280 edit.h  28443 edit_factor.h
  * (save: factors in files)
- *  28729 format.h  29026 decode.h  29174 check.h  29504 write.h  29813 load.h  30081 load_inverse.h
- *  30411 load_calls.h
+ *  28728 format.h  29025 decode.h  29173 check.h  29503 write.h  29812 load.h  30080 load_inverse.h
+ *  30410 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30610 batch_solve.h  30819 batch_factor.h  31020 batch_diagonal.h
+ *  30609 batch_solve.h  30818 batch_factor.h  31019 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31160 hermitian.h  31322 complex_rows.h
+ *  31159 hermitian.h  31321 complex_rows.h
  * (last: undefine every internal macro)
- *  31490 undef.h
+ *  31489 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31788 front.inl.h  31790 product.inl.h  32310 copy_rows.inl.h  32348 sweeps.inl.h
- *  32350 unit_triangle.inl.h  32387 two_rhs.inl.h  32561 small_supernode.inl.h
- *  32763 single_rhs.inl.h  33003 multi_rhs.inl.h  33022 complex_groups.inl.h
- *  33161 multi_rhs_small.inl.h  33333 multi_rhs_tiles.inl.h  33610 kernel_set.inl.h
- *  33612 complex_small.inl.h  33802 complex_rows.inl.h  34017 inverse_front.inl.h  34302 row.inl.h
- *  34334 change.inl.h  34577 interleave.inl.h  34711 lanes_undef.inl.h  34730 words_undef.inl.h
+ *  31787 front.inl.h  31789 product.inl.h  32309 copy_rows.inl.h  32347 sweeps.inl.h
+ *  32349 unit_triangle.inl.h  32386 two_rhs.inl.h  32560 small_supernode.inl.h
+ *  32762 single_rhs.inl.h  33002 multi_rhs.inl.h  33021 complex_groups.inl.h
+ *  33160 multi_rhs_small.inl.h  33332 multi_rhs_tiles.inl.h  33609 kernel_set.inl.h
+ *  33611 complex_small.inl.h  33801 complex_rows.inl.h  34016 inverse_front.inl.h  34301 row.inl.h
+ *  34333 change.inl.h  34576 interleave.inl.h  34710 lanes_undef.inl.h  34729 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -13302,11 +13302,10 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   if (status == SL_OK) {
     lent = sli_lender_start(&lender, &b, w.ordered, &a);
     found.symbolic.seconds_analyze = sli_analysis_lap(&w);
-    sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
+    sli_symbolic_job job = {out, A, opt, &w, &a, &lent, &found, SL_OK};
     const sl_options none = sli_options_with(&a);
-    const sl_int workers = sli_max(sli_order_workers(A, opt), w.workers);
-    job.for_order = workers > 1 ? &a : &lent;
-    sli_team_run(opt != NULL ? &opt->threads : &none.threads, workers, sli_symbolic_lead, &job);
+    sli_team_run(opt != NULL ? &opt->threads : &none.threads,
+           sli_max(sli_order_workers(A, opt), w.workers), sli_symbolic_lead, &job);
     status = job.status;
     if (stats != NULL && status == SL_OK) {
       sli_symbolic_stats_copy(&found, stats);

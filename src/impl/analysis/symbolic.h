@@ -445,11 +445,10 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     if (status == SL_OK) {
         lent = sli_lender_start(&lender, &b, w.ordered, &a);
         found.symbolic.seconds_analyze = sli_analysis_lap(&w);
-        sli_symbolic_job job = {out, A, opt, &w, &a, NULL, &found, SL_OK};
+        sli_symbolic_job job = {out, A, opt, &w, &a, &lent, &found, SL_OK};
         const sl_options none = sli_options_with(&a);
-        const sl_int workers = sli_max(sli_order_workers(A, opt), w.workers);
-        job.for_order = workers > 1 ? &a : &lent;
-        sli_team_run(opt != NULL ? &opt->threads : &none.threads, workers, sli_symbolic_lead, &job);
+        sli_team_run(opt != NULL ? &opt->threads : &none.threads,
+                     sli_max(sli_order_workers(A, opt), w.workers), sli_symbolic_lead, &job);
         status = job.status;
         if (stats != NULL && status == SL_OK) {
             sli_symbolic_stats_copy(&found, stats);

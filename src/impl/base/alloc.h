@@ -138,7 +138,7 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
 
 /* An allocator that lends out the end of a block that its owner does not use yet, and turns to
  * another one when that is full. Memory that was just used costs no page faults. What is released
- * in reverse order is lent again. For one thread. */
+ * in reverse order is lent again. For one thread at a time. */
 typedef struct sli_lender {
     sl_allocator more;
     unsigned char *base;
