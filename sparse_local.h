@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2ef27582cb9d664f
+ * FNV-1a of the lines after this comment, without the license: ba012a162f57fc67
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -43,52 +43,52 @@
  * (ordering: fill-reducing orderings of a graph)
  *   7250 graph.h   7367 contract.h   7548 coarsen.h   7712 labels.h   7938 subgraph.h   8132 heap.h
  *   8194 bisect.h   8402 separator.h   8664 mindeg.h   8847 dissection.h   8956 weigh.h
- *   9018 dissect.h   9309 tree_cost.h   9372 levelset.h   9457 geometric.h   9632 cells.h
- *   9812 septree.h   9888 metis.h  10037 metis_refined.h  10152 nd.h  10360 compress.h
- *  10481 levels.h  10534 border.h  10587 forest.h  10674 peel.h  10874 quotient.h
- *  11300 graph_kind.h  11389 order.h
+ *   9023 dissect.h   9314 tree_cost.h   9377 levelset.h   9462 geometric.h   9637 cells.h
+ *   9817 septree.h   9893 metis.h  10042 metis_refined.h  10157 nd.h  10365 compress.h
+ *  10517 levels.h  10570 border.h  10623 forest.h  10710 peel.h  10910 quotient.h
+ *  11336 graph_kind.h  11425 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11715 symbolic_types.h  11752 etree.h  11949 supernodes.h  12207 pattern.h  12292 structure.h
- *  12560 schedule.h  12891 symbolic.h  13365 reach.h
+ *  11752 symbolic_types.h  11789 etree.h  11986 supernodes.h  12244 pattern.h  12329 structure.h
+ *  12597 schedule.h  12928 symbolic.h  13402 reach.h
  * (factor: the numbers of L and D)
- *  13641 factor_types.h  13846 panel_load.h  13959 pivot_check.h  14078 storage.h
- *  14216 pivot_search.h  14562 pivoted.h  14631 scatter.h  14789 uplooking.h  14863 null_product.h
- *  15067 null_dense.h  15144 null_basis.h  15464 null_vectors.h  15606 multifrontal.h
- *  15853 gather.h  15901 kept.h  16071 front_tasks.h  16414 null_center.h  16538 nullspace.h
- *  16745 growth.h  16823 factor_setup.h  17163 factor.h  17378 leftlooking.h  17532 factor_query.h
- *  17667 combination.h
+ *  13678 factor_types.h  13883 panel_load.h  13996 pivot_check.h  14115 storage.h
+ *  14253 pivot_search.h  14599 pivoted.h  14668 scatter.h  14826 uplooking.h  14900 null_product.h
+ *  15104 null_dense.h  15181 null_basis.h  15501 null_vectors.h  15643 multifrontal.h
+ *  15890 gather.h  15938 kept.h  16108 front_tasks.h  16451 null_center.h  16575 nullspace.h
+ *  16782 growth.h  16860 factor_setup.h  17200 factor.h  17415 leftlooking.h  17569 factor_query.h
+ *  17704 combination.h
  * (solve: full and local solves)
- *  17728 region_types.h  17832 work.h  17932 query.h  18150 singular.h  18410 backward.h
- *  18440 sweep_tasks.h  18771 sweep.h  18979 compile.h  19172 plan.h  19279 local.h  19431 parts.h
- *  19720 refine.h  19899 refine_local.h  20115 rcond.h  20274 defects.h
+ *  17765 region_types.h  17869 work.h  17969 query.h  18187 singular.h  18447 backward.h
+ *  18477 sweep_tasks.h  18808 sweep.h  19016 compile.h  19209 plan.h  19316 local.h  19468 parts.h
+ *  19757 refine.h  19936 refine_local.h  20152 rcond.h  20311 defects.h
  * (inverse: entries of the inverse, regions)
- *  20333 traversal.h  20587 traversal_run.h  20780 row_sets.h  20814 unit_vectors.h
- *  21041 bilinear.h  21213 entries.h  21490 block.h  21725 reserve.h  21917 selected.h
- *  22127 selected_query.h  22229 region_choose.h  22456 region.h
+ *  20370 traversal.h  20624 traversal_run.h  20817 row_sets.h  20851 unit_vectors.h
+ *  21078 bilinear.h  21250 entries.h  21527 block.h  21762 reserve.h  21954 selected.h
+ *  22164 selected_query.h  22266 region_choose.h  22493 region.h
  * (change: a factor that follows changes of its matrix)
- *  22704 update_pivots.h  22875 update.h  23108 path.h  23210 rank.h  23602 edges.h  23756 choose.h
- *  24006 pins_types.h  24072 pins_nulls.h  24253 pins_capacitance.h  24519 pins_rows.h
- *  24639 pins_balance.h  24801 pins_held.h  25029 pins_choose.h  25095 pins_rebuild.h
- *  25318 pins_matrix.h  25469 pins.h  25731 pins_solve.h  26006 subset.h  26134 restrict_kept.h
- *  26332 restrict_analysis.h  26578 restrict_symbolic.h  26773 restrict.h  27005 edit_match.h
- *  27204 edit_place.h  27453 edit_separate.h  27767 edit_order.h  27922 edit_graph.h
- *  28004 edit_join.h  28280 edit.h  28443 edit_factor.h
+ *  22741 update_pivots.h  22912 update.h  23145 path.h  23247 rank.h  23639 edges.h  23793 choose.h
+ *  24043 pins_types.h  24109 pins_nulls.h  24290 pins_capacitance.h  24556 pins_rows.h
+ *  24676 pins_balance.h  24838 pins_held.h  25066 pins_choose.h  25132 pins_rebuild.h
+ *  25355 pins_matrix.h  25506 pins.h  25768 pins_solve.h  26043 subset.h  26171 restrict_kept.h
+ *  26369 restrict_analysis.h  26615 restrict_symbolic.h  26810 restrict.h  27042 edit_match.h
+ *  27241 edit_place.h  27490 edit_separate.h  27804 edit_order.h  27959 edit_graph.h
+ *  28041 edit_join.h  28317 edit.h  28480 edit_factor.h
  * (save: factors in files)
- *  28728 format.h  29025 decode.h  29173 check.h  29503 write.h  29812 load.h  30080 load_inverse.h
- *  30410 load_calls.h
+ *  28765 format.h  29062 decode.h  29210 check.h  29540 write.h  29849 load.h  30117 load_inverse.h
+ *  30447 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30609 batch_solve.h  30818 batch_factor.h  31019 batch_diagonal.h
+ *  30646 batch_solve.h  30855 batch_factor.h  31056 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31159 hermitian.h  31321 complex_rows.h
+ *  31196 hermitian.h  31358 complex_rows.h
  * (last: undefine every internal macro)
- *  31489 undef.h
+ *  31526 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31787 front.inl.h  31789 product.inl.h  32309 copy_rows.inl.h  32347 sweeps.inl.h
- *  32349 unit_triangle.inl.h  32386 two_rhs.inl.h  32560 small_supernode.inl.h
- *  32762 single_rhs.inl.h  33002 multi_rhs.inl.h  33021 complex_groups.inl.h
- *  33160 multi_rhs_small.inl.h  33332 multi_rhs_tiles.inl.h  33609 kernel_set.inl.h
- *  33611 complex_small.inl.h  33801 complex_rows.inl.h  34016 inverse_front.inl.h  34301 row.inl.h
- *  34333 change.inl.h  34576 interleave.inl.h  34710 lanes_undef.inl.h  34729 words_undef.inl.h
+ *  31824 front.inl.h  31826 product.inl.h  32346 copy_rows.inl.h  32384 sweeps.inl.h
+ *  32386 unit_triangle.inl.h  32423 two_rhs.inl.h  32597 small_supernode.inl.h
+ *  32799 single_rhs.inl.h  33039 multi_rhs.inl.h  33058 complex_groups.inl.h
+ *  33197 multi_rhs_small.inl.h  33369 multi_rhs_tiles.inl.h  33646 kernel_set.inl.h
+ *  33648 complex_small.inl.h  33838 complex_rows.inl.h  34053 inverse_front.inl.h  34338 row.inl.h
+ *  34370 change.inl.h  34613 interleave.inl.h  34747 lanes_undef.inl.h  34766 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8979,21 +8979,26 @@ static void sli_weigh_range(void *data, const sli_range *r) {
   }
 }
 
-static void sli_weigh_edges(sli_dissection *d) {
-  const int l = d->n_levels - 1;
-  const sli_level *g = &d->levels[l];
-  const sl_int n = d->levels[0].n;
-  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
-  sl_off e, *at = d->ranges.scratch;
-  sl_int v, k;
+static void sli_weigh_labels(void *data, const sli_range *r) {
+  const sli_dissection *d = (const sli_dissection *)data;
+  sl_int v;
   int m;
-  for (v = 0; v < n; v++) {
+  for (v = r->first; v < r->last; v++) {
     sl_int c = v;
-    for (m = 0; m < l; m++) {
+    for (m = 0; m < d->n_levels - 1; m++) {
       c = d->levels[m].coarse[c];
     }
     d->label[v] = c;
   }
+}
+
+static void sli_weigh_edges(sli_dissection *d) {
+  const sli_level *g = &d->levels[d->n_levels - 1];
+  const sl_int n = d->levels[0].n;
+  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
+  sl_off e, *at = d->ranges.scratch;
+  sl_int k;
+  sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
   d->level = 0;
   sli_dissect_sort(d, g->n);
   sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
@@ -10383,25 +10388,56 @@ static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_in
   }
 }
 
-static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key) {
+typedef struct sli_compress_search {
+  const sli_graph *G;
+  sl_int *first;
+  uint32_t *key;
+  sl_int count[SLI_SHARES_MAX];
+} sli_compress_search;
+
+static void sli_compress_keys(void *data, const sli_range *r) {
+  const sli_compress_search *w = (const sli_compress_search *)data;
+  const sli_graph *G = w->G;
+  sl_int v;
+  sl_off e;
+  for (v = r->first; v < r->last; v++) {
+    uint32_t key = sli_hash32((uint32_t)v);
+    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+      key += sli_hash32((uint32_t)G->to[e]);
+    }
+    w->key[v] = key;
+  }
+}
+
+static void sli_compress_firsts(void *data, const sli_range *r) {
+  sli_compress_search *w = (sli_compress_search *)data;
+  const sli_graph *G = w->G;
   sl_int v, count = 0;
   sl_off e;
-  for (v = 0; v < G->n; v++) {
-    key[v] = sli_hash32((uint32_t)v);
-    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-      key[v] += sli_hash32((uint32_t)G->to[e]);
-    }
-  }
-  for (v = 0; v < G->n; v++) {
-    first[v] = v;
-    for (e = G->begin[v]; e < G->begin[v + 1] && G->to[e] < v; e++) {
+  for (v = r->first; v < r->last; v++) {
+    sl_int first = v;
+    for (e = G->begin[v]; e < G->begin[v + 1] && G->to[e] < first; e++) {
       const sl_int u = G->to[e];
-      if (key[u] == key[v] && first[u] == u && sli_compress_is_indistinguishable(G, u, v)) {
-        first[v] = u;
-        break;
-      }
+      first = w->key[u] == w->key[v] && sli_compress_is_indistinguishable(G, u, v) ? u : v;
     }
-    count += first[v] == v;
+    w->first[v] = first;
+    count += first == v;
+  }
+  w->count[r->item] = count;
+}
+
+static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key,
+                sli_team *team) {
+  const sl_int ranges = sli_shares_count(team, G->n);
+  sl_int item, count = 0;
+  sli_compress_search w;
+  w.G = G;
+  w.first = first;
+  w.key = key;
+  sli_range_run(team, G->n, ranges, sli_compress_keys, &w);
+  sli_range_run(team, G->n, ranges, sli_compress_firsts, &w);
+  for (item = 0; item < ranges; item++) {
+    count += w.count[item];
   }
   return count;
 }
@@ -10453,7 +10489,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
   sl_status status = SL_OK;
   int pass;
   memset(&c, 0, sizeof c);
-  c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
+  c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm, team);
   if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
     return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, team, a);
   }
@@ -11666,7 +11702,8 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
   const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
                       opt->ordering == SL_ORDERING_METIS_REFINED);
-  const double flops = 0.5 * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
+  const double share = is_shared && sli_order_is_hurried(opt->ordering, opt) ? 0.06 : 0.5;
+  const double flops = share * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
   return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
 }
 

@@ -1,5 +1,6 @@
 /* test_mindeg.c: approximate minimum degree: validity, fill against an exact one, purpose */
 #include "tests/lib/check_factor.h"
+#include "tests/lib/parallel_for.h"
 
 /* Entries of L under SL_ORDERING_MINDEG, after a check of its permutation. */
 static double fill_of(const sl_csc *A, sl_options opt) {
@@ -239,6 +240,29 @@ static void irregular_graphs_take_the_better_order(void **state) {
     }
 }
 
+/* An order by minimum degree takes 1 to 4 ms there, which others could not shorten. */
+static void few_entries_in_a_hurry_have_one_worker(void **state) {
+    (void)state;
+    for (sl_int side = 120; side <= 200; side += 80) {
+        gen_matrix_t M = grid(side, side, 1, 0);
+        for (int purpose = 0; purpose < 2; purpose++) {
+            sl_options opt = options_none();
+            sl_symbolic *S = NULL;
+            int calls = 0;
+            opt.purpose = purpose == 0 ? SL_PURPOSE_MANY_SOLVES : SL_PURPOSE_ONE_FACTOR;
+            opt.threads.count = 2;
+            opt.threads.run = run_backwards;
+            opt.threads.context = &calls;
+            SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
+#if !defined(SL_VERIFY) /* which divides small systems, too */
+            assert_int_equal(calls, purpose == 0 || side == 200);
+#endif
+            sl_symbolic_free(S);
+        }
+        gen_matrix_free(&M);
+    }
+}
+
 static void memory_fails_at_every_point(void **state) {
     (void)state;
     gen_matrix_t M = grid(12, 12, 1, 0);
@@ -265,6 +289,7 @@ int main(void) {
         cmocka_unit_test(one_matrix_has_one_order),
         cmocka_unit_test(the_purpose_decides),
         cmocka_unit_test(irregular_graphs_take_the_better_order),
+        cmocka_unit_test(few_entries_in_a_hurry_have_one_worker),
         cmocka_unit_test(memory_fails_at_every_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -30,27 +30,61 @@ static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_in
     }
 }
 
-/* Finds the first indistinguishable row of each row, in a graph with sorted lists. Returns the
- * number of first rows. key: n of scratch, hashes of the closed neighborhoods. */
-static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key) {
+/* The search for indistinguishable rows, by ranges of rows. */
+typedef struct sli_compress_search {
+    const sli_graph *G;
+    sl_int *first;
+    uint32_t *key; /* n: hashes of the closed neighborhoods */
+    sl_int count[SLI_SHARES_MAX]; /* first rows of each range */
+} sli_compress_search;
+
+static void sli_compress_keys(void *data, const sli_range *r) {
+    const sli_compress_search *w = (const sli_compress_search *)data;
+    const sli_graph *G = w->G;
+    sl_int v;
+    sl_off e;
+    for (v = r->first; v < r->last; v++) {
+        uint32_t key = sli_hash32((uint32_t)v);
+        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+            key += sli_hash32((uint32_t)G->to[e]);
+        }
+        w->key[v] = key;
+    }
+}
+
+/* Indistinguishable rows are neighbors of each other: the first one that is found is the first of
+ * all. */
+static void sli_compress_firsts(void *data, const sli_range *r) {
+    sli_compress_search *w = (sli_compress_search *)data;
+    const sli_graph *G = w->G;
     sl_int v, count = 0;
     sl_off e;
-    for (v = 0; v < G->n; v++) {
-        key[v] = sli_hash32((uint32_t)v);
-        for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-            key[v] += sli_hash32((uint32_t)G->to[e]);
-        }
-    }
-    for (v = 0; v < G->n; v++) {
-        first[v] = v;
-        for (e = G->begin[v]; e < G->begin[v + 1] && G->to[e] < v; e++) {
+    for (v = r->first; v < r->last; v++) {
+        sl_int first = v;
+        for (e = G->begin[v]; e < G->begin[v + 1] && G->to[e] < first; e++) {
             const sl_int u = G->to[e];
-            if (key[u] == key[v] && first[u] == u && sli_compress_is_indistinguishable(G, u, v)) {
-                first[v] = u;
-                break;
-            }
+            first = w->key[u] == w->key[v] && sli_compress_is_indistinguishable(G, u, v) ? u : v;
         }
-        count += first[v] == v;
+        w->first[v] = first;
+        count += first == v;
+    }
+    w->count[r->item] = count;
+}
+
+/* Finds the first indistinguishable row of each row, in a graph with sorted lists. Returns the
+ * number of first rows. key: n of scratch. */
+static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key,
+                                sli_team *team) {
+    const sl_int ranges = sli_shares_count(team, G->n);
+    sl_int item, count = 0;
+    sli_compress_search w;
+    w.G = G;
+    w.first = first;
+    w.key = key;
+    sli_range_run(team, G->n, ranges, sli_compress_keys, &w);
+    sli_range_run(team, G->n, ranges, sli_compress_firsts, &w);
+    for (item = 0; item < ranges; item++) {
+        count += w.count[item];
     }
     return count;
 }
@@ -106,7 +140,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
     sl_status status = SL_OK;
     int pass;
     memset(&c, 0, sizeof c);
-    c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm);
+    c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm, team);
     if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
         return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, team, a);
     }

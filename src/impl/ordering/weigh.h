@@ -29,25 +29,31 @@ static void sli_weigh_range(void *data, const sli_range *r) {
     }
 }
 
+/* Labels a range of the finest vertices with those of the last level that contain them. */
+static void sli_weigh_labels(void *data, const sli_range *r) {
+    const sli_dissection *d = (const sli_dissection *)data;
+    sl_int v;
+    int m;
+    for (v = r->first; v < r->last; v++) {
+        sl_int c = v;
+        for (m = 0; m < d->n_levels - 1; m++) {
+            c = d->levels[m].coarse[c];
+        }
+        d->label[v] = c;
+    }
+}
+
 /* Sets the weight of each edge of the last level to the number of finest vertices on both sides of
  * the border that it represents: what a vertex separator there costs. The number of finest edges
  * would charge a diagonal border in a square grid twice as much as a straight one. The level has at
  * most half as many vertices as the ranges have room. */
 static void sli_weigh_edges(sli_dissection *d) {
-    const int l = d->n_levels - 1;
-    const sli_level *g = &d->levels[l];
+    const sli_level *g = &d->levels[d->n_levels - 1];
     const sl_int n = d->levels[0].n;
     sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
     sl_off e, *at = d->ranges.scratch;
-    sl_int v, k;
-    int m;
-    for (v = 0; v < n; v++) {
-        sl_int c = v;
-        for (m = 0; m < l; m++) {
-            c = d->levels[m].coarse[c];
-        }
-        d->label[v] = c;
-    }
+    sl_int k;
+    sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
     d->level = 0;
     sli_dissect_sort(d, g->n);
     sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
