@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ba012a162f57fc67
+ * FNV-1a of the lines after this comment, without the license: 2742544d2e6f9498
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -48,47 +48,47 @@
  *  10517 levels.h  10570 border.h  10623 forest.h  10710 peel.h  10910 quotient.h
  *  11336 graph_kind.h  11425 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11752 symbolic_types.h  11789 etree.h  11986 supernodes.h  12244 pattern.h  12329 structure.h
- *  12597 schedule.h  12928 symbolic.h  13402 reach.h
+ *  11753 symbolic_types.h  11790 etree.h  11987 supernodes.h  12245 pattern.h  12330 structure.h
+ *  12598 schedule.h  12929 symbolic.h  13403 reach.h
  * (factor: the numbers of L and D)
- *  13678 factor_types.h  13883 panel_load.h  13996 pivot_check.h  14115 storage.h
- *  14253 pivot_search.h  14599 pivoted.h  14668 scatter.h  14826 uplooking.h  14900 null_product.h
- *  15104 null_dense.h  15181 null_basis.h  15501 null_vectors.h  15643 multifrontal.h
- *  15890 gather.h  15938 kept.h  16108 front_tasks.h  16451 null_center.h  16575 nullspace.h
- *  16782 growth.h  16860 factor_setup.h  17200 factor.h  17415 leftlooking.h  17569 factor_query.h
- *  17704 combination.h
+ *  13679 factor_types.h  13884 panel_load.h  13997 pivot_check.h  14116 storage.h
+ *  14254 pivot_search.h  14600 pivoted.h  14669 scatter.h  14827 uplooking.h  14901 null_product.h
+ *  15105 null_dense.h  15182 null_basis.h  15502 null_vectors.h  15644 multifrontal.h
+ *  15891 gather.h  15939 kept.h  16109 front_tasks.h  16452 null_center.h  16576 nullspace.h
+ *  16783 growth.h  16861 factor_setup.h  17201 factor.h  17416 leftlooking.h  17570 factor_query.h
+ *  17705 combination.h
  * (solve: full and local solves)
- *  17765 region_types.h  17869 work.h  17969 query.h  18187 singular.h  18447 backward.h
- *  18477 sweep_tasks.h  18808 sweep.h  19016 compile.h  19209 plan.h  19316 local.h  19468 parts.h
- *  19757 refine.h  19936 refine_local.h  20152 rcond.h  20311 defects.h
+ *  17766 region_types.h  17870 work.h  17970 query.h  18188 singular.h  18448 backward.h
+ *  18478 sweep_tasks.h  18809 sweep.h  19017 compile.h  19210 plan.h  19317 local.h  19469 parts.h
+ *  19758 refine.h  19937 refine_local.h  20153 rcond.h  20312 defects.h
  * (inverse: entries of the inverse, regions)
- *  20370 traversal.h  20624 traversal_run.h  20817 row_sets.h  20851 unit_vectors.h
- *  21078 bilinear.h  21250 entries.h  21527 block.h  21762 reserve.h  21954 selected.h
- *  22164 selected_query.h  22266 region_choose.h  22493 region.h
+ *  20371 traversal.h  20625 traversal_run.h  20818 row_sets.h  20852 unit_vectors.h
+ *  21079 bilinear.h  21251 entries.h  21528 block.h  21763 reserve.h  21955 selected.h
+ *  22165 selected_query.h  22267 region_choose.h  22494 region.h
  * (change: a factor that follows changes of its matrix)
- *  22741 update_pivots.h  22912 update.h  23145 path.h  23247 rank.h  23639 edges.h  23793 choose.h
- *  24043 pins_types.h  24109 pins_nulls.h  24290 pins_capacitance.h  24556 pins_rows.h
- *  24676 pins_balance.h  24838 pins_held.h  25066 pins_choose.h  25132 pins_rebuild.h
- *  25355 pins_matrix.h  25506 pins.h  25768 pins_solve.h  26043 subset.h  26171 restrict_kept.h
- *  26369 restrict_analysis.h  26615 restrict_symbolic.h  26810 restrict.h  27042 edit_match.h
- *  27241 edit_place.h  27490 edit_separate.h  27804 edit_order.h  27959 edit_graph.h
- *  28041 edit_join.h  28317 edit.h  28480 edit_factor.h
+ *  22742 update_pivots.h  22913 update.h  23146 path.h  23248 rank.h  23640 edges.h  23794 choose.h
+ *  24044 pins_types.h  24110 pins_nulls.h  24291 pins_capacitance.h  24557 pins_rows.h
+ *  24677 pins_balance.h  24839 pins_held.h  25067 pins_choose.h  25133 pins_rebuild.h
+ *  25356 pins_matrix.h  25507 pins.h  25769 pins_solve.h  26044 subset.h  26172 restrict_kept.h
+ *  26370 restrict_analysis.h  26616 restrict_symbolic.h  26811 restrict.h  27043 edit_match.h
+ *  27242 edit_place.h  27491 edit_separate.h  27805 edit_order.h  27960 edit_graph.h
+ *  28042 edit_join.h  28318 edit.h  28481 edit_factor.h
  * (save: factors in files)
- *  28765 format.h  29062 decode.h  29210 check.h  29540 write.h  29849 load.h  30117 load_inverse.h
- *  30447 load_calls.h
+ *  28766 format.h  29063 decode.h  29211 check.h  29541 write.h  29850 load.h  30118 load_inverse.h
+ *  30448 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30646 batch_solve.h  30855 batch_factor.h  31056 batch_diagonal.h
+ *  30647 batch_solve.h  30856 batch_factor.h  31057 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31196 hermitian.h  31358 complex_rows.h
+ *  31197 hermitian.h  31359 complex_rows.h
  * (last: undefine every internal macro)
- *  31526 undef.h
+ *  31527 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31824 front.inl.h  31826 product.inl.h  32346 copy_rows.inl.h  32384 sweeps.inl.h
- *  32386 unit_triangle.inl.h  32423 two_rhs.inl.h  32597 small_supernode.inl.h
- *  32799 single_rhs.inl.h  33039 multi_rhs.inl.h  33058 complex_groups.inl.h
- *  33197 multi_rhs_small.inl.h  33369 multi_rhs_tiles.inl.h  33646 kernel_set.inl.h
- *  33648 complex_small.inl.h  33838 complex_rows.inl.h  34053 inverse_front.inl.h  34338 row.inl.h
- *  34370 change.inl.h  34613 interleave.inl.h  34747 lanes_undef.inl.h  34766 words_undef.inl.h
+ *  31826 front.inl.h  31828 product.inl.h  32348 copy_rows.inl.h  32386 sweeps.inl.h
+ *  32388 unit_triangle.inl.h  32425 two_rhs.inl.h  32599 small_supernode.inl.h
+ *  32801 single_rhs.inl.h  33041 multi_rhs.inl.h  33060 complex_groups.inl.h
+ *  33199 multi_rhs_small.inl.h  33371 multi_rhs_tiles.inl.h  33648 kernel_set.inl.h
+ *  33650 complex_small.inl.h  33840 complex_rows.inl.h  34055 inverse_front.inl.h  34340 row.inl.h
+ *  34372 change.inl.h  34615 interleave.inl.h  34749 lanes_undef.inl.h  34768 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11519,6 +11519,7 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
 }
 
 #define SLI_ORDER_ND_FLOPS 5000.0
+#define SLI_ORDER_ND_SAVES 8000.0
 
 static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
   return ordering == SL_ORDERING_MINDEG ||
@@ -11553,7 +11554,7 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
     sli_order_cost cost = {0.0, 0.0, 0.0, 0.0, 0.0};
     const sl_status status = sli_order_mindeg(G, perm, &cost, a);
     if (status != SL_OK || ordering == SL_ORDERING_MINDEG ||
-      0.5 * cost.flops <= SLI_ORDER_ND_FLOPS * (double)G->begin[G->n] ||
+      0.5 * cost.flops <= SLI_ORDER_ND_SAVES * (double)G->begin[G->n] ||
       sli_order_is_irregular(G, 1)) {
       return status;
     }
@@ -31647,6 +31648,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_PIVOT_THRESHOLD
 #undef SLI_QUOTIENT_DENSE_ROW
 #undef SLI_ORDER_ND_FLOPS
+#undef SLI_ORDER_ND_SAVES
 #undef SLI_ANALYSIS_FLOPS
 #undef SLI_ANALYSIS_ROOM
 #undef SLI_ANALYSIS_RUNS

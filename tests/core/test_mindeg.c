@@ -190,7 +190,7 @@ static void the_purpose_decides(void **state) {
     (void)state;
     for (int kind = 0; kind < 3; kind++) {
         gen_matrix_t M = kind == 0   ? grid(90, 90, 1, 0)
-                         : kind == 1 ? grid(26, 26, 26, 0)
+                         : kind == 1 ? grid(30, 30, 30, 0)
                                      : random_graph(3000);
         sl_options opt = options_none();
         const double nd = fill_of(&M.view, opt);
