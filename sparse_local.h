@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2742544d2e6f9498
+ * FNV-1a of the lines after this comment, without the license: 70efc9441a1e4459
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11,84 +11,84 @@
  *    556 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
  *    753 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    925 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1069 factor.h     the numerical factorization P A P' = L D L'
- *   1358 solve.h      full solves, and the workspace of all solves
- *   1471 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1565 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1678 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1791 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1927 batch.h      many independent solves by one call, distributed over threads
- *   1977 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2155 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2275 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2379 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2518 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2636 change.h     a factor that follows small changes of its matrix
- *   2729 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2881 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3012 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3067 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   1068 factor.h     the numerical factorization P A P' = L D L'
+ *   1357 solve.h      full solves, and the workspace of all solves
+ *   1470 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1564 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1677 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1790 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1926 batch.h      many independent solves by one call, distributed over threads
+ *   1976 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2154 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2274 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2378 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2517 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2635 change.h     a factor that follows small changes of its matrix
+ *   2728 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2880 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   3011 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   3066 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3160 base.h   3456 status.h   3517 options.h   3576 alloc.h   3739 hash.h   3869 file_map.h
- *   3966 sort.h   4031 parallel.h
+ *   3159 base.h   3455 status.h   3516 options.h   3575 alloc.h   3738 hash.h   3868 file_map.h
+ *   3965 sort.h   4030 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4227 panel.h   4252 step.h   4331 pivot_rule.h   4405 front.h   4466 pairs.h
- *   4673 inverse_front.h   4745 table.h   4794 simd.h   4891 simd_scalar_single.h
- *   4935 simd_scalar.h   5061 simd_avx2_single.h   5113 simd_avx2.h   5339 simd_avx512_single.h
- *   5394 simd_avx512.h   5561 simd_neon_single.h   5601 simd_neon.h   5821 dispatch.h
+ *   4226 panel.h   4251 step.h   4330 pivot_rule.h   4404 front.h   4465 pairs.h
+ *   4672 inverse_front.h   4744 table.h   4793 simd.h   4890 simd_scalar_single.h
+ *   4934 simd_scalar.h   5060 simd_avx2_single.h   5112 simd_avx2.h   5338 simd_avx512_single.h
+ *   5393 simd_avx512.h   5560 simd_neon_single.h   5600 simd_neon.h   5820 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5914 csc.h   6057 csc_build.h   6191 csc64.h   6262 csc_triangle.h   6327 csc_products.h
- *   6444 permute.h   6510 sum.h   6592 output_file.h   6801 text_reader.h   6982 matrix_market.h
+ *   5913 csc.h   6056 csc_build.h   6190 csc64.h   6261 csc_triangle.h   6326 csc_products.h
+ *   6443 permute.h   6509 sum.h   6591 output_file.h   6800 text_reader.h   6981 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7250 graph.h   7367 contract.h   7548 coarsen.h   7712 labels.h   7938 subgraph.h   8132 heap.h
- *   8194 bisect.h   8402 separator.h   8664 mindeg.h   8847 dissection.h   8956 weigh.h
- *   9023 dissect.h   9314 tree_cost.h   9377 levelset.h   9462 geometric.h   9637 cells.h
- *   9817 septree.h   9893 metis.h  10042 metis_refined.h  10157 nd.h  10365 compress.h
- *  10517 levels.h  10570 border.h  10623 forest.h  10710 peel.h  10910 quotient.h
- *  11336 graph_kind.h  11425 order.h
+ *   7249 graph.h   7368 contract.h   7549 coarsen.h   7713 labels.h   7939 subgraph.h   8133 heap.h
+ *   8195 bisect.h   8403 separator.h   8665 mindeg.h   8848 dissection.h   8957 weigh.h
+ *   9024 dissect.h   9315 tree_cost.h   9378 levelset.h   9463 geometric.h   9638 cells.h
+ *   9818 septree.h   9894 metis.h  10043 metis_refined.h  10158 nd.h  10366 compress.h
+ *  10518 levels.h  10571 border.h  10624 forest.h  10711 peel.h  10911 quotient.h
+ *  11337 graph_kind.h  11426 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11753 symbolic_types.h  11790 etree.h  11987 supernodes.h  12245 pattern.h  12330 structure.h
- *  12598 schedule.h  12929 symbolic.h  13403 reach.h
+ *  11754 symbolic_types.h  11791 etree.h  11988 supernodes.h  12246 pattern.h  12327 structure.h
+ *  12523 schedule.h  12854 symbolic.h  13328 reach.h
  * (factor: the numbers of L and D)
- *  13679 factor_types.h  13884 panel_load.h  13997 pivot_check.h  14116 storage.h
- *  14254 pivot_search.h  14600 pivoted.h  14669 scatter.h  14827 uplooking.h  14901 null_product.h
- *  15105 null_dense.h  15182 null_basis.h  15502 null_vectors.h  15644 multifrontal.h
- *  15891 gather.h  15939 kept.h  16109 front_tasks.h  16452 null_center.h  16576 nullspace.h
- *  16783 growth.h  16861 factor_setup.h  17201 factor.h  17416 leftlooking.h  17570 factor_query.h
- *  17705 combination.h
+ *  13604 factor_types.h  13809 panel_load.h  13922 pivot_check.h  14041 storage.h
+ *  14179 pivot_search.h  14525 pivoted.h  14594 scatter.h  14752 uplooking.h  14826 null_product.h
+ *  15030 null_dense.h  15107 null_basis.h  15427 null_vectors.h  15569 multifrontal.h
+ *  15816 gather.h  15864 kept.h  16034 front_tasks.h  16377 null_center.h  16501 nullspace.h
+ *  16708 growth.h  16786 factor_setup.h  17126 factor.h  17341 leftlooking.h  17495 factor_query.h
+ *  17630 combination.h
  * (solve: full and local solves)
- *  17766 region_types.h  17870 work.h  17970 query.h  18188 singular.h  18448 backward.h
- *  18478 sweep_tasks.h  18809 sweep.h  19017 compile.h  19210 plan.h  19317 local.h  19469 parts.h
- *  19758 refine.h  19937 refine_local.h  20153 rcond.h  20312 defects.h
+ *  17691 region_types.h  17795 work.h  17895 query.h  18113 singular.h  18373 backward.h
+ *  18403 sweep_tasks.h  18734 sweep.h  18942 compile.h  19135 plan.h  19242 local.h  19394 parts.h
+ *  19683 refine.h  19862 refine_local.h  20078 rcond.h  20237 defects.h
  * (inverse: entries of the inverse, regions)
- *  20371 traversal.h  20625 traversal_run.h  20818 row_sets.h  20852 unit_vectors.h
- *  21079 bilinear.h  21251 entries.h  21528 block.h  21763 reserve.h  21955 selected.h
- *  22165 selected_query.h  22267 region_choose.h  22494 region.h
+ *  20296 traversal.h  20550 traversal_run.h  20743 row_sets.h  20777 unit_vectors.h
+ *  21004 bilinear.h  21176 entries.h  21453 block.h  21688 reserve.h  21880 selected.h
+ *  22090 selected_query.h  22192 region_choose.h  22419 region.h
  * (change: a factor that follows changes of its matrix)
- *  22742 update_pivots.h  22913 update.h  23146 path.h  23248 rank.h  23640 edges.h  23794 choose.h
- *  24044 pins_types.h  24110 pins_nulls.h  24291 pins_capacitance.h  24557 pins_rows.h
- *  24677 pins_balance.h  24839 pins_held.h  25067 pins_choose.h  25133 pins_rebuild.h
- *  25356 pins_matrix.h  25507 pins.h  25769 pins_solve.h  26044 subset.h  26172 restrict_kept.h
- *  26370 restrict_analysis.h  26616 restrict_symbolic.h  26811 restrict.h  27043 edit_match.h
- *  27242 edit_place.h  27491 edit_separate.h  27805 edit_order.h  27960 edit_graph.h
- *  28042 edit_join.h  28318 edit.h  28481 edit_factor.h
+ *  22667 update_pivots.h  22838 update.h  23071 path.h  23173 rank.h  23565 edges.h  23719 choose.h
+ *  23969 pins_types.h  24035 pins_nulls.h  24216 pins_capacitance.h  24482 pins_rows.h
+ *  24602 pins_balance.h  24764 pins_held.h  24992 pins_choose.h  25058 pins_rebuild.h
+ *  25281 pins_matrix.h  25432 pins.h  25694 pins_solve.h  25969 subset.h  26097 restrict_kept.h
+ *  26295 restrict_analysis.h  26540 restrict_symbolic.h  26735 restrict.h  26967 edit_match.h
+ *  27166 edit_place.h  27415 edit_separate.h  27729 edit_order.h  27884 edit_graph.h
+ *  27966 edit_join.h  28242 edit.h  28405 edit_factor.h
  * (save: factors in files)
- *  28766 format.h  29063 decode.h  29211 check.h  29541 write.h  29850 load.h  30118 load_inverse.h
- *  30448 load_calls.h
+ *  28690 format.h  28987 decode.h  29135 check.h  29465 write.h  29774 load.h  30042 load_inverse.h
+ *  30372 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30647 batch_solve.h  30856 batch_factor.h  31057 batch_diagonal.h
+ *  30571 batch_solve.h  30780 batch_factor.h  30981 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31197 hermitian.h  31359 complex_rows.h
+ *  31121 hermitian.h  31283 complex_rows.h
  * (last: undefine every internal macro)
- *  31527 undef.h
+ *  31451 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31826 front.inl.h  31828 product.inl.h  32348 copy_rows.inl.h  32386 sweeps.inl.h
- *  32388 unit_triangle.inl.h  32425 two_rhs.inl.h  32599 small_supernode.inl.h
- *  32801 single_rhs.inl.h  33041 multi_rhs.inl.h  33060 complex_groups.inl.h
- *  33199 multi_rhs_small.inl.h  33371 multi_rhs_tiles.inl.h  33648 kernel_set.inl.h
- *  33650 complex_small.inl.h  33840 complex_rows.inl.h  34055 inverse_front.inl.h  34340 row.inl.h
- *  34372 change.inl.h  34615 interleave.inl.h  34749 lanes_undef.inl.h  34768 words_undef.inl.h
+ *  31750 front.inl.h  31752 product.inl.h  32272 copy_rows.inl.h  32310 sweeps.inl.h
+ *  32312 unit_triangle.inl.h  32349 two_rhs.inl.h  32523 small_supernode.inl.h
+ *  32725 single_rhs.inl.h  32965 multi_rhs.inl.h  32984 complex_groups.inl.h
+ *  33123 multi_rhs_small.inl.h  33295 multi_rhs_tiles.inl.h  33572 kernel_set.inl.h
+ *  33574 complex_small.inl.h  33764 complex_rows.inl.h  33979 inverse_front.inl.h  34264 row.inl.h
+ *  34296 change.inl.h  34539 interleave.inl.h  34673 lanes_undef.inl.h  34692 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -971,10 +971,9 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
  *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
- *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A and the
- *           rows of L, with the same result for any number of them. The call is one call of the
- *           pool; any of its threads may call the allocator, one at a time. Small systems use fewer
- *           threads.
+ *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A, with
+ *           the same result for any number of them. The call is one call of the pool; any of its
+ *           threads may call the allocator, one at a time. Small systems use fewer threads.
  *           Any number of calls at once, with the same result for the same pattern however it is
  *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
  *           draws from rand() of the C library and prints a line if it runs out of memory. During
@@ -7254,6 +7253,8 @@ typedef struct sli_pattern {
   sl_int *entry;
 } sli_pattern;
 
+#define SLI_ENTRY 3
+
 typedef struct sli_graph {
   sl_int n;
   sl_off *begin;
@@ -11867,8 +11868,8 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
     }
     size -= continues;
     end = sli_merge_rows(list, before, id, mark,
-               columns->entry + 2 * (size_t)columns->begin[k],
-               columns->begin[k + 1] - columns->begin[k], 2);
+               columns->entry + SLI_ENTRY * (size_t)columns->begin[k],
+               columns->begin[k + 1] - columns->begin[k], SLI_ENTRY);
     for (c = child[k]; c != -1; c = sibling[c]) {
       end = sli_merge_rows(list, end, id, mark, list + m.from[c], counts[c] - 1, 1);
       moved += (uint64_t)counts[c];
@@ -11931,7 +11932,7 @@ static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *pare
   sl_int *at = scratch, *ancestor = scratch + n, *weight = ancestor, j, k, p = 0;
   memset(at, 0, (size_t)n * sizeof(sl_int));
   for (k = 0; k < columns->begin[n]; k++) {
-    at[columns->entry[2 * (size_t)k]]++;
+    at[columns->entry[SLI_ENTRY * (size_t)k]]++;
   }
   for (k = 0; k < n; k++) {
     p += at[k];
@@ -11939,7 +11940,7 @@ static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *pare
   }
   for (j = 0; j < n; j++) {
     for (p = columns->begin[j]; p < columns->begin[j + 1]; p++) {
-      rows[at[columns->entry[2 * (size_t)p]]++] = j;
+      rows[at[columns->entry[SLI_ENTRY * (size_t)p]]++] = j;
     }
   }
   for (k = 0, p = 0; k < n; k++) {
@@ -12244,8 +12245,6 @@ static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
 
 /* src/impl/analysis/pattern.h: the scratch of the analysis; the lower triangle of P A P', by ranges of entries */
 
-#define SLI_ANALYSIS_RUNS 64
-
 typedef struct sli_analysis {
   sl_int n;
   sl_int workers;
@@ -12270,12 +12269,9 @@ typedef struct sli_analysis {
   size_t ordered;
   sl_int *moved;
   sl_int *spare;
-  sl_symbolic *S;
-  int has_rows;
-  sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
 } sli_analysis;
 
-#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
+#define SLI_ANALYSIS_ROOM(n) ((uint64_t)(n) + 16)
 
 static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
   const sl_int *row = w->A->i, *iperm = w->scratch, side = w->side;
@@ -12295,9 +12291,10 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
     at[to]++;
   }
   for (; p < end; p++) {
-    sl_int *entry = w->columns.entry + 2 * (size_t)at[column[p]]++;
+    sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
     entry[0] = moved[p];
-    entry[1] = p;
+    entry[1] = column[p];
+    entry[2] = p;
   }
 }
 
@@ -12329,212 +12326,122 @@ static void sli_pattern_fill(sli_analysis *w, sl_triangle triangle, sli_team *te
 
 /* src/impl/analysis/structure.h: rows of the supernodes, relative indices, and the scatter map of A into L */
 
-static void sli_scatter_map_count(sl_symbolic *S, const sli_pattern *columns,
-                  const sl_int *old_of) {
+typedef struct sli_structure_super {
+  sl_off to;
+  sl_off rows;
+  sl_int last;
+  sl_int height;
+  sl_int width;
+  sl_int up;
+  sl_int bottom;
+  sl_int next;
+} sli_structure_super;
+
+static void sli_structure_count(const sli_analysis *w, const sl_symbolic *S) {
+  const sl_int *begin = w->columns.begin, *old_of = w->old_of;
   sl_int s, k = 0;
   sl_off total = 0;
   for (s = 0; s < S->n_supers; s++) {
     S->scatter_begin[s] = total;
     for (; k < S->super_first[s + 1]; k++) {
-      total += columns->begin[old_of[k] + 1] - columns->begin[old_of[k]];
+      total += begin[old_of[k] + 1] - begin[old_of[k]];
     }
   }
-  S->scatter_begin[S->n_supers] = total;
+  S->scatter_begin[s] = total;
 }
 
-SLI_ALWAYS_INLINE sl_int sli_structure_set(uint64_t *bits, uint64_t *word, sl_int count, sl_int r) {
-  const uint32_t at = (uint32_t)r / 64;
-  const uint64_t before = bits[at];
-  word[count] = (uint64_t)at << 32;
-  bits[at] = before | (uint64_t)1 << ((uint32_t)r % 64);
-  return count + (before == 0);
-}
-
-static sl_int sli_structure_gather(const sli_analysis *w, sl_int s, uint64_t *bits, uint64_t *word,
-                   sl_int *copy) {
-  const sl_symbolic *S = w->S;
-  const sl_int *new_of = w->new_of;
-  sl_int k, count = 0;
-  for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
-    const sl_int *begin = w->columns.begin + w->old_of[k];
-    const sl_int *entry = w->columns.entry + 2 * (size_t)begin[0];
-    const sl_int *stop = w->columns.entry + 2 * (size_t)begin[1];
-    for (; entry < stop; entry += 2, copy += 3) {
-      const sl_int row = new_of[entry[0]];
-      copy[0] = row;
-      copy[1] = entry[1];
-      copy[2] = k - S->super_first[s];
-      count = sli_structure_set(bits, word, count, row);
-    }
+static void sli_structure_sort(const sli_analysis *w, sl_int *to, sl_int *at) {
+  const sl_int *begin = w->columns.entry, *new_of = w->new_of, *entry;
+  const sl_int *end = begin + SLI_ENTRY * (size_t)w->columns.begin[w->n];
+  sl_int k, total = 0;
+  memset(at, 0, (size_t)w->n * sizeof(sl_int));
+  for (entry = begin; entry < end; entry += SLI_ENTRY) {
+    at[entry[0]]++;
   }
-  return count;
-}
-
-static void sli_structure_rows(const sl_symbolic *S, sl_int s, sl_int count, uint64_t *bits,
-                 uint64_t *word, uint64_t *scratch) {
-  const sl_int end = S->super_first[s + 1];
-  const sl_int first = S->super_first[s];
-  sl_off at = S->rows_begin[s], r;
-  sl_int c, q;
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    for (r = S->rows_begin[c]; r < S->rows_begin[c + 1]; r++) {
-      count = sli_structure_set(bits, word, count, S->rows[r]);
-    }
+  for (k = 0; k < w->n; k++) {
+    sl_int *row = &at[w->old_of[k]];
+    total += *row;
+    *row = total - *row;
   }
-  memset(bits + first / 64, 0, (size_t)(end / 64 - first / 64) * sizeof *bits);
-  bits[end / 64] &= ~(uint64_t)0 << (end % 64);
-  sli_sort(word, count, scratch);
-  for (q = 0; q < count; q++) {
-    uint64_t *here = bits + sli_key(word[q]), left = *here;
-    for (*here = 0; left != 0; left &= left - 1) {
-      S->rows[at++] = 64 * sli_key(word[q]) + sli_lowest_bit(left);
-    }
-  }
-  for (; at < S->rows_begin[s + 1]; at++) {
-    S->rows[at] = S->super_first[S->super_parent[s]];
-  }
-  SLI_ASSERT(at == S->rows_begin[s + 1]);
-}
-
-static void sli_structure_parts(const sli_analysis *w) {
-  const sl_symbolic *S = w->S;
-  sl_int s, k;
-  for (s = S->n_supers - 1; s >= 0; s--) {
-    if (w->earlier[s] != -1) {
-      sl_int *rows = S->rows + S->rows_begin[w->earlier[s]];
-      for (k = S->super_first[s]; k < S->super_first[s + 1]; k++) {
-        *rows++ = k;
-      }
-      memcpy(rows, S->rows + S->rows_begin[s],
-           (size_t)(S->rows_begin[s + 1] - S->rows_begin[s]) * sizeof(sl_int));
-    }
+  for (entry = begin; entry < end; entry += SLI_ENTRY) {
+    sl_int *here = to + 2 * (size_t)at[entry[0]]++;
+    here[0] = new_of[entry[1]];
+    here[1] = entry[2];
   }
 }
 
-static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
-  const sl_off begin = S->rows_begin[s];
-  const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
-  sl_int c;
-  sl_off at;
-  for (c = 0; c < width; c++) {
-    local[first + c] = c;
+static void sli_structure_start(const sli_analysis *w, const sl_symbolic *S,
+                sli_structure_super *all) {
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    sli_structure_super *v = &all[s];
+    const sl_int first = S->super_first[s];
+    v->width = S->super_first[s + 1] - first;
+    v->to = S->panel_begin[s] - SLI_TILE * (sl_off)first + SLI_TILE - 1;
+    v->rows = S->rows_begin[s] - v->width;
+    v->last = -1;
+    v->height = 0;
+    v->up = S->super_parent[s];
+    v->bottom = w->earlier == NULL || w->earlier[s] == -1 ? s : all[w->earlier[s]].bottom;
+    v->next = (sl_int)S->scatter_begin[s];
   }
-  for (at = begin; at < S->rows_begin[s + 1]; at++) {
-    local[S->rows[at]] = width + (sl_int)(at - begin);
+}
+
+SLI_ALWAYS_INLINE void sli_structure_add(sli_structure_super *v, sl_int k) {
+  const sl_int local = v->height, columns = sli_min(v->width, local);
+  const sl_off starts = -(sl_off)(local % SLI_TILE == 0);
+  v->height = local + 1;
+  v->last = k;
+  v->to += 1 + (starts & (SLI_TILE * (sl_off)columns - SLI_TILE));
+}
+
+SLI_ALWAYS_INLINE void sli_structure_climb(sli_structure_super *all, sli_structure_super *v,
+                       sl_int k, sl_int *rows, sl_int *relative,
+                       int has_parts) {
+  while (v->last != k) {
+    sli_structure_super *up = all + v->up;
+    const sl_off at = v->rows + v->height;
+    rows[at] = k;
+    relative[at] = up->height - (up->last == k);
+    sli_structure_add(v, k);
+    v = has_parts && up->bottom != v->bottom ? all + up->bottom : up;
   }
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
-      S->relative[at] = local[S->rows[at]];
+}
+
+SLI_ALWAYS_INLINE void sli_structure_rows(const sli_analysis *w, const sl_symbolic *S,
+                      sli_structure_super *all, int has_parts) {
+  const sl_int *super_of = S->super_of, *row = w->spare, *at = w->scratch, *old_of = w->old_of;
+  sl_int *rows = S->rows, *relative = S->relative, *from = S->scatter_from, k;
+  const sl_int n = w->n;
+  sl_off *to = S->scatter_to;
+  for (k = 0; k < n; k++) {
+    const sl_int *end = w->spare + 2 * (size_t)at[old_of[k]];
+    sli_structure_super *own = all + super_of[k];
+    sli_structure_add(own, k);
+    if (has_parts) {
+      sli_structure_climb(all, all + own->bottom, k, rows, relative, 1);
+    }
+    for (; row < end; row += 2) {
+      const sl_int column = row[0];
+      sli_structure_super *v = all + super_of[column];
+      sl_int e;
+      sli_structure_climb(all, has_parts ? all + v->bottom : v, k, rows, relative, has_parts);
+      e = v->next++;
+      from[e] = row[1];
+      to[e] = v->to + SLI_TILE * (sl_off)column;
     }
   }
 }
 
-static void sli_structure_map(const sl_symbolic *S, sl_int s, const sl_int *entry,
-                const sl_int *local, sl_int *next, sl_off *tile) {
-  const sl_int width = S->super_first[s + 1] - S->super_first[s];
-  const sl_int height = width + (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
-  const sl_int count = (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]);
-  sl_int total = (sl_int)S->scatter_begin[s], e, r;
-  memset(next, 0, (size_t)height * sizeof(sl_int));
-  for (e = 0; e < count; e++) {
-    next[local[entry[3 * (size_t)e]]]++;
-  }
-  for (r = 0; r < height; r++) {
-    const sl_int here = next[r];
-    next[r] = total;
-    total += here;
-  }
-  for (r = 0; r < sli_tiles(height); r++) {
-    tile[r] = S->panel_begin[s] + sli_tile_offset(width, r);
-  }
-  for (e = 0; e < count; e++, entry += 3) {
-    const sl_int row = local[entry[0]], to = next[row]++;
-    S->scatter_from[to] = entry[1];
-    S->scatter_to[to] = tile[(uint32_t)row / SLI_TILE] + (uint32_t)row % SLI_TILE +
-              SLI_TILE * (sl_off)entry[2];
-  }
-}
-
-static void sli_structure_run(const sli_analysis *w, sl_int first, sl_int last, sl_int worker) {
-  const sl_symbolic *S = w->S;
-  const size_t words = (size_t)w->n / 64 + 1;
-  sl_int *local = w->room + (uint64_t)worker * SLI_ANALYSIS_ROOM(w->n);
-  uint64_t *bits = (uint64_t *)(void *)(local + 2 * (size_t)w->n), *word = bits + words;
-  sl_off *tile = (sl_off *)(void *)(word + 2 * words);
-  sl_int *copy = w->spare + 3 * (size_t)S->scatter_begin[first], s, q;
-  memset(bits, 0, words * sizeof(uint64_t));
-  for (s = first; s <= last; s++) {
-    const sl_int count = sli_structure_gather(w, s, bits, word, copy);
-    if (!w->has_rows) {
-      sli_structure_rows(S, s, count, bits, word, word + words);
-    }
-    for (q = 0; q < count && w->has_rows; q++) {
-      bits[sli_key(word[q])] = 0;
-    }
-    if (w->has_rows || w->earlier == NULL) {
-      sli_fill_relative_of(S, s, local);
-      sli_structure_map(S, s, copy, local, local + w->n, tile);
-    }
-  }
-}
-
-SLI_INLINE sl_off sli_structure_size(const sl_symbolic *S, sl_int first, sl_int last) {
-  return S->rows_begin[last + 1] - S->rows_begin[first] + S->scatter_begin[last + 1] -
-       S->scatter_begin[first];
-}
-
-static void sli_structure_divide(sli_analysis *w) {
-  const sl_symbolic *S = w->S;
-  const sl_off most = sli_structure_size(S, 0, S->n_supers - 1) / (4 * (sl_off)w->workers);
-  sl_int s = S->n_supers - 1, last = -1;
-  while (s >= 0) {
-    const sl_int first = S->first_descendant[s];
-    if (sli_structure_size(S, first, s) > most) {
-      last = -1;
-      s--;
-      continue;
-    }
-    if (last == -1 || sli_structure_size(S, first, last) > most) {
-      if (w->n_runs == SLI_ANALYSIS_RUNS) {
-        return;
-      }
-      last = w->last[w->n_runs++] = s;
-    }
-    w->first[w->n_runs - 1] = first;
-    s = first - 1;
-  }
-}
-
-static void sli_structure_item(void *data, sl_int item, sl_int worker) {
-  const sli_analysis *w = (const sli_analysis *)data;
-  sli_structure_run(w, w->first[item], w->last[item], worker);
-}
-
-static void sli_structure_pass(sli_analysis *w, sli_team *team) {
-  sl_int r, next = 0;
-  if (w->n_runs > 0) {
-    sli_team_loop(team, w->n_runs, NULL, sli_structure_item, w);
-  }
-  for (r = w->n_runs - 1; r >= 0; r--) {
-    sli_structure_run(w, next, w->first[r] - 1, 0);
-    next = w->last[r] + 1;
-  }
-  sli_structure_run(w, next, w->S->n_supers - 1, 0);
-}
-
-static void sli_fill_structure(sli_analysis *w, sl_symbolic *S, sli_team *team) {
-  sli_scatter_map_count(S, &w->columns, w->old_of);
-  w->S = S;
-  w->n_runs = 0;
-  w->has_rows = 0;
-  if (w->workers > 1) {
-    sli_structure_divide(w);
-  }
-  sli_structure_pass(w, team);
-  if (w->earlier != NULL) {
-    sli_structure_parts(w);
-    w->has_rows = 1;
-    sli_structure_pass(w, team);
+static void sli_fill_structure(const sli_analysis *w, const sl_symbolic *S) {
+  sli_structure_super *all = (sli_structure_super *)(void *)w->list;
+  sli_structure_count(w, S);
+  sli_structure_sort(w, w->spare, w->scratch);
+  sli_structure_start(w, S, all);
+  if (w->earlier == NULL) {
+    sli_structure_rows(w, S, all, 0);
+  } else {
+    sli_structure_rows(w, S, all, 1);
   }
 }
 
@@ -12565,6 +12472,24 @@ static void sli_fill_descendants(sl_symbolic *S) {
     const sl_int up = S->super_parent[s];
     if (up != -1) {
       S->first_descendant[up] = sli_min(S->first_descendant[up], S->first_descendant[s]);
+    }
+  }
+}
+
+static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
+  const sl_off begin = S->rows_begin[s];
+  const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+  sl_int c;
+  sl_off at;
+  for (c = 0; c < width; c++) {
+    local[first + c] = c;
+  }
+  for (at = begin; at < S->rows_begin[s + 1]; at++) {
+    local[S->rows[at]] = width + (sl_int)(at - begin);
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
+      S->relative[at] = local[S->rows[at]];
     }
   }
 }
@@ -12939,7 +12864,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
   w->ordered = b->used;
   w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
-  w->columns.entry = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz);
+  w->columns.entry = SLI_TAKE(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
   w->old_of = SLI_TAKE(b, sl_int, n);
   w->new_of = SLI_TAKE(b, sl_int, n);
   w->parent = SLI_TAKE(b, sl_int, n);
@@ -12950,7 +12875,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
   w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
   w->amalgamation.width = SLI_TAKE(b, sl_int, n);
   w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-  w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 4 + 1));
+  w->list = SLI_TAKE(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
   if (w->list != NULL) {
     w->room = (sl_int *)(void *)w->list;
     w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
@@ -13173,7 +13098,7 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
   }
 }
 
-static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, sl_stats *stats) {
+static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) {
   const size_t bytes = (size_t)S->n * sizeof(sl_int);
   sl_int s, k;
   for (k = 0; k < S->n; k++) {
@@ -13198,7 +13123,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, s
                           : SLI_PAIR_NONE;
   }
   sli_fill_descendants(S);
-  sli_fill_structure(w, S, team);
+  sli_fill_structure(w, S);
   sli_fill_steps(S);
   sli_fill_septree(S, &w->septree);
   sli_fill_identity(S, stats->symbolic.triangle);
@@ -13206,7 +13131,7 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, s
 }
 
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
-                  sli_team *team, sl_stats *stats) {
+                  sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_off rows = 0;
   sl_int s;
@@ -13232,7 +13157,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   if (status != SL_OK) {
     return status;
   }
-  sli_symbolic_fill(draft, w, team, stats);
+  sli_symbolic_fill(draft, w, stats);
   stats->symbolic.seconds_structure = sli_analysis_lap(w);
   stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
   draft->stats = *stats;
@@ -13261,7 +13186,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
   draft.allocator = *a;
   draft.nnz_input = sli_nnz(A);
   draft.pattern = w->pattern;
-  return sli_symbolic_build(out, &draft, w, team, stats);
+  return sli_symbolic_build(out, &draft, w, stats);
 }
 
 #define SLI_ANALYSIS_FLOPS 100.0
@@ -26542,9 +26467,10 @@ static void sli_restriction_sort(sli_restriction *r) {
   sli_pattern_starts(&r->w.columns, r->n_fresh, at, 1, 0);
   for (e = 0; e < r->n_entries; e++) {
     const sl_int a = r->entry_row[e], b = r->entry_column[e], column = sli_min(a, b);
-    sl_int *entry = columns->entry + 2 * (size_t)at[column]++;
+    sl_int *entry = columns->entry + SLI_ENTRY * (size_t)at[column]++;
     entry[0] = a + b - column;
-    entry[1] = r->entry_from[e];
+    entry[1] = column;
+    entry[2] = r->entry_from[e];
   }
 }
 
@@ -26580,7 +26506,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->rows = SLI_TAKE(&b, sl_int, rows);
     T->relative = SLI_TAKE(&b, sl_int, rows);
     T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
-    T->first_descendant = SLI_TAKE(&b, sl_int, T->n_supers);
     T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
     T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
@@ -26598,8 +26523,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->rows_begin[t + 1] = T->rows_begin[t] + below;
     T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
   }
-  sli_fill_descendants(T);
-  sli_fill_structure(w, T, NULL);
+  sli_fill_structure(w, T);
   return SL_OK;
 }
 
@@ -26777,7 +26701,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
   sli_restriction_tree(r, a, stats);
   (void)sli_analysis_lap(&r->w);
   memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
-  return sli_symbolic_build(out, &draft, &r->w, NULL, stats);
+  return sli_symbolic_build(out, &draft, &r->w, stats);
 }
 
 static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_allocator *a,
@@ -31651,7 +31575,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_ORDER_ND_SAVES
 #undef SLI_ANALYSIS_FLOPS
 #undef SLI_ANALYSIS_ROOM
-#undef SLI_ANALYSIS_RUNS
+#undef SLI_ENTRY
 #undef SLI_ORDER_PATHS_SHORT
 #undef SLI_ORDER_PATHS_LONG
 #undef SLI_GROWTH_LIMIT

@@ -52,10 +52,9 @@
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
  *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
- *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A and the
- *           rows of L, with the same result for any number of them. The call is one call of the
- *           pool; any of its threads may call the allocator, one at a time. Small systems use fewer
- *           threads.
+ *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A, with
+ *           the same result for any number of them. The call is one call of the pool; any of its
+ *           threads may call the allocator, one at a time. Small systems use fewer threads.
  *           Any number of calls at once, with the same result for the same pattern however it is
  *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
  *           draws from rand() of the C library and prints a line if it runs out of memory. During

@@ -100,8 +100,8 @@ static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *par
         }
         size -= continues;
         end = sli_merge_rows(list, before, id, mark,
-                             columns->entry + 2 * (size_t)columns->begin[k],
-                             columns->begin[k + 1] - columns->begin[k], 2);
+                             columns->entry + SLI_ENTRY * (size_t)columns->begin[k],
+                             columns->begin[k + 1] - columns->begin[k], SLI_ENTRY);
         for (c = child[k]; c != -1; c = sibling[c]) {
             end = sli_merge_rows(list, end, id, mark, list + m.from[c], counts[c] - 1, 1);
             moved += (uint64_t)counts[c];
@@ -168,7 +168,7 @@ static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *pare
     sl_int *at = scratch, *ancestor = scratch + n, *weight = ancestor, j, k, p = 0;
     memset(at, 0, (size_t)n * sizeof(sl_int));
     for (k = 0; k < columns->begin[n]; k++) {
-        at[columns->entry[2 * (size_t)k]]++;
+        at[columns->entry[SLI_ENTRY * (size_t)k]]++;
     }
     for (k = 0; k < n; k++) {
         p += at[k];
@@ -176,7 +176,7 @@ static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *pare
     }
     for (j = 0; j < n; j++) {
         for (p = columns->begin[j]; p < columns->begin[j + 1]; p++) {
-            rows[at[columns->entry[2 * (size_t)p]]++] = j;
+            rows[at[columns->entry[SLI_ENTRY * (size_t)p]]++] = j;
         }
     }
     for (k = 0, p = 0; k < n; k++) {

@@ -5,8 +5,6 @@
 #include "../ordering/order.h"
 #include "supernodes.h"
 
-#define SLI_ANALYSIS_RUNS 64
-
 /* Scratch of the analysis. Rows have three numberings: that of A; the order found or given, used
  * by columns and perm; and the final postorder of supernodes, used by everything else. */
 typedef struct sli_analysis {
@@ -24,7 +22,7 @@ typedef struct sli_analysis {
     sl_int *old_of, *new_of;            /* n: from the last numbering to the one before, and back */
     sl_int *parent, *counts, *super_of; /* n each */
     sl_int *scratch;                    /* 5n */
-    uint64_t *list;                     /* 5n + 40, also the memory of the next one */
+    uint64_t *list;                     /* 5n + 80, also the memory of the next one */
     sl_int *room;                       /* SLI_ANALYSIS_ROOM for each worker */
     /* n: is the row in this position of perm the first of a 2x2 pivot? NULL: there are none */
     const unsigned char *pairs;
@@ -33,14 +31,11 @@ typedef struct sli_analysis {
     sli_septree septree;     /* n each: by rows of A */
     size_t ordered;          /* bytes of the block that hold what the ordering fills */
     sl_int *moved;           /* nnz: rows of the entries of A in P A P' */
-    sl_int *spare;           /* 3 for each entry: the ordering, rows, entries */
-    sl_symbolic *S;          /* what is filled, by runs of supernodes, in descending order */
-    int has_rows;            /* the rows of its supernodes are filled */
-    sl_int n_runs, first[SLI_ANALYSIS_RUNS], last[SLI_ANALYSIS_RUNS];
+    sl_int *spare;           /* 3 for each entry: the ordering, rows, entries by rows */
 } sli_analysis;
 
-/* The memory of one worker, in sl_int: an even number. */
-#define SLI_ANALYSIS_ROOM(n) (2 * ((uint64_t)(n) + (uint64_t)(n) / 4 + 10))
+/* The memory of one worker, in sl_int. */
+#define SLI_ANALYSIS_ROOM(n) ((uint64_t)(n) + 16)
 
 /* Counts or fills the range of entries of one worker. Counting turns the column of each entry into
  * that in P A P', or n if it is not read, and keeps its row. */
@@ -62,9 +57,10 @@ static void sli_pattern_range(const sli_analysis *w, sl_int r, int is_counted) {
         at[to]++;
     }
     for (; p < end; p++) {
-        sl_int *entry = w->columns.entry + 2 * (size_t)at[column[p]]++;
+        sl_int *entry = w->columns.entry + SLI_ENTRY * (size_t)at[column[p]]++;
         entry[0] = moved[p];
-        entry[1] = p;
+        entry[1] = column[p];
+        entry[2] = p;
     }
 }
 

@@ -18,7 +18,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->septree.parent = SLI_TAKE(b, sl_int, n + 1);
     w->ordered = b->used;
     w->columns.begin = SLI_TAKE(b, sl_int, n + 1);
-    w->columns.entry = SLI_TAKE(b, sl_int, 2 * (uint64_t)nnz);
+    w->columns.entry = SLI_TAKE(b, sl_int, SLI_ENTRY * (uint64_t)nnz);
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n); /* sli_pattern_fill uses 7 n from here on */
@@ -29,7 +29,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->amalgamation.parent = SLI_TAKE(b, sl_int, n);
     w->amalgamation.width = SLI_TAKE(b, sl_int, n);
     w->amalgamation.below = SLI_TAKE(b, sl_int, n);
-    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 8) * (uint64_t)(w->workers / 4 + 1));
+    w->list = SLI_TAKE(b, uint64_t, 5 * (n + 16) * (uint64_t)(w->workers / 8 + 1));
     if (w->list != NULL) { /* none of these is used together with the room of the workers */
         w->room = (sl_int *)(void *)w->list;
         w->amalgamation.zeros = (sl_off *)(void *)(w->list + 2 * n);
@@ -268,7 +268,7 @@ static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
 }
 
 /* Copies the tree out of the scratch and fills everything that depends on it. */
-static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, sl_stats *stats) {
+static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sl_stats *stats) {
     const size_t bytes = (size_t)S->n * sizeof(sl_int);
     sl_int s, k;
     for (k = 0; k < S->n; k++) {
@@ -293,16 +293,16 @@ static void sli_symbolic_fill(sl_symbolic *S, sli_analysis *w, sli_team *team, s
                                                     : SLI_PAIR_NONE;
     }
     sli_fill_descendants(S);
-    sli_fill_structure(w, S, team);
+    sli_fill_structure(w, S);
     sli_fill_steps(S);
     sli_fill_septree(S, &w->septree);
     sli_fill_identity(S, stats->symbolic.triangle);
     sli_analyze_stats(S, w->scratch, stats);
 }
 
-/* Creates the analysis from the tree. draft has its allocator and its pattern. team: or NULL. */
+/* Creates the analysis from the tree. draft has its allocator and its pattern. */
 static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_analysis *w,
-                                    sli_team *team, sl_stats *stats) {
+                                    sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     sl_off rows = 0;
     sl_int s;
@@ -328,7 +328,7 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     if (status != SL_OK) {
         return status;
     }
-    sli_symbolic_fill(draft, w, team, stats);
+    sli_symbolic_fill(draft, w, stats);
     stats->symbolic.seconds_structure = sli_analysis_lap(w);
     stats->symbolic.seconds_analyze += stats->symbolic.seconds_structure;
     draft->stats = *stats;
@@ -357,7 +357,7 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
     draft.allocator = *a;
     draft.nnz_input = sli_nnz(A);
     draft.pattern = w->pattern;
-    return sli_symbolic_build(out, &draft, w, team, stats);
+    return sli_symbolic_build(out, &draft, w, stats);
 }
 
 /* What several workers share of the analysis takes as long as so many operations of a factorization

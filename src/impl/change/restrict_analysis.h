@@ -188,9 +188,10 @@ static void sli_restriction_sort(sli_restriction *r) {
     sli_pattern_starts(&r->w.columns, r->n_fresh, at, 1, 0);
     for (e = 0; e < r->n_entries; e++) {
         const sl_int a = r->entry_row[e], b = r->entry_column[e], column = sli_min(a, b);
-        sl_int *entry = columns->entry + 2 * (size_t)at[column]++;
+        sl_int *entry = columns->entry + SLI_ENTRY * (size_t)at[column]++;
         entry[0] = a + b - column;
-        entry[1] = r->entry_from[e];
+        entry[1] = column;
+        entry[2] = r->entry_from[e];
     }
 }
 
@@ -228,7 +229,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->rows = SLI_TAKE(&b, sl_int, rows);
         T->relative = SLI_TAKE(&b, sl_int, rows);
         T->panel_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
-        T->first_descendant = SLI_TAKE(&b, sl_int, T->n_supers);
         T->scatter_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->scatter_from = SLI_TAKE(&b, sl_int, r->n_entries);
         T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
@@ -246,8 +246,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->rows_begin[t + 1] = T->rows_begin[t] + below;
         T->panel_begin[t + 1] = T->panel_begin[t] + sli_panel_size(w->amalgamation.width[t], below);
     }
-    sli_fill_descendants(T);
-    sli_fill_structure(w, T, NULL);
+    sli_fill_structure(w, T);
     return SL_OK;
 }
 

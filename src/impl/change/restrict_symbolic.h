@@ -177,7 +177,7 @@ static sl_status sli_restriction_make(sl_symbolic **out, sli_restriction *r, con
     sli_restriction_tree(r, a, stats);
     (void)sli_analysis_lap(&r->w);
     memcpy(r->w.perm, r->R.row_of, (size_t)r->R.count * sizeof(sl_int));
-    return sli_symbolic_build(out, &draft, &r->w, NULL, stats);
+    return sli_symbolic_build(out, &draft, &r->w, stats);
 }
 
 /* Creates the analysis of A[R, R] from the kept columns and the new ones. */
