@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 70efc9441a1e4459
+ * FNV-1a of the lines after this comment, without the license: ea3ebb15feb3f6d4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,49 +46,49 @@
  *   9024 dissect.h   9315 tree_cost.h   9378 levelset.h   9463 geometric.h   9638 cells.h
  *   9818 septree.h   9894 metis.h  10043 metis_refined.h  10158 nd.h  10366 compress.h
  *  10518 levels.h  10571 border.h  10624 forest.h  10711 peel.h  10911 quotient.h
- *  11337 graph_kind.h  11426 order.h
+ *  11245 quotient_order.h  11339 graph_kind.h  11428 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11754 symbolic_types.h  11791 etree.h  11988 supernodes.h  12246 pattern.h  12327 structure.h
- *  12523 schedule.h  12854 symbolic.h  13328 reach.h
+ *  11756 symbolic_types.h  11793 etree.h  11990 supernodes.h  12248 pattern.h  12329 structure.h
+ *  12525 schedule.h  12856 symbolic.h  13330 reach.h
  * (factor: the numbers of L and D)
- *  13604 factor_types.h  13809 panel_load.h  13922 pivot_check.h  14041 storage.h
- *  14179 pivot_search.h  14525 pivoted.h  14594 scatter.h  14752 uplooking.h  14826 null_product.h
- *  15030 null_dense.h  15107 null_basis.h  15427 null_vectors.h  15569 multifrontal.h
- *  15816 gather.h  15864 kept.h  16034 front_tasks.h  16377 null_center.h  16501 nullspace.h
- *  16708 growth.h  16786 factor_setup.h  17126 factor.h  17341 leftlooking.h  17495 factor_query.h
- *  17630 combination.h
+ *  13606 factor_types.h  13811 panel_load.h  13924 pivot_check.h  14043 storage.h
+ *  14181 pivot_search.h  14527 pivoted.h  14596 scatter.h  14754 uplooking.h  14828 null_product.h
+ *  15032 null_dense.h  15109 null_basis.h  15429 null_vectors.h  15571 multifrontal.h
+ *  15818 gather.h  15866 kept.h  16036 front_tasks.h  16379 null_center.h  16503 nullspace.h
+ *  16710 growth.h  16788 factor_setup.h  17128 factor.h  17343 leftlooking.h  17497 factor_query.h
+ *  17632 combination.h
  * (solve: full and local solves)
- *  17691 region_types.h  17795 work.h  17895 query.h  18113 singular.h  18373 backward.h
- *  18403 sweep_tasks.h  18734 sweep.h  18942 compile.h  19135 plan.h  19242 local.h  19394 parts.h
- *  19683 refine.h  19862 refine_local.h  20078 rcond.h  20237 defects.h
+ *  17693 region_types.h  17797 work.h  17897 query.h  18115 singular.h  18375 backward.h
+ *  18405 sweep_tasks.h  18736 sweep.h  18944 compile.h  19137 plan.h  19244 local.h  19396 parts.h
+ *  19685 refine.h  19864 refine_local.h  20080 rcond.h  20239 defects.h
  * (inverse: entries of the inverse, regions)
- *  20296 traversal.h  20550 traversal_run.h  20743 row_sets.h  20777 unit_vectors.h
- *  21004 bilinear.h  21176 entries.h  21453 block.h  21688 reserve.h  21880 selected.h
- *  22090 selected_query.h  22192 region_choose.h  22419 region.h
+ *  20298 traversal.h  20552 traversal_run.h  20745 row_sets.h  20779 unit_vectors.h
+ *  21006 bilinear.h  21178 entries.h  21455 block.h  21690 reserve.h  21882 selected.h
+ *  22092 selected_query.h  22194 region_choose.h  22421 region.h
  * (change: a factor that follows changes of its matrix)
- *  22667 update_pivots.h  22838 update.h  23071 path.h  23173 rank.h  23565 edges.h  23719 choose.h
- *  23969 pins_types.h  24035 pins_nulls.h  24216 pins_capacitance.h  24482 pins_rows.h
- *  24602 pins_balance.h  24764 pins_held.h  24992 pins_choose.h  25058 pins_rebuild.h
- *  25281 pins_matrix.h  25432 pins.h  25694 pins_solve.h  25969 subset.h  26097 restrict_kept.h
- *  26295 restrict_analysis.h  26540 restrict_symbolic.h  26735 restrict.h  26967 edit_match.h
- *  27166 edit_place.h  27415 edit_separate.h  27729 edit_order.h  27884 edit_graph.h
- *  27966 edit_join.h  28242 edit.h  28405 edit_factor.h
+ *  22669 update_pivots.h  22840 update.h  23073 path.h  23175 rank.h  23567 edges.h  23721 choose.h
+ *  23971 pins_types.h  24037 pins_nulls.h  24218 pins_capacitance.h  24484 pins_rows.h
+ *  24604 pins_balance.h  24766 pins_held.h  24994 pins_choose.h  25060 pins_rebuild.h
+ *  25283 pins_matrix.h  25434 pins.h  25696 pins_solve.h  25971 subset.h  26099 restrict_kept.h
+ *  26297 restrict_analysis.h  26542 restrict_symbolic.h  26737 restrict.h  26969 edit_match.h
+ *  27168 edit_place.h  27417 edit_separate.h  27731 edit_order.h  27886 edit_graph.h
+ *  27968 edit_join.h  28244 edit.h  28407 edit_factor.h
  * (save: factors in files)
- *  28690 format.h  28987 decode.h  29135 check.h  29465 write.h  29774 load.h  30042 load_inverse.h
- *  30372 load_calls.h
+ *  28692 format.h  28989 decode.h  29137 check.h  29467 write.h  29776 load.h  30044 load_inverse.h
+ *  30374 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30571 batch_solve.h  30780 batch_factor.h  30981 batch_diagonal.h
+ *  30573 batch_solve.h  30782 batch_factor.h  30983 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31121 hermitian.h  31283 complex_rows.h
+ *  31123 hermitian.h  31285 complex_rows.h
  * (last: undefine every internal macro)
- *  31451 undef.h
+ *  31453 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31750 front.inl.h  31752 product.inl.h  32272 copy_rows.inl.h  32310 sweeps.inl.h
- *  32312 unit_triangle.inl.h  32349 two_rhs.inl.h  32523 small_supernode.inl.h
- *  32725 single_rhs.inl.h  32965 multi_rhs.inl.h  32984 complex_groups.inl.h
- *  33123 multi_rhs_small.inl.h  33295 multi_rhs_tiles.inl.h  33572 kernel_set.inl.h
- *  33574 complex_small.inl.h  33764 complex_rows.inl.h  33979 inverse_front.inl.h  34264 row.inl.h
- *  34296 change.inl.h  34539 interleave.inl.h  34673 lanes_undef.inl.h  34692 words_undef.inl.h
+ *  31752 front.inl.h  31754 product.inl.h  32274 copy_rows.inl.h  32312 sweeps.inl.h
+ *  32314 unit_triangle.inl.h  32351 two_rhs.inl.h  32525 small_supernode.inl.h
+ *  32727 single_rhs.inl.h  32967 multi_rhs.inl.h  32986 complex_groups.inl.h
+ *  33125 multi_rhs_small.inl.h  33297 multi_rhs_tiles.inl.h  33574 kernel_set.inl.h
+ *  33576 complex_small.inl.h  33766 complex_rows.inl.h  33981 inverse_front.inl.h  34266 row.inl.h
+ *  34298 change.inl.h  34541 interleave.inl.h  34675 lanes_undef.inl.h  34694 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10908,7 +10908,7 @@ static void sli_peel_expand(const sli_peel *p, sl_int *perm) {
   memcpy(perm, p->sequence, (size_t)p->count * sizeof(sl_int));
 }
 
-/* src/impl/ordering/quotient.h: approximate minimum degree ordering of a whole graph, kept as a quotient graph */
+/* src/impl/ordering/quotient.h: elimination of variables of approximate minimum degree from a quotient graph */
 
 #define SLI_QUOTIENT_DENSE_ROW 10
 
@@ -11241,6 +11241,8 @@ static void sli_quotient_eliminate(sli_quotient *q, sl_int pivot) {
   height = 2.0 * left + q->weight[pivot];
   q->flops += height * height * q->weight[pivot];
 }
+
+/* src/impl/ordering/quotient_order.h: minimum degree ordering of a whole graph, and what it costs */
 
 static void sli_quotient_write(sli_quotient *q, sl_int *perm) {
   sl_int *start = q->head, *into = q->list;

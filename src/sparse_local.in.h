@@ -103,6 +103,7 @@ extern "C" {
 #include "impl/ordering/forest.h"
 #include "impl/ordering/peel.h"
 #include "impl/ordering/quotient.h"
+#include "impl/ordering/quotient_order.h"
 #include "impl/ordering/graph_kind.h"
 #include "impl/ordering/order.h"
 /* analysis: elimination tree, supernodes, structure of L; never sees a value */

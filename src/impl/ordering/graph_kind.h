@@ -3,7 +3,7 @@
 #define SLI_ORDERING_GRAPH_KIND_H
 
 #include "levels.h"
-#include "quotient.h"
+#include "quotient_order.h"
 
 /* Do the degrees vary so much that minimum degree may have far less fill than dissection? The mean
  * of their squares is at least 6/5 of the square of their mean: below 1.08 of it on most meshes,
