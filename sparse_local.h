@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ea3ebb15feb3f6d4
+ * FNV-1a of the lines after this comment, without the license: 051e89a8e4cba7d8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,54 +41,54 @@
  *   5913 csc.h   6056 csc_build.h   6190 csc64.h   6261 csc_triangle.h   6326 csc_products.h
  *   6443 permute.h   6509 sum.h   6591 output_file.h   6800 text_reader.h   6981 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
- *   7249 graph.h   7368 contract.h   7549 coarsen.h   7713 labels.h   7939 subgraph.h   8133 heap.h
- *   8195 bisect.h   8403 separator.h   8665 mindeg.h   8848 dissection.h   8957 weigh.h
- *   9024 dissect.h   9315 tree_cost.h   9378 levelset.h   9463 geometric.h   9638 cells.h
- *   9818 septree.h   9894 metis.h  10043 metis_refined.h  10158 nd.h  10366 compress.h
- *  10518 levels.h  10571 border.h  10624 forest.h  10711 peel.h  10911 quotient.h
- *  11245 quotient_order.h  11339 graph_kind.h  11428 order.h
+ *   7249 graph.h   7368 contract.h   7549 coarsen.h   7763 labels.h   7989 subgraph.h   8183 heap.h
+ *   8245 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissection.h   9007 weigh.h
+ *   9074 dissect.h   9371 tree_cost.h   9434 levelset.h   9519 geometric.h   9694 cells.h
+ *   9874 septree.h   9950 metis.h  10099 metis_refined.h  10214 nd.h  10422 compress.h
+ *  10574 levels.h  10627 border.h  10680 forest.h  10767 peel.h  10967 quotient.h
+ *  11301 quotient_order.h  11395 graph_kind.h  11484 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11756 symbolic_types.h  11793 etree.h  11990 supernodes.h  12248 pattern.h  12329 structure.h
- *  12525 schedule.h  12856 symbolic.h  13330 reach.h
+ *  11812 symbolic_types.h  11849 etree.h  12046 supernodes.h  12304 pattern.h  12385 structure.h
+ *  12581 schedule.h  12912 symbolic.h  13386 reach.h
  * (factor: the numbers of L and D)
- *  13606 factor_types.h  13811 panel_load.h  13924 pivot_check.h  14043 storage.h
- *  14181 pivot_search.h  14527 pivoted.h  14596 scatter.h  14754 uplooking.h  14828 null_product.h
- *  15032 null_dense.h  15109 null_basis.h  15429 null_vectors.h  15571 multifrontal.h
- *  15818 gather.h  15866 kept.h  16036 front_tasks.h  16379 null_center.h  16503 nullspace.h
- *  16710 growth.h  16788 factor_setup.h  17128 factor.h  17343 leftlooking.h  17497 factor_query.h
- *  17632 combination.h
+ *  13662 factor_types.h  13867 panel_load.h  13980 pivot_check.h  14099 storage.h
+ *  14237 pivot_search.h  14583 pivoted.h  14652 scatter.h  14810 uplooking.h  14884 null_product.h
+ *  15088 null_dense.h  15165 null_basis.h  15485 null_vectors.h  15627 multifrontal.h
+ *  15874 gather.h  15922 kept.h  16092 front_tasks.h  16435 null_center.h  16559 nullspace.h
+ *  16766 growth.h  16844 factor_setup.h  17184 factor.h  17399 leftlooking.h  17553 factor_query.h
+ *  17688 combination.h
  * (solve: full and local solves)
- *  17693 region_types.h  17797 work.h  17897 query.h  18115 singular.h  18375 backward.h
- *  18405 sweep_tasks.h  18736 sweep.h  18944 compile.h  19137 plan.h  19244 local.h  19396 parts.h
- *  19685 refine.h  19864 refine_local.h  20080 rcond.h  20239 defects.h
+ *  17749 region_types.h  17853 work.h  17953 query.h  18171 singular.h  18431 backward.h
+ *  18461 sweep_tasks.h  18792 sweep.h  19000 compile.h  19193 plan.h  19300 local.h  19452 parts.h
+ *  19741 refine.h  19920 refine_local.h  20136 rcond.h  20295 defects.h
  * (inverse: entries of the inverse, regions)
- *  20298 traversal.h  20552 traversal_run.h  20745 row_sets.h  20779 unit_vectors.h
- *  21006 bilinear.h  21178 entries.h  21455 block.h  21690 reserve.h  21882 selected.h
- *  22092 selected_query.h  22194 region_choose.h  22421 region.h
+ *  20354 traversal.h  20608 traversal_run.h  20801 row_sets.h  20835 unit_vectors.h
+ *  21062 bilinear.h  21234 entries.h  21511 block.h  21746 reserve.h  21938 selected.h
+ *  22148 selected_query.h  22250 region_choose.h  22477 region.h
  * (change: a factor that follows changes of its matrix)
- *  22669 update_pivots.h  22840 update.h  23073 path.h  23175 rank.h  23567 edges.h  23721 choose.h
- *  23971 pins_types.h  24037 pins_nulls.h  24218 pins_capacitance.h  24484 pins_rows.h
- *  24604 pins_balance.h  24766 pins_held.h  24994 pins_choose.h  25060 pins_rebuild.h
- *  25283 pins_matrix.h  25434 pins.h  25696 pins_solve.h  25971 subset.h  26099 restrict_kept.h
- *  26297 restrict_analysis.h  26542 restrict_symbolic.h  26737 restrict.h  26969 edit_match.h
- *  27168 edit_place.h  27417 edit_separate.h  27731 edit_order.h  27886 edit_graph.h
- *  27968 edit_join.h  28244 edit.h  28407 edit_factor.h
+ *  22725 update_pivots.h  22896 update.h  23129 path.h  23231 rank.h  23623 edges.h  23777 choose.h
+ *  24027 pins_types.h  24093 pins_nulls.h  24274 pins_capacitance.h  24540 pins_rows.h
+ *  24660 pins_balance.h  24822 pins_held.h  25050 pins_choose.h  25116 pins_rebuild.h
+ *  25339 pins_matrix.h  25490 pins.h  25752 pins_solve.h  26027 subset.h  26155 restrict_kept.h
+ *  26353 restrict_analysis.h  26598 restrict_symbolic.h  26793 restrict.h  27025 edit_match.h
+ *  27224 edit_place.h  27473 edit_separate.h  27787 edit_order.h  27942 edit_graph.h
+ *  28024 edit_join.h  28300 edit.h  28463 edit_factor.h
  * (save: factors in files)
- *  28692 format.h  28989 decode.h  29137 check.h  29467 write.h  29776 load.h  30044 load_inverse.h
- *  30374 load_calls.h
+ *  28748 format.h  29045 decode.h  29193 check.h  29523 write.h  29832 load.h  30100 load_inverse.h
+ *  30430 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30573 batch_solve.h  30782 batch_factor.h  30983 batch_diagonal.h
+ *  30629 batch_solve.h  30838 batch_factor.h  31039 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31123 hermitian.h  31285 complex_rows.h
+ *  31179 hermitian.h  31341 complex_rows.h
  * (last: undefine every internal macro)
- *  31453 undef.h
+ *  31509 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31752 front.inl.h  31754 product.inl.h  32274 copy_rows.inl.h  32312 sweeps.inl.h
- *  32314 unit_triangle.inl.h  32351 two_rhs.inl.h  32525 small_supernode.inl.h
- *  32727 single_rhs.inl.h  32967 multi_rhs.inl.h  32986 complex_groups.inl.h
- *  33125 multi_rhs_small.inl.h  33297 multi_rhs_tiles.inl.h  33574 kernel_set.inl.h
- *  33576 complex_small.inl.h  33766 complex_rows.inl.h  33981 inverse_front.inl.h  34266 row.inl.h
- *  34298 change.inl.h  34541 interleave.inl.h  34675 lanes_undef.inl.h  34694 words_undef.inl.h
+ *  31809 front.inl.h  31811 product.inl.h  32331 copy_rows.inl.h  32369 sweeps.inl.h
+ *  32371 unit_triangle.inl.h  32408 two_rhs.inl.h  32582 small_supernode.inl.h
+ *  32784 single_rhs.inl.h  33024 multi_rhs.inl.h  33043 complex_groups.inl.h
+ *  33182 multi_rhs_small.inl.h  33354 multi_rhs_tiles.inl.h  33631 kernel_set.inl.h
+ *  33633 complex_small.inl.h  33823 complex_rows.inl.h  34038 inverse_front.inl.h  34323 row.inl.h
+ *  34355 change.inl.h  34598 interleave.inl.h  34732 lanes_undef.inl.h  34751 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -7653,48 +7653,98 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
   return g->begin[g->n] >= SLI_WIDE_DEGREE * (sl_off)g->n;
 }
 
-static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
-                    sli_clusters *clusters) {
-  sl_int v, count = 0, members = 0;
+#define SLI_BALL_PAIRS 4
+
+SLI_INLINE sl_int sli_cluster_ball(const sli_level *g, sl_int v, sl_int heaviest, sl_int number,
+                   sli_clusters *clusters) {
+  int64_t weight = sli_level_weight(g, v);
+  sl_int members = clusters->start[number];
+  sl_off e;
+  clusters->member[members++] = v;
+  g->coarse[v] = number;
+  for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+    const sl_int u = g->to[e];
+    if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
+      weight += sli_level_weight(g, u);
+      clusters->member[members++] = u;
+      g->coarse[u] = number;
+    }
+  }
+  clusters->start[number + 1] = members;
+  return (sl_int)weight;
+}
+
+SLI_INLINE int sli_cluster_is_free(const sli_level *g, sl_int v) {
+  sl_off e = g->begin[v];
+  while (e < g->begin[v + 1] && g->coarse[g->to[e]] == -1) {
+    e++;
+  }
+  return e == g->begin[v + 1];
+}
+
+static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int has_balls,
+                    sli_clusters *clusters, sl_int *weight) {
+  sl_int v, best, count = 0, members = 0;
   sl_off e, k;
   for (v = 0; v < g->n; v++) {
     g->coarse[v] = -1;
   }
+  clusters->start[0] = 0;
   for (k = 0; k < (sl_off)g->n + 511; k++) {
     const sl_off at = sli_visited(k);
-    int64_t weight;
-    if (at >= g->n || g->coarse[at] != -1) {
-      continue;
+    if (at < g->n && g->coarse[at] == -1 &&
+      (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
+      weight[count] = sli_cluster_ball(g, (sl_int)at, heaviest, count, clusters);
+      count++;
     }
-    v = (sl_int)at;
-    weight = sli_level_weight(g, v);
-    clusters->start[count] = members;
-    clusters->member[members++] = v;
-    g->coarse[v] = count;
-    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-      const sl_int u = g->to[e];
-      if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
-        weight += sli_level_weight(g, u);
-        clusters->member[members++] = u;
-        g->coarse[u] = count;
-      }
-    }
-    count++;
   }
-  clusters->start[count] = members;
+  if (!has_balls) {
+    return count;
+  }
+  for (v = 0; v < g->n; v++) {
+    best = -1;
+    for (e = g->begin[v]; e < g->begin[v + 1] && g->coarse[v] == -1; e++) {
+      const sl_int c = g->coarse[g->to[e]];
+      best = c >= 0 && (best == -1 || weight[c] < weight[best]) ? c : best;
+    }
+    if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v)) {
+      weight[best] += sli_level_weight(g, v);
+      g->coarse[v] = -2 - best;
+    }
+  }
+  for (v = 0; v < g->n; v++) {
+    if (g->coarse[v] < -1) {
+      g->coarse[v] = -2 - g->coarse[v];
+    } else if (g->coarse[v] == -1) {
+      sli_cluster_ball(g, v, heaviest, count++, clusters);
+    }
+  }
+  memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
+  for (v = 0; v < g->n; v++) {
+    clusters->start[g->coarse[v]]++;
+  }
+  for (v = 0; v <= count; v++) {
+    members += clusters->start[v];
+    clusters->start[v] = members;
+  }
+  for (v = g->n - 1; v >= 0; v--) {
+    clusters->member[--clusters->start[g->coarse[v]]] = v;
+  }
   return count;
 }
 
-static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
-               sli_clusters *clusters, sli_shares *ranges, int *shrunk,
+static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, int has_balls, sli_level *c,
+               sl_int *mate, sli_clusters *clusters, sli_shares *ranges, int *shrunk,
                const sl_allocator *a) {
   sl_int pairs, count = g->n;
   memset(c, 0, sizeof *c);
   *shrunk = 1;
   if (g->edge == NULL) {
-    const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS : 1;
-    heaviest = sli_min(heaviest, INT32_MAX / times);
-    count = sli_cluster_neighborhoods(g, heaviest * times, clusters);
+    const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
+               : has_balls          ? SLI_BALL_PAIRS
+                          : 1;
+    const sl_int most = times * sli_min(heaviest, INT32_MAX / times);
+    count = sli_cluster_neighborhoods(g, most, has_balls, clusters, mate);
   }
   if (count > g->n / 2) {
     pairs = sli_match(g, heaviest, mate);
@@ -9036,7 +9086,7 @@ static void sli_weigh_edges(sli_dissection *d) {
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
 #define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND 2
+#define SLI_DISSECT_BAND 1
 #define SLI_DISSECT_BAND_FROM 1000
 #define SLI_SEPARATOR_BALANCE 70
 
@@ -9225,7 +9275,7 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
 
 static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
   const sl_int n = d->levels[0].n;
-  int shrunk = 1;
+  int shrunk = 1, has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
   sl_status status = SL_OK;
   sli_clusters clusters;
   clusters.member = d->other;
@@ -9236,6 +9286,12 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     const sli_level *g = &d->levels[last];
     const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
     sl_int most;
+    if (last == 1 && has_balls && sli_level_exceeds(g, SLI_VOLUME_DEGREE)) {
+      has_balls = 0;
+      sli_free(d->a, g->block);
+      d->n_levels = 1;
+      continue;
+    }
     if (last == 1) {
       d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
       d->may_be_seven_point =
@@ -9252,8 +9308,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
       break;
     }
-    status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, &d->ranges,
-               &shrunk, d->a);
+    status = sli_coarsen(g, heaviest, has_balls, &d->levels[d->n_levels], d->order, &clusters,
+               &d->ranges, &shrunk, d->a);
     if (status != SL_OK || !shrunk) {
       break;
     }
@@ -10240,7 +10296,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
-  d->band_growth = 2;
+  d->band_growth = 3;
   d->is_volume = d->may_be_seven_point = 0;
   if (w->by_metis) {
 #if defined(SLI_METIS)
@@ -31661,6 +31717,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_DISSECT_FIRST
 #undef SLI_DISSECT_TRIES_FIRST
 #undef SLI_DISSECT_TRIES
+#undef SLI_BALL_PAIRS
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND
 #undef SLI_DISSECT_BAND_FROM

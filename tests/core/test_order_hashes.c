@@ -41,9 +41,9 @@ static int differs(const char *what, int kind, uint64_t found, uint64_t expected
 static void patterns_have_one_order(void **state) {
     (void)state;
     static const uint64_t expected[ORDER_KINDS] = {
-        0xc9652a8860d10bbcu, 0xf424a95df0192f8au, 0x94df81bbbfcf14dau, 0xc97785b670e44a52u,
-        0x4c85b3d7f50377e2u, 0x6f65117e326858f7u, 0xbfec7b76be2cb289u, 0xab619d1e4f017fa3u,
-        0x23d3c361ab0e84b3u, 0x980f1cda779e982cu, 0x605777a43ae9d01fu, 0x3838cf092e4a29eeu};
+        0xc9014517e7738daeu, 0x4694cd491d69783bu, 0x250a752c3ff7fcf7u, 0x7a389ab43d0afc84u,
+        0x4c85b3d7f50377e2u, 0x50bf09310a39bcfdu, 0xbfec7b76be2cb289u, 0xab619d1e4f017fa3u,
+        0x23d3c361ab0e84b3u, 0x4eeb962cf3d6e63cu, 0x605777a43ae9d01fu, 0x62eed427a9120ed9u};
     int wrong = 0;
     for (int kind = 0; kind < ORDER_KINDS; kind++) {
         gen_list_t t = pattern(kind);
@@ -84,8 +84,8 @@ static void supernodes_merge_alike(void **state) {
 static void coordinates_give_one_order(void **state) {
     (void)state;
     static const uint64_t expected[7] = {
-        0x7d0d7d9ee81034b2u, 0xeb5c95eaafecee66u, 0xeb5c95eaafecee66u, 0xeb5c95eaafecee66u,
-        0xb5d92f839852ea4eu, 0x1a90d3a032019cd0u, 0x7d0d7d9ee81034b2u}; /* tiny: as the first */
+        0x2fe64e88bd258dcdu, 0xe87b5c172b8eb11du, 0xe87b5c172b8eb11du, 0xe87b5c172b8eb11du,
+        0xe7c1a990d3164272u, 0x39feb7682731bb1du, 0x2fe64e88bd258dcdu}; /* tiny: as the first */
     const sl_int side = 150;
     int wrong = 0;
     gen_list_t t = gen_list(side * side);

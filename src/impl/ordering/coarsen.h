@@ -127,55 +127,112 @@ SLI_INLINE int sli_level_is_wide(const sli_level *g) {
     return g->begin[g->n] >= SLI_WIDE_DEGREE * (sl_off)g->n;
 }
 
-/* Makes clusters of a vertex that is in none, and those of its neighbors that are in none. Returns
- * the number of clusters. */
-static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest,
-                                        sli_clusters *clusters) {
-    sl_int v, count = 0, members = 0;
+/* The weight of a ball is at most this many times that of the heaviest pair. */
+#define SLI_BALL_PAIRS 4
+
+/* Appends a cluster of v and, unless it gets too heavy, those neighbors that are in none. Returns
+ * its weight. */
+SLI_INLINE sl_int sli_cluster_ball(const sli_level *g, sl_int v, sl_int heaviest, sl_int number,
+                                   sli_clusters *clusters) {
+    int64_t weight = sli_level_weight(g, v);
+    sl_int members = clusters->start[number];
+    sl_off e;
+    clusters->member[members++] = v;
+    g->coarse[v] = number;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int u = g->to[e];
+        if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
+            weight += sli_level_weight(g, u);
+            clusters->member[members++] = u;
+            g->coarse[u] = number;
+        }
+    }
+    clusters->start[number + 1] = members;
+    return (sl_int)weight;
+}
+
+/* Returns whether all neighbors of v are in no cluster. */
+SLI_INLINE int sli_cluster_is_free(const sli_level *g, sl_int v) {
+    sl_off e = g->begin[v];
+    while (e < g->begin[v + 1] && g->coarse[g->to[e]] == -1) {
+        e++;
+    }
+    return e == g->begin[v + 1];
+}
+
+/* Makes clusters of the finest level, of a vertex that is in none, and those of its neighbors that
+ * are in none. With balls, first of vertices where none of the neighbors is in a cluster yet; then
+ * others join the lightest of them that is next to them. Balls are rounder, and one level of them
+ * replaces three or four levels of pairs. weight: g->n of scratch. Returns the number of clusters.
+ */
+static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int has_balls,
+                                        sli_clusters *clusters, sl_int *weight) {
+    sl_int v, best, count = 0, members = 0;
     sl_off e, k;
     for (v = 0; v < g->n; v++) {
         g->coarse[v] = -1;
     }
+    clusters->start[0] = 0;
     for (k = 0; k < (sl_off)g->n + 511; k++) {
         const sl_off at = sli_visited(k);
-        int64_t weight;
-        if (at >= g->n || g->coarse[at] != -1) {
-            continue;
+        if (at < g->n && g->coarse[at] == -1 &&
+            (!has_balls || sli_cluster_is_free(g, (sl_int)at))) {
+            weight[count] = sli_cluster_ball(g, (sl_int)at, heaviest, count, clusters);
+            count++;
         }
-        v = (sl_int)at;
-        weight = sli_level_weight(g, v);
-        clusters->start[count] = members;
-        clusters->member[members++] = v;
-        g->coarse[v] = count;
-        for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-            const sl_int u = g->to[e];
-            if (g->coarse[u] == -1 && weight + sli_level_weight(g, u) <= heaviest) {
-                weight += sli_level_weight(g, u);
-                clusters->member[members++] = u;
-                g->coarse[u] = count;
-            }
-        }
-        count++;
     }
-    clusters->start[count] = members;
+    if (!has_balls) {
+        return count;
+    }
+    for (v = 0; v < g->n; v++) { /* those that join are at -2 - cluster, for nobody joins them */
+        best = -1;
+        for (e = g->begin[v]; e < g->begin[v + 1] && g->coarse[v] == -1; e++) {
+            const sl_int c = g->coarse[g->to[e]];
+            best = c >= 0 && (best == -1 || weight[c] < weight[best]) ? c : best;
+        }
+        if (best != -1 && weight[best] <= heaviest - sli_level_weight(g, v)) {
+            weight[best] += sli_level_weight(g, v);
+            g->coarse[v] = -2 - best;
+        }
+    }
+    for (v = 0; v < g->n; v++) {
+        if (g->coarse[v] < -1) {
+            g->coarse[v] = -2 - g->coarse[v];
+        } else if (g->coarse[v] == -1) {
+            sli_cluster_ball(g, v, heaviest, count++, clusters);
+        }
+    }
+    memset(clusters->start, 0, ((size_t)count + 1) * sizeof(sl_int));
+    for (v = 0; v < g->n; v++) {
+        clusters->start[g->coarse[v]]++;
+    }
+    for (v = 0; v <= count; v++) {
+        members += clusters->start[v];
+        clusters->start[v] = members;
+    }
+    for (v = g->n - 1; v >= 0; v--) {
+        clusters->member[--clusters->start[g->coarse[v]]] = v;
+    }
     return count;
 }
 
-/* Makes the next coarser level: of the finest, of neighborhoods, as heavy as the heaviest pair,
- * which replace two levels of pairs, or in a wide graph three or four, each of which reads and
- * contracts most of the edges again; of others, or where neighborhoods are small, of pairs.
+/* Makes the next coarser level: of the finest, of balls, or of neighborhoods, as heavy as the
+ * heaviest pair, which replace two levels of pairs, or in a wide graph three or four, each of which
+ * reads and contracts most of the edges again; of others, or where clusters are small, of pairs.
  * heaviest: a pair's largest weight; mate: g->n of scratch. *shrunk := whether the level is
  * small enough to be used; c is empty if not. */
-static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, sli_level *c, sl_int *mate,
-                             sli_clusters *clusters, sli_shares *ranges, int *shrunk,
+static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, int has_balls, sli_level *c,
+                             sl_int *mate, sli_clusters *clusters, sli_shares *ranges, int *shrunk,
                              const sl_allocator *a) {
     sl_int pairs, count = g->n;
     memset(c, 0, sizeof *c);
     *shrunk = 1;
     if (g->edge == NULL) {
-        const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS : 1;
-        heaviest = sli_min(heaviest, INT32_MAX / times);
-        count = sli_cluster_neighborhoods(g, heaviest * times, clusters);
+        const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
+                             : has_balls          ? SLI_BALL_PAIRS
+                                                  : 1;
+        const sl_int most = times * sli_min(heaviest, INT32_MAX / times);
+        count = sli_cluster_neighborhoods(g, most, has_balls, clusters, mate);
     }
     if (count > g->n / 2) {
         pairs = sli_match(g, heaviest, mate);

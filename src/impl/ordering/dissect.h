@@ -30,7 +30,7 @@
 /* Layers on each side of a border whose vertices may change sides: LAYERS on coarse levels, BAND
  * for the final separators, and more than BAND from BAND_FROM finest vertices on. */
 #define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND 2
+#define SLI_DISSECT_BAND 1
 #define SLI_DISSECT_BAND_FROM 1000
 /* Largest percentage of the weight that one side of a separator may have. It exceeds
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
@@ -240,10 +240,11 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
 }
 
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on
- * which leaves are bisected. weigh: its edges become what a separator costs. */
+ * which leaves are bisected. weigh: its edges become what a separator costs. The first level is
+ * made of balls; a level that shows a volume is made again of smaller clusters. */
 static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
     const sl_int n = d->levels[0].n;
-    int shrunk = 1;
+    int shrunk = 1, has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
     sl_status status = SL_OK;
     sli_clusters clusters;
     clusters.member = d->other;
@@ -256,6 +257,12 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
          * bisection. */
         const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
         sl_int most;
+        if (last == 1 && has_balls && sli_level_exceeds(g, SLI_VOLUME_DEGREE)) {
+            has_balls = 0;
+            sli_free(d->a, g->block);
+            d->n_levels = 1;
+            continue;
+        }
         if (last == 1) {
             d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
             d->may_be_seven_point =
@@ -272,8 +279,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
         if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
             break;
         }
-        status = sli_coarsen(g, heaviest, &d->levels[d->n_levels], d->order, &clusters, &d->ranges,
-                             &shrunk, d->a);
+        status = sli_coarsen(g, heaviest, has_balls, &d->levels[d->n_levels], d->order, &clusters,
+                             &d->ranges, &shrunk, d->a);
         if (status != SL_OK || !shrunk) {
             break;
         }

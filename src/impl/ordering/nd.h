@@ -102,7 +102,7 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
  * method, the wider the bands in which they are refined. */
 static sl_status sli_nd_label(sli_nd *w) {
     sli_dissection *d = &w->d;
-    d->band_growth = 2;
+    d->band_growth = 3;
     d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
     if (w->by_metis) {
 #if defined(SLI_METIS)
