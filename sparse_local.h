@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 051e89a8e4cba7d8
+ * FNV-1a of the lines after this comment, without the license: 98caedd1364fc56d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,51 +44,51 @@
  *   7249 graph.h   7368 contract.h   7549 coarsen.h   7763 labels.h   7989 subgraph.h   8183 heap.h
  *   8245 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissection.h   9007 weigh.h
  *   9074 dissect.h   9371 tree_cost.h   9434 levelset.h   9519 geometric.h   9694 cells.h
- *   9874 septree.h   9950 metis.h  10099 metis_refined.h  10214 nd.h  10422 compress.h
- *  10574 levels.h  10627 border.h  10680 forest.h  10767 peel.h  10967 quotient.h
- *  11301 quotient_order.h  11395 graph_kind.h  11484 order.h
+ *   9874 septree.h   9950 metis.h  10099 metis_refined.h  10214 thin.h  10370 nd.h
+ *  10583 compress.h  10735 levels.h  10788 border.h  10841 forest.h  10928 peel.h  11128 quotient.h
+ *  11462 quotient_order.h  11556 graph_kind.h  11645 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11812 symbolic_types.h  11849 etree.h  12046 supernodes.h  12304 pattern.h  12385 structure.h
- *  12581 schedule.h  12912 symbolic.h  13386 reach.h
+ *  11973 symbolic_types.h  12010 etree.h  12207 supernodes.h  12465 pattern.h  12546 structure.h
+ *  12742 schedule.h  13073 symbolic.h  13547 reach.h
  * (factor: the numbers of L and D)
- *  13662 factor_types.h  13867 panel_load.h  13980 pivot_check.h  14099 storage.h
- *  14237 pivot_search.h  14583 pivoted.h  14652 scatter.h  14810 uplooking.h  14884 null_product.h
- *  15088 null_dense.h  15165 null_basis.h  15485 null_vectors.h  15627 multifrontal.h
- *  15874 gather.h  15922 kept.h  16092 front_tasks.h  16435 null_center.h  16559 nullspace.h
- *  16766 growth.h  16844 factor_setup.h  17184 factor.h  17399 leftlooking.h  17553 factor_query.h
- *  17688 combination.h
+ *  13823 factor_types.h  14028 panel_load.h  14141 pivot_check.h  14260 storage.h
+ *  14398 pivot_search.h  14744 pivoted.h  14813 scatter.h  14971 uplooking.h  15045 null_product.h
+ *  15249 null_dense.h  15326 null_basis.h  15646 null_vectors.h  15788 multifrontal.h
+ *  16035 gather.h  16083 kept.h  16253 front_tasks.h  16596 null_center.h  16720 nullspace.h
+ *  16927 growth.h  17005 factor_setup.h  17345 factor.h  17560 leftlooking.h  17714 factor_query.h
+ *  17849 combination.h
  * (solve: full and local solves)
- *  17749 region_types.h  17853 work.h  17953 query.h  18171 singular.h  18431 backward.h
- *  18461 sweep_tasks.h  18792 sweep.h  19000 compile.h  19193 plan.h  19300 local.h  19452 parts.h
- *  19741 refine.h  19920 refine_local.h  20136 rcond.h  20295 defects.h
+ *  17910 region_types.h  18014 work.h  18114 query.h  18332 singular.h  18592 backward.h
+ *  18622 sweep_tasks.h  18953 sweep.h  19161 compile.h  19354 plan.h  19461 local.h  19613 parts.h
+ *  19902 refine.h  20081 refine_local.h  20297 rcond.h  20456 defects.h
  * (inverse: entries of the inverse, regions)
- *  20354 traversal.h  20608 traversal_run.h  20801 row_sets.h  20835 unit_vectors.h
- *  21062 bilinear.h  21234 entries.h  21511 block.h  21746 reserve.h  21938 selected.h
- *  22148 selected_query.h  22250 region_choose.h  22477 region.h
+ *  20515 traversal.h  20769 traversal_run.h  20962 row_sets.h  20996 unit_vectors.h
+ *  21223 bilinear.h  21395 entries.h  21672 block.h  21907 reserve.h  22099 selected.h
+ *  22309 selected_query.h  22411 region_choose.h  22638 region.h
  * (change: a factor that follows changes of its matrix)
- *  22725 update_pivots.h  22896 update.h  23129 path.h  23231 rank.h  23623 edges.h  23777 choose.h
- *  24027 pins_types.h  24093 pins_nulls.h  24274 pins_capacitance.h  24540 pins_rows.h
- *  24660 pins_balance.h  24822 pins_held.h  25050 pins_choose.h  25116 pins_rebuild.h
- *  25339 pins_matrix.h  25490 pins.h  25752 pins_solve.h  26027 subset.h  26155 restrict_kept.h
- *  26353 restrict_analysis.h  26598 restrict_symbolic.h  26793 restrict.h  27025 edit_match.h
- *  27224 edit_place.h  27473 edit_separate.h  27787 edit_order.h  27942 edit_graph.h
- *  28024 edit_join.h  28300 edit.h  28463 edit_factor.h
+ *  22886 update_pivots.h  23057 update.h  23290 path.h  23392 rank.h  23784 edges.h  23938 choose.h
+ *  24188 pins_types.h  24254 pins_nulls.h  24435 pins_capacitance.h  24701 pins_rows.h
+ *  24821 pins_balance.h  24983 pins_held.h  25211 pins_choose.h  25277 pins_rebuild.h
+ *  25500 pins_matrix.h  25651 pins.h  25913 pins_solve.h  26188 subset.h  26316 restrict_kept.h
+ *  26514 restrict_analysis.h  26759 restrict_symbolic.h  26954 restrict.h  27186 edit_match.h
+ *  27385 edit_place.h  27634 edit_separate.h  27948 edit_order.h  28103 edit_graph.h
+ *  28185 edit_join.h  28461 edit.h  28624 edit_factor.h
  * (save: factors in files)
- *  28748 format.h  29045 decode.h  29193 check.h  29523 write.h  29832 load.h  30100 load_inverse.h
- *  30430 load_calls.h
+ *  28909 format.h  29206 decode.h  29354 check.h  29684 write.h  29993 load.h  30261 load_inverse.h
+ *  30591 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30629 batch_solve.h  30838 batch_factor.h  31039 batch_diagonal.h
+ *  30790 batch_solve.h  30999 batch_factor.h  31200 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31179 hermitian.h  31341 complex_rows.h
+ *  31340 hermitian.h  31502 complex_rows.h
  * (last: undefine every internal macro)
- *  31509 undef.h
+ *  31670 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31809 front.inl.h  31811 product.inl.h  32331 copy_rows.inl.h  32369 sweeps.inl.h
- *  32371 unit_triangle.inl.h  32408 two_rhs.inl.h  32582 small_supernode.inl.h
- *  32784 single_rhs.inl.h  33024 multi_rhs.inl.h  33043 complex_groups.inl.h
- *  33182 multi_rhs_small.inl.h  33354 multi_rhs_tiles.inl.h  33631 kernel_set.inl.h
- *  33633 complex_small.inl.h  33823 complex_rows.inl.h  34038 inverse_front.inl.h  34323 row.inl.h
- *  34355 change.inl.h  34598 interleave.inl.h  34732 lanes_undef.inl.h  34751 words_undef.inl.h
+ *  31976 front.inl.h  31978 product.inl.h  32498 copy_rows.inl.h  32536 sweeps.inl.h
+ *  32538 unit_triangle.inl.h  32575 two_rhs.inl.h  32749 small_supernode.inl.h
+ *  32951 single_rhs.inl.h  33191 multi_rhs.inl.h  33210 complex_groups.inl.h
+ *  33349 multi_rhs_small.inl.h  33521 multi_rhs_tiles.inl.h  33798 kernel_set.inl.h
+ *  33800 complex_small.inl.h  33990 complex_rows.inl.h  34205 inverse_front.inl.h  34490 row.inl.h
+ *  34522 change.inl.h  34765 interleave.inl.h  34899 lanes_undef.inl.h  34918 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10211,6 +10211,162 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
 
 #endif
 
+/* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
+
+#define SLI_THIN_WIDTH 22
+#define SLI_THIN_EVEN 3
+#define SLI_THIN_ASPECT 8
+#define SLI_THIN_LEAF_MIN 64
+#define SLI_THIN_LEAF_MAX 160
+#define SLI_THIN_BALANCE 65
+
+typedef struct sli_thin_part {
+  sl_int first, last, end;
+  sl_int above;
+} sli_thin_part;
+
+typedef struct sli_thin {
+  const sli_level *g;
+  sl_int *queue;
+  sl_int *begin;
+  sl_int *ahead;
+  sl_int *level;
+  sl_int *spare;
+  sl_int *up;
+  sl_int levels, leaf, parts;
+  sli_thin_part *part;
+} sli_thin;
+
+static int sli_thin_search(sli_thin *t, sl_int root) {
+  const sli_level *g = t->g;
+  const int64_t n = g->n;
+  int64_t squares = 0;
+  sl_int k, first, last, tail = 0;
+  sl_off e;
+  memset(t->level, -1, (size_t)n * sizeof(sl_int));
+  t->queue[tail++] = root;
+  t->level[root] = 0;
+  for (first = 0; first < tail; first = last) {
+    const sl_int next = t->levels + 1;
+    sl_int at = first, ahead = 0;
+    double even;
+    last = tail;
+    for (k = first; k < last; k++) {
+      const sl_int v = t->queue[k];
+      int is_ahead = 0;
+      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+        const sl_int u = g->to[e];
+        if (t->level[u] == -1) {
+          t->level[u] = next;
+          t->queue[tail++] = u;
+        }
+        is_ahead |= t->level[u] == next;
+      }
+      if (is_ahead) {
+        t->spare[ahead++] = v;
+      } else {
+        t->queue[at++] = v;
+      }
+    }
+    memcpy(t->queue + at, t->spare, (size_t)ahead * sizeof(sl_int));
+    t->ahead[t->levels] = ahead;
+    t->begin[t->levels] = first;
+    t->levels = next;
+    squares += (int64_t)(last - first) * (last - first);
+    even = (double)(last + SLI_THIN_EVEN * n / 100);
+    if (last - first > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
+      (double)squares * (double)next > even * even) {
+      return 0;
+    }
+  }
+  t->begin[t->levels] = tail;
+  t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
+  t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
+  return 1;
+}
+
+static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p) {
+  const sl_int begin = t->begin[p->first], n = p->end - begin;
+  int64_t least = INT64_MAX;
+  sl_int s, best = -1;
+  for (s = p->first; s < p->last - 1; s++) {
+    const sl_int next = t->begin[s + 1];
+    const int64_t side = sli_max(next - t->ahead[s] - begin, p->end - next);
+    const int64_t cost = 100 * side <= SLI_THIN_BALANCE * (int64_t)n ? side * t->ahead[s]
+                                     : INT64_MAX / 2 + side;
+    if (cost < least) {
+      best = s;
+      least = cost;
+    }
+  }
+  return best;
+}
+
+static void sli_thin_push(sli_thin *t, sl_int first, sl_int last, sl_int end, sl_int above) {
+  if (first < last) {
+    sli_thin_part *p = &t->part[t->parts++];
+    p->first = first;
+    p->last = last;
+    p->end = end;
+    p->above = above;
+  }
+}
+
+static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
+                 sl_int end, sl_int *node_of) {
+  sl_int k, node;
+  for (node = 0; t->parts > 0; node++) {
+    const sli_thin_part p = t->part[--t->parts];
+    const sl_int size = p.end - t->begin[p.first];
+    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p);
+    const sl_int count = cut == -1 ? size : t->ahead[cut];
+    const sl_int from = cut == -1 ? t->begin[p.first] : t->begin[cut + 1] - count;
+    if (cut == -1) {
+      sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare);
+    } else {
+      sli_thin_push(t, p.first, from > t->begin[cut] ? cut + 1 : cut, from, node);
+      sli_thin_push(t, cut + 1, p.last, p.end, node);
+    }
+    end -= count;
+    for (k = 0; k < count; k++) {
+      perm[end + k] = row[t->queue[from + k]];
+      node_of[perm[end + k]] = node;
+    }
+    t->up[node] = p.above;
+  }
+  return node;
+}
+
+static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
+              sli_septree *septree) {
+  const sl_int n = d->levels[0].n;
+  sl_int k, nodes, last, *scratch = d->workers[0].subgraph.scratch;
+  sli_thin t;
+  memset(&t, 0, sizeof t);
+  t.g = &d->levels[0];
+  t.queue = scratch;
+  t.level = scratch + n;
+  t.ahead = scratch + 2 * (size_t)n;
+  t.up = scratch + 3 * (size_t)n;
+  t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
+  t.begin = d->begin;
+  t.spare = d->order;
+  if (!sli_thin_search(&t, n - 1)) {
+    return 0;
+  }
+  sli_thin_push(&t, 0, t.levels, n, -1);
+  nodes = sli_thin_dissect(&t, &d->workers[0], row, perm, at + n, septree->node_of);
+  last = septree->count + nodes - 1;
+  for (k = 0; k < nodes; k++) {
+    septree->parent[last - k] = t.up[k] == -1 ? -1 : last - t.up[k];
+  }
+  for (k = at; k < at + n; k++) {
+    septree->node_of[perm[k]] = last - septree->node_of[perm[k]];
+  }
+  septree->count += nodes;
+  return 1;
+}
+
 /* src/impl/ordering/nd.h: nested dissection of any graph: component by component, dense rows last */
 
 #define SLI_ND_DENSE_ROW 10
@@ -10364,6 +10520,11 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
+      if (!w->by_metis && w->points.xyz == NULL && w->weight == NULL &&
+        count > w->d.leaf_size && sli_order_thin(&w->d, w->row, perm, at, septree)) {
+        at += count;
+        continue;
+      }
       status = sli_nd_dissect(w);
       if (status == SL_OK) {
         sli_septree_append(&w->d, w->row, perm, at, septree);
@@ -31687,6 +31848,12 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_HERE
 #undef SLI_FOLLOW
 #undef SLI_TOKEN_MAX
+#undef SLI_THIN_WIDTH
+#undef SLI_THIN_EVEN
+#undef SLI_THIN_ASPECT
+#undef SLI_THIN_LEAF_MIN
+#undef SLI_THIN_LEAF_MAX
+#undef SLI_THIN_BALANCE
 #undef SLI_LINE_MAX
 #undef SLI_ENTRIES_FIRST
 #undef SLI_POINT_MAX

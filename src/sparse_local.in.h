@@ -96,6 +96,7 @@ extern "C" {
 #include "impl/ordering/septree.h"
 #include "impl/ordering/metis.h"
 #include "impl/ordering/metis_refined.h"
+#include "impl/ordering/thin.h"
 #include "impl/ordering/nd.h"
 #include "impl/ordering/compress.h"
 #include "impl/ordering/levels.h"

@@ -155,7 +155,7 @@ static void flat_patches_are_reproduced(void **state) {
         SL_CHECK(patch_solver_solve_patch(&s, X, B, 2, 1e-15, &solves));
         layout_from_columns(uv, X, n);
         distortion q = distortion_of(&d.p.m, uv);
-        assert_true(q.isometric <= 1e-20 && q.flipped == 0 && fabs(q.conformal) <= 1e-18);
+        assert_true(q.isometric <= 1e-18 && q.flipped == 0 && fabs(q.conformal) <= 1e-18);
         free(edge);
         free(b);
         free(B);

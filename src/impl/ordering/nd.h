@@ -6,6 +6,7 @@
 #include "cells.h"
 #include "septree.h"
 #include "metis_refined.h"
+#include "thin.h"
 
 /* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
  * eliminated last. */
@@ -173,6 +174,11 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
                 continue;
             }
             sli_nd_graph(w, count);
+            if (!w->by_metis && w->points.xyz == NULL && w->weight == NULL &&
+                count > w->d.leaf_size && sli_order_thin(&w->d, w->row, perm, at, septree)) {
+                at += count;
+                continue;
+            }
             status = sli_nd_dissect(w);
             if (status == SL_OK) {
                 sli_septree_append(&w->d, w->row, perm, at, septree);
