@@ -12,7 +12,7 @@
  * Times are of the wall clock, which threads shorten. "Analyze" is the time of a further
  * sl_symbolic_create that is given the order; "order" is what the first one takes beyond it, and at
  * least the ordering's own processor time divided by the threads. */
-enum { STAGES = 5, MIN_ROUNDS = 3, MAX_ROUNDS = 30 };
+enum { STAGES = 5, MIN_ROUNDS = 2, MAX_ROUNDS = 30 };
 
 static const char *const stages[STAGES] = {"order", "analyze", "first factor", "first solve",
                                            "together"};
