@@ -52,7 +52,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
     for (first = 0; first < tail; first = last) {
         const sl_int next = t->levels + 1;
         sl_int at = first, ahead = 0;
-        double even;
+        int64_t even;
         last = tail;
         for (k = first; k < last; k++) {
             const sl_int v = t->queue[k];
@@ -76,9 +76,9 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
         t->begin[t->levels] = first;
         t->levels = next;
         squares += (int64_t)(last - first) * (last - first);
-        even = (double)(last + SLI_THIN_EVEN * n / 100);
+        even = last + SLI_THIN_EVEN * n / 100;
         if (last - first > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-            (double)squares * (double)next > even * even) {
+            squares > even * even / next) {
             return 0;
         }
     }
