@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3371dc97ca480e8c
+ * FNV-1a of the lines after this comment, without the license: 3d17a78b5854fc65
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11227,7 +11227,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
     }
     q->node[v].length = q->node[v].degree = (sl_int)(q->end - q->node[v].begin);
   }
-  for (v = q->n - 1; v >= 0; v--) {
+  for (v = 0; v < q->n; v++) {
     if (q->weight[v] != 0) {
       sli_quotient_enqueue(q, v);
     }

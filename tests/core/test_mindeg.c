@@ -142,6 +142,29 @@ static gen_matrix_t grid(sl_int nx, sl_int ny, sl_int nz, int style) {
     return M;
 }
 
+/* A square grid in rows, with 8 neighbors a vertex: of equal degrees the last row comes first.
+ * Measured: 0.98 times the entries of dissection; 1.43 times from the first row on. */
+static void numbered_grids_have_little_fill(void **state) {
+    (void)state;
+    enum { SIDE = 100, N = SIDE * SIDE };
+    gen_list_t t = gen_list(N);
+    for (sl_int v = 0; v < N; v++) {
+        for (sl_int way = 0; way < 5; way++) {
+            const sl_int x = v % SIDE + way % 3 - 1, y = v / SIDE + way / 3 - 1;
+            if (x >= 0 && x < SIDE && y >= 0) {
+                gen_add(&t, v, x + SIDE * y, 1.0);
+            }
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    sl_options opt = by_mindeg();
+    const double mindeg = fill_of(&M.view, opt);
+    opt.ordering = SL_ORDERING_ND;
+    assert_true(mindeg <= 1.1 * fill_of(&M.view, opt));
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+}
+
 /* The order does not depend on how a matrix is stored, and rows of a block stay together. */
 static void one_matrix_has_one_order(void **state) {
     (void)state;
@@ -286,6 +309,7 @@ int main(void) {
         cmocka_unit_test(fill_is_that_of_exact_degrees),
         cmocka_unit_test(graphs_without_fill),
         cmocka_unit_test(every_kind_is_ordered),
+        cmocka_unit_test(numbered_grids_have_little_fill),
         cmocka_unit_test(one_matrix_has_one_order),
         cmocka_unit_test(the_purpose_decides),
         cmocka_unit_test(irregular_graphs_take_the_better_order),

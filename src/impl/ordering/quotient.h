@@ -114,7 +114,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
         }
         q->node[v].length = q->node[v].degree = (sl_int)(q->end - q->node[v].begin);
     }
-    for (v = q->n - 1; v >= 0; v--) {
+    for (v = 0; v < q->n; v++) { /* the last row comes first: see sli_order_mindeg */
         if (q->weight[v] != 0) {
             sli_quotient_enqueue(q, v);
         }

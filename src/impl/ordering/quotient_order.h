@@ -73,7 +73,9 @@ static void sli_quotient_cost(const sli_quotient *q, sl_int *below, sli_order_co
 }
 
 /* Orders a graph without repeated edges by approximate minimum degree. Of equal degrees the latest
- * comes first. *cost := of this order, dense rows left out. */
+ * comes first, and of rows that no pivot has updated the last, as in AMD [ADD96]: from the first
+ * row on, 9-point grids and thin plates have 1.3 to 1.5 times the fill. *cost := of this order,
+ * dense rows left out. */
 static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_cost *cost,
                                   const sl_allocator *a) {
     sli_quotient q;
