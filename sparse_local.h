@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3d17a78b5854fc65
+ * FNV-1a of the lines after this comment, without the license: bd09f172a125f8ad
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,53 +42,53 @@
  *   6443 permute.h   6509 sum.h   6591 output_file.h   6800 text_reader.h   6981 matrix_market.h
  * (ordering: fill-reducing orderings of a graph)
  *   7249 graph.h   7368 contract.h   7549 coarsen.h   7763 labels.h   7989 subgraph.h   8183 heap.h
- *   8245 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissection.h   9007 weigh.h
- *   9074 dissect.h   9371 tree_cost.h   9434 levelset.h   9519 geometric.h   9694 cells.h
- *   9874 septree.h   9950 metis.h  10099 metis_refined.h  10214 thin.h  10370 nd.h
- *  10583 compress.h  10735 levels.h  10788 border.h  10841 forest.h  10928 peel.h  11128 quotient.h
- *  11462 quotient_order.h  11556 graph_kind.h  11645 order.h
+ *   8245 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissection.h   9008 weigh.h
+ *   9075 dissect.h   9372 tree_cost.h   9435 levelset.h   9520 geometric.h   9695 cells.h
+ *   9875 septree.h   9951 metis.h  10100 metis_refined.h  10215 thin.h  10470 nd.h
+ *  10688 compress.h  10840 levels.h  10893 border.h  10946 forest.h  11033 peel.h  11233 quotient.h
+ *  11567 quotient_order.h  11661 graph_kind.h  11750 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  11973 symbolic_types.h  12010 etree.h  12207 supernodes.h  12465 pattern.h  12546 structure.h
- *  12742 schedule.h  13073 symbolic.h  13547 reach.h
+ *  12078 symbolic_types.h  12115 etree.h  12312 supernodes.h  12570 pattern.h  12651 structure.h
+ *  12847 schedule.h  13178 symbolic.h  13652 reach.h
  * (factor: the numbers of L and D)
- *  13823 factor_types.h  14028 panel_load.h  14141 pivot_check.h  14260 storage.h
- *  14398 pivot_search.h  14744 pivoted.h  14813 scatter.h  14971 uplooking.h  15045 null_product.h
- *  15249 null_dense.h  15326 null_basis.h  15646 null_vectors.h  15788 multifrontal.h
- *  16035 gather.h  16083 kept.h  16253 front_tasks.h  16596 null_center.h  16720 nullspace.h
- *  16927 growth.h  17005 factor_setup.h  17345 factor.h  17560 leftlooking.h  17714 factor_query.h
- *  17849 combination.h
+ *  13928 factor_types.h  14133 panel_load.h  14246 pivot_check.h  14365 storage.h
+ *  14503 pivot_search.h  14849 pivoted.h  14918 scatter.h  15076 uplooking.h  15150 null_product.h
+ *  15354 null_dense.h  15431 null_basis.h  15751 null_vectors.h  15893 multifrontal.h
+ *  16140 gather.h  16188 kept.h  16358 front_tasks.h  16701 null_center.h  16825 nullspace.h
+ *  17032 growth.h  17110 factor_setup.h  17450 factor.h  17665 leftlooking.h  17819 factor_query.h
+ *  17954 combination.h
  * (solve: full and local solves)
- *  17910 region_types.h  18014 work.h  18114 query.h  18332 singular.h  18592 backward.h
- *  18622 sweep_tasks.h  18953 sweep.h  19161 compile.h  19354 plan.h  19461 local.h  19613 parts.h
- *  19902 refine.h  20081 refine_local.h  20297 rcond.h  20456 defects.h
+ *  18015 region_types.h  18119 work.h  18219 query.h  18437 singular.h  18697 backward.h
+ *  18727 sweep_tasks.h  19058 sweep.h  19266 compile.h  19459 plan.h  19566 local.h  19718 parts.h
+ *  20007 refine.h  20186 refine_local.h  20402 rcond.h  20561 defects.h
  * (inverse: entries of the inverse, regions)
- *  20515 traversal.h  20769 traversal_run.h  20962 row_sets.h  20996 unit_vectors.h
- *  21223 bilinear.h  21395 entries.h  21672 block.h  21907 reserve.h  22099 selected.h
- *  22309 selected_query.h  22411 region_choose.h  22638 region.h
+ *  20620 traversal.h  20874 traversal_run.h  21067 row_sets.h  21101 unit_vectors.h
+ *  21328 bilinear.h  21500 entries.h  21777 block.h  22012 reserve.h  22204 selected.h
+ *  22414 selected_query.h  22516 region_choose.h  22743 region.h
  * (change: a factor that follows changes of its matrix)
- *  22886 update_pivots.h  23057 update.h  23290 path.h  23392 rank.h  23784 edges.h  23938 choose.h
- *  24188 pins_types.h  24254 pins_nulls.h  24435 pins_capacitance.h  24701 pins_rows.h
- *  24821 pins_balance.h  24983 pins_held.h  25211 pins_choose.h  25277 pins_rebuild.h
- *  25500 pins_matrix.h  25651 pins.h  25913 pins_solve.h  26188 subset.h  26316 restrict_kept.h
- *  26514 restrict_analysis.h  26759 restrict_symbolic.h  26954 restrict.h  27186 edit_match.h
- *  27385 edit_place.h  27634 edit_separate.h  27948 edit_order.h  28103 edit_graph.h
- *  28185 edit_join.h  28461 edit.h  28624 edit_factor.h
+ *  22991 update_pivots.h  23162 update.h  23395 path.h  23497 rank.h  23889 edges.h  24043 choose.h
+ *  24293 pins_types.h  24359 pins_nulls.h  24540 pins_capacitance.h  24806 pins_rows.h
+ *  24926 pins_balance.h  25088 pins_held.h  25316 pins_choose.h  25382 pins_rebuild.h
+ *  25605 pins_matrix.h  25756 pins.h  26018 pins_solve.h  26293 subset.h  26421 restrict_kept.h
+ *  26619 restrict_analysis.h  26864 restrict_symbolic.h  27059 restrict.h  27291 edit_match.h
+ *  27490 edit_place.h  27739 edit_separate.h  28053 edit_order.h  28208 edit_graph.h
+ *  28290 edit_join.h  28566 edit.h  28729 edit_factor.h
  * (save: factors in files)
- *  28909 format.h  29206 decode.h  29354 check.h  29684 write.h  29993 load.h  30261 load_inverse.h
- *  30591 load_calls.h
+ *  29014 format.h  29311 decode.h  29459 check.h  29789 write.h  30098 load.h  30366 load_inverse.h
+ *  30696 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30790 batch_solve.h  30999 batch_factor.h  31200 batch_diagonal.h
+ *  30895 batch_solve.h  31104 batch_factor.h  31305 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31340 hermitian.h  31502 complex_rows.h
+ *  31445 hermitian.h  31607 complex_rows.h
  * (last: undefine every internal macro)
- *  31670 undef.h
+ *  31775 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31976 front.inl.h  31978 product.inl.h  32498 copy_rows.inl.h  32536 sweeps.inl.h
- *  32538 unit_triangle.inl.h  32575 two_rhs.inl.h  32749 small_supernode.inl.h
- *  32951 single_rhs.inl.h  33191 multi_rhs.inl.h  33210 complex_groups.inl.h
- *  33349 multi_rhs_small.inl.h  33521 multi_rhs_tiles.inl.h  33798 kernel_set.inl.h
- *  33800 complex_small.inl.h  33990 complex_rows.inl.h  34205 inverse_front.inl.h  34490 row.inl.h
- *  34522 change.inl.h  34765 interleave.inl.h  34899 lanes_undef.inl.h  34918 words_undef.inl.h
+ *  32084 front.inl.h  32086 product.inl.h  32606 copy_rows.inl.h  32644 sweeps.inl.h
+ *  32646 unit_triangle.inl.h  32683 two_rhs.inl.h  32857 small_supernode.inl.h
+ *  33059 single_rhs.inl.h  33299 multi_rhs.inl.h  33318 complex_groups.inl.h
+ *  33457 multi_rhs_small.inl.h  33629 multi_rhs_tiles.inl.h  33906 kernel_set.inl.h
+ *  33908 complex_small.inl.h  34098 complex_rows.inl.h  34313 inverse_front.inl.h  34598 row.inl.h
+ *  34630 change.inl.h  34873 interleave.inl.h  35007 lanes_undef.inl.h  35026 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -8913,6 +8913,7 @@ typedef struct sli_dissection {
   sl_int total;
   sl_int leaf_size;
   int is_volume, may_be_seven_point;
+  int has_labels;
   int band_growth;
   sli_label_tree tree, other_tree;
   sli_border_pool pool;
@@ -9707,11 +9708,11 @@ static void sli_dissect_points(sli_dissection *d, const sl_int *sorted, sl_int l
 #define SLI_LATTICE_DEGREE 6
 #define SLI_LATTICE_DEGREES 32
 
-static int sli_is_lattice(const sli_level *g) {
+static int sli_is_lattice(const sli_level *g, sl_off least) {
   sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
   for (v = 0; v < g->n; v++) {
     const sl_off degree = g->begin[v + 1] - g->begin[v];
-    if (degree >= SLI_LATTICE_DEGREE && degree < SLI_LATTICE_DEGREES) {
+    if (degree >= least && degree < SLI_LATTICE_DEGREES) {
       count[degree]++;
       most = sli_max(most, count[degree]);
     }
@@ -9845,7 +9846,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
   sli_tree_cost graph, flat;
   sl_status status;
   int is_good;
-  if (!sli_is_lattice(&d->levels[0])) {
+  if (!sli_is_lattice(&d->levels[0], SLI_LATTICE_DEGREE)) {
     return sli_dissect_graph(d);
   }
   for (k = 0; k < n; k++) {
@@ -10213,119 +10214,144 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
 
 /* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
 
-#define SLI_THIN_WIDTH 22
+#define SLI_THIN_NARROW 22
+#define SLI_THIN_WIDTH 64
+#define SLI_THIN_LONG 7
+#define SLI_THIN_DEGREE 4
 #define SLI_THIN_EVEN 3
 #define SLI_THIN_ASPECT 8
 #define SLI_THIN_LEAF_MIN 64
-#define SLI_THIN_LEAF_MAX 160
+#define SLI_THIN_LEAF_MAX 250
 #define SLI_THIN_BALANCE 65
 
 typedef struct sli_thin_part {
-  sl_int first, last, end;
+  sl_int first, end, levels;
   sl_int above;
 } sli_thin_part;
 
 typedef struct sli_thin {
   const sli_level *g;
   sl_int *queue;
+  sl_int *mark;
   sl_int *begin;
   sl_int *ahead;
-  sl_int *level;
+  sl_int *kept;
   sl_int *spare;
   sl_int *up;
-  sl_int levels, leaf, parts;
+  sl_int marks, leaf, parts;
+  int is_narrow;
   sli_thin_part *part;
 } sli_thin;
 
-static int sli_thin_search(sli_thin *t, sl_int root) {
+static sl_int sli_thin_level(sli_thin *t, sl_int level, sl_int first, sl_int last) {
   const sli_level *g = t->g;
-  const int64_t n = g->n;
-  int64_t squares = 0;
-  sl_int k, first, last, tail = 0;
+  const sl_int mark = ++t->marks;
+  sl_int k, at = first, ahead = 0, tail = last;
   sl_off e;
-  memset(t->level, -1, (size_t)n * sizeof(sl_int));
-  t->queue[tail++] = root;
-  t->level[root] = 0;
-  for (first = 0; first < tail; first = last) {
-    const sl_int next = t->levels + 1;
-    sl_int at = first, ahead = 0;
-    int64_t even;
-    last = tail;
-    for (k = first; k < last; k++) {
-      const sl_int v = t->queue[k];
-      int is_ahead = 0;
-      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-        const sl_int u = g->to[e];
-        if (t->level[u] == -1) {
-          t->level[u] = next;
-          t->queue[tail++] = u;
-        }
-        is_ahead |= t->level[u] == next;
+  for (k = first; k < last; k++) {
+    const sl_int v = t->queue[k];
+    int is_ahead = 0;
+    for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
+      const sl_int u = g->to[e];
+      if (t->mark[u] == -1) {
+        t->mark[u] = mark;
+        t->queue[tail++] = u;
       }
-      if (is_ahead) {
-        t->spare[ahead++] = v;
-      } else {
-        t->queue[at++] = v;
-      }
+      is_ahead |= t->mark[u] == mark;
     }
-    memcpy(t->queue + at, t->spare, (size_t)ahead * sizeof(sl_int));
-    t->ahead[t->levels] = ahead;
-    t->begin[t->levels] = first;
-    t->levels = next;
-    squares += (int64_t)(last - first) * (last - first);
-    even = last + SLI_THIN_EVEN * n / 100;
-    if (last - first > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
-      squares > even * even / next) {
-      return 0;
+    if (is_ahead) {
+      t->spare[ahead++] = v;
+    } else {
+      t->queue[at++] = v;
     }
   }
-  t->begin[t->levels] = tail;
-  t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
-  t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
-  return 1;
+  memcpy(t->queue + at, t->spare, (size_t)ahead * sizeof(sl_int));
+  t->ahead[level] = ahead;
+  t->begin[level] = first;
+  return tail;
 }
 
-static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p) {
-  const sl_int begin = t->begin[p->first], n = p->end - begin;
-  int64_t least = INT64_MAX;
+static void sli_thin_push(sli_thin *t, sl_int first, sl_int end, sl_int levels, sl_int above) {
+  if (first < end) {
+    sli_thin_part *p = &t->part[t->parts++];
+    p->first = first;
+    p->end = end;
+    p->levels = levels;
+    p->above = above;
+  }
+}
+
+static int sli_thin_search(sli_thin *t, sl_int root) {
+  const int64_t n = t->g->n;
+  int64_t squares = 0, ends = 0, even = 0;
+  sl_int first = 0, last = 1, levels = 0;
+  memset(t->mark, -1, (size_t)n * sizeof(sl_int));
+  t->queue[0] = root;
+  t->mark[root] = 0;
+  while (first < last) {
+    const sl_int tail = sli_thin_level(t, levels++, first, last);
+    const int64_t size = last - first;
+    squares += size * size;
+    t->is_narrow = squares <= SLI_THIN_NARROW * (last + n / 16);
+    ends = t->is_narrow ? 0 : squares / last * (squares / last) / 3;
+    even = last + SLI_THIN_EVEN * n / 100 + ends;
+    if (size > 4 * SLI_THIN_WIDTH || squares > SLI_THIN_WIDTH * (last + n / 16) ||
+      squares > even * even / levels) {
+      return 0;
+    }
+    first = last;
+    last = tail;
+  }
+  t->leaf = sli_min((sl_int)(SLI_THIN_ASPECT * squares / n), SLI_THIN_LEAF_MAX);
+  t->leaf = sli_max(t->leaf, SLI_THIN_LEAF_MIN);
+  sli_thin_push(t, 0, (sl_int)n, levels, -1);
+  even = n + n / 200 + ends;
+  return t->is_narrow ||
+       (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
+      sli_is_lattice(t->g, SLI_THIN_DEGREE));
+}
+
+static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
+  const sl_int n = p->end - p->first;
   sl_int s, best = -1;
-  for (s = p->first; s < p->last - 1; s++) {
+  *least = INT64_MAX;
+  for (s = p->first; s < p->first + p->levels - 1; s++) {
     const sl_int next = t->begin[s + 1];
-    const int64_t side = sli_max(next - t->ahead[s] - begin, p->end - next);
-    const int64_t cost = 100 * side <= SLI_THIN_BALANCE * (int64_t)n ? side * t->ahead[s]
-                                     : INT64_MAX / 2 + side;
-    if (cost < least) {
+    const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
+    const int64_t cost =
+      100 * side <= SLI_THIN_BALANCE * (int64_t)n ? side * t->ahead[s] : INT64_MAX / 2 + side;
+    if (cost < *least) {
       best = s;
-      least = cost;
+      *least = cost;
     }
   }
   return best;
 }
 
-static void sli_thin_push(sli_thin *t, sl_int first, sl_int last, sl_int end, sl_int above) {
-  if (first < last) {
-    sli_thin_part *p = &t->part[t->parts++];
-    p->first = first;
-    p->last = last;
-    p->end = end;
-    p->above = above;
-  }
+static void sli_thin_split(sli_thin *t, const sli_thin_part *p, sl_int cut, sl_int end,
+               sl_int above, sl_int above_next) {
+  const sl_int next = t->begin[cut + 1], before = cut - p->first + (end > t->begin[cut]);
+  const sl_int behind = p->first + p->levels - 1 - cut;
+  sli_thin_push(t, p->first, end, before, above);
+  sli_thin_push(t, next, p->end, behind, above_next);
+  memmove(t->begin + next, t->begin + cut + 1, (size_t)behind * sizeof(sl_int));
+  memmove(t->ahead + next, t->ahead + cut + 1, (size_t)behind * sizeof(sl_int));
 }
 
 static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int *row, sl_int *perm,
                  sl_int end, sl_int *node_of) {
+  int64_t least;
   sl_int k, node;
   for (node = 0; t->parts > 0; node++) {
     const sli_thin_part p = t->part[--t->parts];
-    const sl_int size = p.end - t->begin[p.first];
-    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p);
+    const sl_int size = p.end - p.first;
+    const sl_int cut = size <= t->leaf ? -1 : sli_thin_cut(t, &p, &least);
     const sl_int count = cut == -1 ? size : t->ahead[cut];
-    const sl_int from = cut == -1 ? t->begin[p.first] : t->begin[cut + 1] - count;
+    const sl_int from = cut == -1 ? p.first : t->begin[cut + 1] - count;
     if (cut == -1) {
       sli_mindeg_order(&w->mindeg, t->g, t->queue + from, count, w->subgraph.local, t->spare);
     } else {
-      sli_thin_push(t, p.first, from > t->begin[cut] ? cut + 1 : cut, from, node);
-      sli_thin_push(t, cut + 1, p.last, p.end, node);
+      sli_thin_split(t, &p, cut, from, node, node);
     }
     end -= count;
     for (k = 0; k < count; k++) {
@@ -10337,6 +10363,76 @@ static sl_int sli_thin_dissect(sli_thin *t, sli_dissect_worker *w, const sl_int 
   return node;
 }
 
+static int sli_thin_renew(sli_thin *t, sli_thin_part *p, sl_int root) {
+  sl_int k, first = p->first, last = first + 1, level = first;
+  for (k = 0; k < p->end - p->first; k++) {
+    t->mark[t->kept[k]] = -1;
+  }
+  t->queue[first] = root;
+  t->mark[root] = 0;
+  while (first < last) {
+    const sl_int tail = sli_thin_level(t, level++, first, last);
+    first = last;
+    last = tail;
+  }
+  p->levels = level - p->first;
+  return last == p->end;
+}
+
+static sl_int sli_thin_turn(sli_thin *t, sli_thin_part *p, sl_int cut, int64_t least,
+              sl_int *scratch) {
+  const sli_thin_part before = *p;
+  const size_t size = (size_t)(p->end - p->first), levels = (size_t)p->levels;
+  int64_t cost;
+  sl_int k;
+  memcpy(t->kept, t->queue + p->first, size * sizeof(sl_int));
+  memcpy(scratch, t->begin + p->first, levels * sizeof(sl_int));
+  memcpy(scratch + size, t->ahead + p->first, levels * sizeof(sl_int));
+  if (sli_thin_renew(t, p, t->queue[p->first]) && sli_thin_renew(t, p, t->queue[p->end - 1])) {
+    const sl_int turned = sli_thin_cut(t, p, &cost);
+    if (cost <= least / 10 * 9) {
+      return turned;
+    }
+  }
+  *p = before;
+  for (k = 0; k < p->end - p->first; k++) {
+    t->mark[t->kept[k]] = 0;
+  }
+  memcpy(t->queue + p->first, t->kept, size * sizeof(sl_int));
+  memcpy(t->begin + p->first, scratch, levels * sizeof(sl_int));
+  memcpy(t->ahead + p->first, scratch + size, levels * sizeof(sl_int));
+  return cut;
+}
+
+static void sli_thin_label(sli_thin *t, sli_dissection *d) {
+  sli_label_tree *tree = &d->tree;
+  int64_t least;
+  sl_int k;
+  d->level = 0;
+  sli_dissect_start(d);
+  t->part[0].above = tree->root;
+  while (t->parts > 0) {
+    sli_thin_part p = t->part[--t->parts];
+    const sl_int size = p.end - p.first, node = p.above;
+    const int may_cut = size > t->leaf && tree->count < tree->room - 1;
+    sl_int cut = may_cut ? sli_thin_cut(t, &p, &least) : -1;
+    if (cut != -1 && (int64_t)p.levels * p.levels < 2 * (int64_t)size &&
+      t->marks < INT32_MAX - 2 * size) {
+      cut = sli_thin_turn(t, &p, cut, least, (sl_int *)(void *)d->workers[0].next);
+    }
+    tree->weight[node] = size;
+    for (k = cut == -1 ? p.first : p.end; k < p.end; k++) {
+      d->label[t->queue[k]] = node;
+    }
+    if (cut != -1) {
+      sli_label_tree_split(tree, node);
+      sli_thin_split(t, &p, cut, t->begin[cut + 1], tree->left[node], tree->right[node]);
+    }
+  }
+  sli_label_tree_number(tree, t->g->n, d->label);
+  d->has_labels = 1;
+}
+
 static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
               sli_septree *septree) {
   const sl_int n = d->levels[0].n;
@@ -10345,16 +10441,20 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
   memset(&t, 0, sizeof t);
   t.g = &d->levels[0];
   t.queue = scratch;
-  t.level = scratch + n;
+  t.mark = scratch + n;
   t.ahead = scratch + 2 * (size_t)n;
   t.up = scratch + 3 * (size_t)n;
   t.part = (sli_thin_part *)(void *)(scratch + 4 * (size_t)n);
   t.begin = d->begin;
   t.spare = d->order;
+  t.kept = d->other;
   if (!sli_thin_search(&t, n - 1)) {
     return 0;
   }
-  sli_thin_push(&t, 0, t.levels, n, -1);
+  if (!t.is_narrow) {
+    sli_thin_label(&t, d);
+    return 0;
+  }
   nodes = sli_thin_dissect(&t, &d->workers[0], row, perm, at + n, septree->node_of);
   last = septree->count + nodes - 1;
   for (k = 0; k < nodes; k++) {
@@ -10452,8 +10552,12 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
-  d->band_growth = 3;
   d->is_volume = d->may_be_seven_point = 0;
+  d->band_growth = 1;
+  if (d->has_labels) {
+    return SL_OK;
+  }
+  d->band_growth = 3;
   if (w->by_metis) {
 #if defined(SLI_METIS)
     return sli_dissect_metis_refined(d);
@@ -10520,6 +10624,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
         continue;
       }
       sli_nd_graph(w, count);
+      w->d.has_labels = 0;
       if (!w->by_metis && w->points.xyz == NULL && w->weight == NULL &&
         count > w->d.leaf_size && sli_order_thin(&w->d, w->row, perm, at, septree)) {
         at += count;
@@ -31849,6 +31954,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_FOLLOW
 #undef SLI_TOKEN_MAX
 #undef SLI_THIN_WIDTH
+#undef SLI_THIN_LONG
+#undef SLI_THIN_NARROW
+#undef SLI_THIN_DEGREE
 #undef SLI_THIN_EVEN
 #undef SLI_THIN_ASPECT
 #undef SLI_THIN_LEAF_MIN

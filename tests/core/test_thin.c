@@ -7,7 +7,7 @@ typedef struct shape_t {
     const char *name;
     sl_int across, length;
     int is_tube, is_bar; /* a bar is `across` by `across` */
-    double fill, path;    /* most per row: entries of L, path weight */
+    double fill, path;   /* most per row: entries of L, path weight */
 } shape_t;
 
 static const shape_t shapes[] = {
@@ -16,6 +16,8 @@ static const shape_t shapes[] = {
     {"strip 20", 20, 600, 0, 0, 23.6, 5800.0},
     {"tube 12", 12, 1000, 1, 0, 20.2, 2590.0},
     {"bar 4", 4, 200, 0, 1, 18.1, 2665.0},
+    {"strip 40", 40, 300, 0, 0, 26.4, 13600.0},
+    {"tube 40", 40, 200, 1, 0, 30.2, 13550.0},
 };
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
@@ -93,8 +95,8 @@ static int is_thin(const sl_csc *A) {
         sli_graph G = {A->n_cols, begin, to};
         sli_team alone = sli_team_of(1);
         sli_septree septree = {0, tree, tree + n};
-        SL_CHECK(sli_order_nd(&G, weighed ? weight : NULL, 0, NULL, 0,
-                              perm + (size_t)weighed * n, &septree, &alone, &a));
+        SL_CHECK(sli_order_nd(&G, weighed ? weight : NULL, 0, NULL, 0, perm + (size_t)weighed * n,
+                              &septree, &alone, &a));
     }
     const int thin = memcmp(perm, perm + n, n * sizeof *perm) != 0;
     SL_CHECK(sl_symbolic_create(&S, A, &opt, NULL));
@@ -168,22 +170,61 @@ static void one_level_may_be_large(void **state) {
     assert_false(is_thin_with_fan(95));
 }
 
-/* A tube that is too wide, and a strip with a wide part: its levels are narrow, but not even. */
+/* The edges of a strip 40 rows across, without those that cross its middle between two of its
+ * length. */
+static gen_list_t slit_strip(sl_int from, sl_int to) {
+    const shape_t strip = {"strip", 40, 300, 0, 0, 0.0, 0.0};
+    gen_list_t whole = gen_list(0), t = gen_list(0);
+    add_shape(&whole, &strip);
+    t.n = whole.n;
+    for (size_t k = 0; k < whole.count; k++) {
+        const sl_int i = whole.row[k], j = whole.col[k];
+        if (i / 40 < from || j / 40 > to || (i % 40 < 20) == (j % 40 < 20)) {
+            gen_add(&t, i, j, 1.0);
+        }
+    }
+    gen_list_free(&whole);
+    return t;
+}
+
+/* Parts between two cuts through the slit are not connected, and are not cut across their width. */
+static void parts_need_not_be_connected(void **state) {
+    (void)state;
+    gen_list_t t = slit_strip(60, 160);
+    gen_matrix_t M = stored(&t, 0);
+    assert_true(is_thin(&M.view));
+    gen_matrix_free(&M);
+}
+
+/* A strip with a wide part at its end. */
+static gen_matrix_t strip_with_part(const shape_t *strip, const shape_t *part) {
+    gen_list_t t = gen_list(0);
+    add_shape(&t, strip);
+    const sl_int end = t.n - 1;
+    add_shape(&t, part);
+    gen_add(&t, end + 1, end, 1.0);
+    return stored(&t, 0);
+}
+
+/* A tube that is too wide, a strip that is too short, a bar that is no lattice, and strips with a
+ * wide part: their levels are not even. */
 static void other_graphs_are_left_to_multilevel_dissection(void **state) {
     (void)state;
-    const shape_t wide = {"tube", 30, 300, 1, 0, 0.0, 0.0};
+    const shape_t wide[] = {{"tube", 72, 300, 1, 0, 0.0, 0.0},
+                            {"strip", 30, 80, 0, 0, 0.0, 0.0},
+                            {"bar", 6, 100, 0, 1, 0.0, 0.0}};
+    const shape_t strip = {"strip", 30, 400, 0, 0, 0.0, 0.0};
     const shape_t square = {"part", 40, 40, 0, 0, 0.0, 0.0};
-    gen_matrix_t M = shape_matrix(&wide, 0);
-    assert_false(is_thin(&M.view));
-    gen_matrix_free(&M);
-    gen_list_t t = gen_list(0);
-    add_shape(&t, &shapes[0]);
-    const sl_int end = t.n - 1;
-    add_shape(&t, &square);
-    gen_add(&t, end + 1, end, 1.0);
-    M = stored(&t, 0);
-    assert_false(is_thin(&M.view));
-    gen_matrix_free(&M);
+    for (int k = 0; k < 3; k++) {
+        gen_matrix_t M = shape_matrix(&wide[k], 0);
+        assert_false(is_thin(&M.view));
+        gen_matrix_free(&M);
+    }
+    for (int k = 0; k < 2; k++) {
+        gen_matrix_t M = strip_with_part(k == 0 ? &shapes[0] : &strip, &square);
+        assert_false(is_thin(&M.view));
+        gen_matrix_free(&M);
+    }
 }
 
 int main(void) {
@@ -191,6 +232,7 @@ int main(void) {
         cmocka_unit_test(thin_graphs_have_little_fill),
         cmocka_unit_test(components_are_dissected_one_by_one),
         cmocka_unit_test(one_level_may_be_large),
+        cmocka_unit_test(parts_need_not_be_connected),
         cmocka_unit_test(other_graphs_are_left_to_multilevel_dissection),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

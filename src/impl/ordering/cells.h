@@ -32,12 +32,13 @@
 #define SLI_LATTICE_DEGREE 6
 #define SLI_LATTICE_DEGREES 32
 
-/* Is the graph that of a grid of triangles or of nine or more points, apart from its boundary? */
-static int sli_is_lattice(const sli_level *g) {
+/* Is the graph that of a grid, apart from its boundary, with at least `least` neighbors? Six are
+ * those of triangles, four those of five points. */
+static int sli_is_lattice(const sli_level *g, sl_off least) {
     sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
     for (v = 0; v < g->n; v++) {
         const sl_off degree = g->begin[v + 1] - g->begin[v];
-        if (degree >= SLI_LATTICE_DEGREE && degree < SLI_LATTICE_DEGREES) {
+        if (degree >= least && degree < SLI_LATTICE_DEGREES) {
             count[degree]++;
             most = sli_max(most, count[degree]);
         }
@@ -182,7 +183,7 @@ static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *poin
     sli_tree_cost graph, flat;
     sl_status status;
     int is_good;
-    if (!sli_is_lattice(&d->levels[0])) {
+    if (!sli_is_lattice(&d->levels[0], SLI_LATTICE_DEGREE)) {
         return sli_dissect_graph(d);
     }
     for (k = 0; k < n; k++) {

@@ -27,6 +27,7 @@ typedef struct sli_dissection {
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
     int is_volume, may_be_seven_point;
+    int has_labels; /* by the levels of a search */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
     sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
     sli_border_pool pool;

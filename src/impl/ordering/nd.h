@@ -99,12 +99,16 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
     }
 }
 
-/* Finds labels of the current component by the requested method. The cruder the borders of a
- * method, the wider the bands in which they are refined. */
+/* Finds labels of the current component by the requested method, unless it has some by levels. The
+ * cruder the borders of a method, the wider the bands in which they are refined. */
 static sl_status sli_nd_label(sli_nd *w) {
     sli_dissection *d = &w->d;
-    d->band_growth = 3;
     d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
+    d->band_growth = 1;
+    if (d->has_labels) {
+        return SL_OK;
+    }
+    d->band_growth = 3;
     if (w->by_metis) {
 #if defined(SLI_METIS)
         return sli_dissect_metis_refined(d);
@@ -174,6 +178,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
                 continue;
             }
             sli_nd_graph(w, count);
+            w->d.has_labels = 0;
             if (!w->by_metis && w->points.xyz == NULL && w->weight == NULL &&
                 count > w->d.leaf_size && sli_order_thin(&w->d, w->row, perm, at, septree)) {
                 at += count;
