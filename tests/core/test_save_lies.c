@@ -107,7 +107,7 @@ static void rows_must_begin_in_the_parent(void **state) {
 
 static void pairs_must_be_in_a_tile_of_a_supernodal_factor(void **state) {
     (void)state;
-    saved_case_t c = saved_case_make(SAVED_PIVOTED, GEN_DENSE, 20, 0, NULL);
+    saved_case_t c = saved_case_make(SAVED_PIVOTED, GEN_DENSE, 21, 0, NULL);
     saved_t m = saved_make(c.y.S, c.y.F), k = copy_of(&m);
     unsigned char *pairs = (unsigned char *)array(&k, PAIRS);
     assert_status(SL_OK, &m);
