@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bd09f172a125f8ad
+ * FNV-1a of the lines after this comment, without the license: 65e501a851de7647
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,51 +44,51 @@
  *   7249 graph.h   7368 contract.h   7549 coarsen.h   7763 labels.h   7989 subgraph.h   8183 heap.h
  *   8245 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissection.h   9008 weigh.h
  *   9075 dissect.h   9372 tree_cost.h   9435 levelset.h   9520 geometric.h   9695 cells.h
- *   9875 septree.h   9951 metis.h  10100 metis_refined.h  10215 thin.h  10470 nd.h
- *  10688 compress.h  10840 levels.h  10893 border.h  10946 forest.h  11033 peel.h  11233 quotient.h
- *  11567 quotient_order.h  11661 graph_kind.h  11750 order.h
+ *   9875 septree.h   9951 metis.h  10100 metis_refined.h  10215 thin.h  10469 nd.h
+ *  10686 compress.h  10838 levels.h  10891 border.h  10944 forest.h  11031 peel.h  11231 quotient.h
+ *  11565 quotient_order.h  11659 graph_kind.h  11748 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  12078 symbolic_types.h  12115 etree.h  12312 supernodes.h  12570 pattern.h  12651 structure.h
- *  12847 schedule.h  13178 symbolic.h  13652 reach.h
+ *  12076 symbolic_types.h  12113 etree.h  12310 supernodes.h  12568 pattern.h  12649 structure.h
+ *  12845 schedule.h  13176 symbolic.h  13650 reach.h
  * (factor: the numbers of L and D)
- *  13928 factor_types.h  14133 panel_load.h  14246 pivot_check.h  14365 storage.h
- *  14503 pivot_search.h  14849 pivoted.h  14918 scatter.h  15076 uplooking.h  15150 null_product.h
- *  15354 null_dense.h  15431 null_basis.h  15751 null_vectors.h  15893 multifrontal.h
- *  16140 gather.h  16188 kept.h  16358 front_tasks.h  16701 null_center.h  16825 nullspace.h
- *  17032 growth.h  17110 factor_setup.h  17450 factor.h  17665 leftlooking.h  17819 factor_query.h
- *  17954 combination.h
+ *  13926 factor_types.h  14131 panel_load.h  14244 pivot_check.h  14363 storage.h
+ *  14501 pivot_search.h  14847 pivoted.h  14916 scatter.h  15074 uplooking.h  15148 null_product.h
+ *  15352 null_dense.h  15429 null_basis.h  15749 null_vectors.h  15891 multifrontal.h
+ *  16138 gather.h  16186 kept.h  16356 front_tasks.h  16699 null_center.h  16823 nullspace.h
+ *  17030 growth.h  17108 factor_setup.h  17448 factor.h  17663 leftlooking.h  17817 factor_query.h
+ *  17952 combination.h
  * (solve: full and local solves)
- *  18015 region_types.h  18119 work.h  18219 query.h  18437 singular.h  18697 backward.h
- *  18727 sweep_tasks.h  19058 sweep.h  19266 compile.h  19459 plan.h  19566 local.h  19718 parts.h
- *  20007 refine.h  20186 refine_local.h  20402 rcond.h  20561 defects.h
+ *  18013 region_types.h  18117 work.h  18217 query.h  18435 singular.h  18695 backward.h
+ *  18725 sweep_tasks.h  19056 sweep.h  19264 compile.h  19457 plan.h  19564 local.h  19716 parts.h
+ *  20005 refine.h  20184 refine_local.h  20400 rcond.h  20559 defects.h
  * (inverse: entries of the inverse, regions)
- *  20620 traversal.h  20874 traversal_run.h  21067 row_sets.h  21101 unit_vectors.h
- *  21328 bilinear.h  21500 entries.h  21777 block.h  22012 reserve.h  22204 selected.h
- *  22414 selected_query.h  22516 region_choose.h  22743 region.h
+ *  20618 traversal.h  20872 traversal_run.h  21065 row_sets.h  21099 unit_vectors.h
+ *  21326 bilinear.h  21498 entries.h  21775 block.h  22010 reserve.h  22202 selected.h
+ *  22412 selected_query.h  22514 region_choose.h  22741 region.h
  * (change: a factor that follows changes of its matrix)
- *  22991 update_pivots.h  23162 update.h  23395 path.h  23497 rank.h  23889 edges.h  24043 choose.h
- *  24293 pins_types.h  24359 pins_nulls.h  24540 pins_capacitance.h  24806 pins_rows.h
- *  24926 pins_balance.h  25088 pins_held.h  25316 pins_choose.h  25382 pins_rebuild.h
- *  25605 pins_matrix.h  25756 pins.h  26018 pins_solve.h  26293 subset.h  26421 restrict_kept.h
- *  26619 restrict_analysis.h  26864 restrict_symbolic.h  27059 restrict.h  27291 edit_match.h
- *  27490 edit_place.h  27739 edit_separate.h  28053 edit_order.h  28208 edit_graph.h
- *  28290 edit_join.h  28566 edit.h  28729 edit_factor.h
+ *  22989 update_pivots.h  23160 update.h  23393 path.h  23495 rank.h  23887 edges.h  24041 choose.h
+ *  24291 pins_types.h  24357 pins_nulls.h  24538 pins_capacitance.h  24804 pins_rows.h
+ *  24924 pins_balance.h  25086 pins_held.h  25314 pins_choose.h  25380 pins_rebuild.h
+ *  25603 pins_matrix.h  25754 pins.h  26016 pins_solve.h  26291 subset.h  26419 restrict_kept.h
+ *  26617 restrict_analysis.h  26862 restrict_symbolic.h  27057 restrict.h  27289 edit_match.h
+ *  27488 edit_place.h  27737 edit_separate.h  28051 edit_order.h  28206 edit_graph.h
+ *  28288 edit_join.h  28564 edit.h  28727 edit_factor.h
  * (save: factors in files)
- *  29014 format.h  29311 decode.h  29459 check.h  29789 write.h  30098 load.h  30366 load_inverse.h
- *  30696 load_calls.h
+ *  29012 format.h  29309 decode.h  29457 check.h  29787 write.h  30096 load.h  30364 load_inverse.h
+ *  30694 load_calls.h
  * (batch: many solves, factors and diagonals by one call)
- *  30895 batch_solve.h  31104 batch_factor.h  31305 batch_diagonal.h
+ *  30893 batch_solve.h  31102 batch_factor.h  31303 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31445 hermitian.h  31607 complex_rows.h
+ *  31443 hermitian.h  31605 complex_rows.h
  * (last: undefine every internal macro)
- *  31775 undef.h
+ *  31773 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  32084 front.inl.h  32086 product.inl.h  32606 copy_rows.inl.h  32644 sweeps.inl.h
- *  32646 unit_triangle.inl.h  32683 two_rhs.inl.h  32857 small_supernode.inl.h
- *  33059 single_rhs.inl.h  33299 multi_rhs.inl.h  33318 complex_groups.inl.h
- *  33457 multi_rhs_small.inl.h  33629 multi_rhs_tiles.inl.h  33906 kernel_set.inl.h
- *  33908 complex_small.inl.h  34098 complex_rows.inl.h  34313 inverse_front.inl.h  34598 row.inl.h
- *  34630 change.inl.h  34873 interleave.inl.h  35007 lanes_undef.inl.h  35026 words_undef.inl.h
+ *  32082 front.inl.h  32084 product.inl.h  32604 copy_rows.inl.h  32642 sweeps.inl.h
+ *  32644 unit_triangle.inl.h  32681 two_rhs.inl.h  32855 small_supernode.inl.h
+ *  33057 single_rhs.inl.h  33297 multi_rhs.inl.h  33316 complex_groups.inl.h
+ *  33455 multi_rhs_small.inl.h  33627 multi_rhs_tiles.inl.h  33904 kernel_set.inl.h
+ *  33906 complex_small.inl.h  34096 complex_rows.inl.h  34311 inverse_front.inl.h  34596 row.inl.h
+ *  34628 change.inl.h  34871 interleave.inl.h  35005 lanes_undef.inl.h  35024 words_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -10235,8 +10235,7 @@ typedef struct sli_thin {
   sl_int *mark;
   sl_int *begin;
   sl_int *ahead;
-  sl_int *kept;
-  sl_int *spare;
+  sl_int *spare, *kept;
   sl_int *up;
   sl_int marks, leaf, parts;
   int is_narrow;
@@ -10553,11 +10552,10 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 static sl_status sli_nd_label(sli_nd *w) {
   sli_dissection *d = &w->d;
   d->is_volume = d->may_be_seven_point = 0;
-  d->band_growth = 1;
+  d->band_growth = d->has_labels ? 1 : 3;
   if (d->has_labels) {
     return SL_OK;
   }
-  d->band_growth = 3;
   if (w->by_metis) {
 #if defined(SLI_METIS)
     return sli_dissect_metis_refined(d);

@@ -104,11 +104,10 @@ static void sli_nd_graph(sli_nd *w, sl_int count) {
 static sl_status sli_nd_label(sli_nd *w) {
     sli_dissection *d = &w->d;
     d->is_volume = d->may_be_seven_point = 0; /* unless the first coarser level shows it */
-    d->band_growth = 1;
+    d->band_growth = d->has_labels ? 1 : 3;
     if (d->has_labels) {
         return SL_OK;
     }
-    d->band_growth = 3;
     if (w->by_metis) {
 #if defined(SLI_METIS)
         return sli_dissect_metis_refined(d);

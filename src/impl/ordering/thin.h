@@ -41,8 +41,7 @@ typedef struct sli_thin {
     sl_int *begin; /* of each level, where it begins: those of a part are numbered from its first
                       position on */
     sl_int *ahead; /* of each level: vertices next to the next one */
-    sl_int *kept;  /* n of scratch, as spare */
-    sl_int *spare;
+    sl_int *spare, *kept; /* n of scratch each */
     sl_int *up; /* of each node: the one above; nodes are numbered from the root */
     sl_int marks, leaf, parts;
     int is_narrow;
