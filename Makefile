@@ -38,13 +38,15 @@ export SL_DATA BENCH MESH
 # clang warns of constants of an enum in sums of doubles from version 19 on.
 WARN_BOTH = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror $(if $(findstring clang,$(CC)),-Wno-enum-float-conversion)
 WARN = $(WARN_BOTH) -Wstrict-prototypes -Wmissing-prototypes
-C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(METIS) $(INCLUDES) $(CFLAGS)
-CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(METIS) $(INCLUDES) $(CXXFLAGS)
+C_FLAGS = -std=c99 $(OPT) $(WARN) -I. $(METIS) $(PACK_FLAGS) $(INCLUDES) $(CFLAGS)
+CXX_FLAGS = -std=c++11 $(OPT) $(WARN_BOTH) -I. $(METIS) $(PACK_FLAGS) $(INCLUDES) $(CXXFLAGS)
 IMPL_COMPILE = $(CC) $(C_FLAGS)
 LINK = $(CC) $(OPT)
 DEPEND = -MMD -MP
 # The header needs no library by default; our own builds compile the orderings by METIS too.
 METIS = -DSL_METIS
+# Our own builds have all packs.
+PACK_FLAGS = -DSL_WITH_ALL
 # zlib and cJSON read and write the files of the tools.
 FILE_LIBS = -lz -lcjson
 LIBS = -lmetis $(FILE_LIBS) -lm
@@ -126,9 +128,11 @@ style: ## are all lines short enough, and is the wording of the public headers p
 parts: $(patsubst src/%,build/parts/%.ok,$(filter-out %.inl.h,$(PARTS))) ## does every part compile alone?
 	@echo 'parts: each of $(words $^) compiles alone'
 
+# Parts above analysis call packs through a table, which is the last part.
+PARTS_BELOW = public/% impl/base/% impl/kernels/% impl/matrix/% impl/ordering/% impl/analysis/%
 build/parts/%.ok: src/% $(SRC) | build/deps.ok
 	@mkdir -p $(@D)
-	@printf '#include "$*"\ntypedef int sl_this_part_alone;\n' | \
+	@printf '#include "$*"\n$(if $(filter $(PARTS_BELOW),$*),,#include "impl/packs/storage_types.h"\n)typedef int sl_this_part_alone;\n' | \
 	$(CC) $(C_FLAGS) -Isrc -Wno-unused-function -Wno-unused-variable -fsyntax-only -x c -
 	@touch $@
 

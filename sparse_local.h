@@ -1,94 +1,112 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 65e501a851de7647
+ * FNV-1a of the lines after this comment, without the license: f1c14f17040b9a29
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *     96 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    165 config.h     macros that a user may define before the include, the version, and the integer types
- *    244 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    414 options.h    options of all calls, threads, and the allocator
- *    556 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    753 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    925 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1068 factor.h     the numerical factorization P A P' = L D L'
- *   1357 solve.h      full solves, and the workspace of all solves
- *   1470 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1564 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1677 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1790 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1926 batch.h      many independent solves by one call, distributed over threads
- *   1976 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2154 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2274 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2378 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2517 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2635 change.h     a factor that follows small changes of its matrix
- *   2728 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2880 complex.h    complex Hermitian systems, solved as real ones of twice the size
- *   3011 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   3066 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *    114 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    183 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    216 config.h     macros that a user may define before the include, the version, and the integer types
+ *    295 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    465 options.h    options of all calls, threads, and the allocator
+ *    607 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    804 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    976 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1119 factor.h     the numerical factorization P A P' = L D L'
+ *   1408 solve.h      full solves, and the workspace of all solves
+ *   1521 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1616 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
+ *   1729 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
+ *   1844 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
+ *   1980 selected.h   the selected inverse: entries of A^-1 on the pattern of L
+ *   2100 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
+ *   2206 batch.h      many independent solves by one call, distributed over threads
+ *   2256 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
+ *   2436 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
+ *   2575 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
+ *   2695 change.h     a factor that follows small changes of its matrix
+ *   2788 pins.h       rows held at given values, on top of a factor that stays as it is
+ *   2940 restrict.h   the factor of a principal submatrix, from that of the whole matrix
+ *   2995 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
+ *   3080 complex.h    complex Hermitian systems, solved as real ones of twice the size
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3159 base.h   3455 status.h   3516 options.h   3575 alloc.h   3738 hash.h   3868 file_map.h
- *   3965 sort.h   4030 parallel.h
+ *   3222 base.h   3518 status.h   3579 options.h   3638 alloc.h   3801 hash.h   3931 sort.h
+ *   3996 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4226 panel.h   4251 step.h   4330 pivot_rule.h   4404 front.h   4465 pairs.h
- *   4672 inverse_front.h   4744 table.h   4793 simd.h   4890 simd_scalar_single.h
- *   4934 simd_scalar.h   5060 simd_avx2_single.h   5112 simd_avx2.h   5338 simd_avx512_single.h
- *   5393 simd_avx512.h   5560 simd_neon_single.h   5600 simd_neon.h   5820 dispatch.h
+ *   4186 panel.h   4211 step.h   4290 pivot_rule.h   4364 front.h   4424 pairs.h   4631 table.h
+ *   4647 simd.h   4750 simd_scalar.h   4777 simd_avx2.h   4844 simd_avx512.h   4876 simd_neon.h
+ *   4906 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5913 csc.h   6056 csc_build.h   6190 csc64.h   6261 csc_triangle.h   6326 csc_products.h
- *   6443 permute.h   6509 sum.h   6591 output_file.h   6800 text_reader.h   6981 matrix_market.h
+ *   5020 csc.h   5163 csc_build.h   5297 csc_triangle.h   5362 csc_products.h   5479 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   7249 graph.h   7368 contract.h   7549 coarsen.h   7763 labels.h   7989 subgraph.h   8183 heap.h
- *   8245 bisect.h   8453 separator.h   8715 mindeg.h   8898 dissection.h   9008 weigh.h
- *   9075 dissect.h   9372 tree_cost.h   9435 levelset.h   9520 geometric.h   9695 cells.h
- *   9875 septree.h   9951 metis.h  10100 metis_refined.h  10215 thin.h  10469 nd.h
- *  10686 compress.h  10838 levels.h  10891 border.h  10944 forest.h  11031 peel.h  11231 quotient.h
- *  11565 quotient_order.h  11659 graph_kind.h  11748 order.h
+ *   5546 graph.h   5665 contract.h   5846 coarsen.h   6060 labels.h   6286 subgraph.h   6480 heap.h
+ *   6542 bisect.h   6750 separator.h   7012 mindeg.h   7195 dissection.h   7305 weigh.h
+ *   7372 dissect.h   7669 tree_cost.h   7732 levelset.h   7817 geometric.h   7992 cells.h
+ *   8172 septree.h   8248 metis.h   8397 metis_refined.h   8512 thin.h   8766 nd.h
+ *   8983 compress.h   9135 levels.h   9188 border.h   9241 forest.h   9328 peel.h   9528 quotient.h
+ *   9862 quotient_order.h   9956 graph_kind.h  10045 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  12076 symbolic_types.h  12113 etree.h  12310 supernodes.h  12568 pattern.h  12649 structure.h
- *  12845 schedule.h  13176 symbolic.h  13650 reach.h
+ *  10373 symbolic_types.h  10416 etree.h  10613 supernodes.h  10871 pattern.h  10952 structure.h
+ *  11123 schedule.h  11454 symbolic.h  11930 reach.h
  * (factor: the numbers of L and D)
- *  13926 factor_types.h  14131 panel_load.h  14244 pivot_check.h  14363 storage.h
- *  14501 pivot_search.h  14847 pivoted.h  14916 scatter.h  15074 uplooking.h  15148 null_product.h
- *  15352 null_dense.h  15429 null_basis.h  15749 null_vectors.h  15891 multifrontal.h
- *  16138 gather.h  16186 kept.h  16356 front_tasks.h  16699 null_center.h  16823 nullspace.h
- *  17030 growth.h  17108 factor_setup.h  17448 factor.h  17663 leftlooking.h  17817 factor_query.h
- *  17952 combination.h
+ *  12206 factor_types.h  12396 storage_type.h  12461 panel_load.h  12502 pivot_check.h
+ *  12606 null_product.h  12810 null_dense.h  12887 null_basis.h  13207 null_vectors.h
+ *  13334 multifrontal.h  13477 uplooking.h  13551 front_tasks.h  13865 null_center.h
+ *  13989 nullspace.h  14196 growth.h  14274 factor_setup.h  14610 factor.h  14825 factor_query.h
  * (solve: full and local solves)
- *  18013 region_types.h  18117 work.h  18217 query.h  18435 singular.h  18695 backward.h
- *  18725 sweep_tasks.h  19056 sweep.h  19264 compile.h  19457 plan.h  19564 local.h  19716 parts.h
- *  20005 refine.h  20184 refine_local.h  20400 rcond.h  20559 defects.h
+ *  14961 work.h  15061 query.h  15300 singular.h  15560 backward.h  15590 sweep_tasks.h
+ *  15921 sweep.h  16121 compile.h  16256 plan.h  16358 local.h
+ * (accuracy: refinement, condition, defects, half solves)
+ *  16512 parts.h  16801 refine.h  16980 refine_local.h  17196 rcond.h  17355 defects.h
+ * (pivots: the order of the pivots by the values of a matrix)
+ *  17416 pivot_search.h  17762 pivoted.h
+ * (float: L and fronts in single precision)
+ *  17834 simd_scalar_single.h  17865 simd_avx2_single.h  17922 simd_avx512_single.h
+ *  17977 simd_neon_single.h  18022 float_kernels.h  18120 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  20618 traversal.h  20872 traversal_run.h  21065 row_sets.h  21099 unit_vectors.h
- *  21326 bilinear.h  21498 entries.h  21775 block.h  22010 reserve.h  22202 selected.h
- *  22412 selected_query.h  22514 region_choose.h  22741 region.h
+ *  18285 inverse_front.h  18357 inverse_kernels.h  18429 traversal.h  18683 traversal_run.h
+ *  18892 row_sets.h  18926 unit_vectors.h  19147 bilinear.h  19319 entries.h  19596 block.h
+ *  19831 reserve.h  20023 selected.h  20233 selected_query.h  20335 region_types.h
+ *  20435 region_choose.h  20662 region_ending.h  20778 region.h
  * (change: a factor that follows changes of its matrix)
- *  22989 update_pivots.h  23160 update.h  23393 path.h  23495 rank.h  23887 edges.h  24041 choose.h
- *  24291 pins_types.h  24357 pins_nulls.h  24538 pins_capacitance.h  24804 pins_rows.h
- *  24924 pins_balance.h  25086 pins_held.h  25314 pins_choose.h  25380 pins_rebuild.h
- *  25603 pins_matrix.h  25754 pins.h  26016 pins_solve.h  26291 subset.h  26419 restrict_kept.h
- *  26617 restrict_analysis.h  26862 restrict_symbolic.h  27057 restrict.h  27289 edit_match.h
- *  27488 edit_place.h  27737 edit_separate.h  28051 edit_order.h  28206 edit_graph.h
- *  28288 edit_join.h  28564 edit.h  28727 edit_factor.h
+ *  21029 change_kernels.h  21102 gather.h  21150 kept.h  21307 leftlooking.h  21476 update_pivots.h
+ *  21647 update.h  21881 path.h  21983 rank.h  22375 edges.h  22529 choose.h  22779 pins_types.h
+ *  22845 pins_nulls.h  23026 pins_capacitance.h  23292 pins_rows.h  23412 pins_balance.h
+ *  23574 pins_held.h  23802 pins_choose.h  23868 pins_rebuild.h  24091 pins_matrix.h  24242 pins.h
+ *  24504 pins_solve.h  24779 subset.h  24932 restrict_kept.h  25130 restrict_analysis.h
+ *  25375 restrict_symbolic.h  25570 restrict.h  25801 edit_match.h  26000 edit_place.h
+ *  26249 edit_separate.h  26563 edit_order.h  26718 edit_graph.h  26800 edit_join.h  27076 edit.h
+ *  27239 edit_factor.h
+ * (io: files that are written and mapped)
+ *  27527 output_file.h  27736 file_map.h
+ * (files: Matrix Market files, 64-bit indices)
+ *  27837 csc64.h  27908 text_reader.h  28089 matrix_market.h
  * (save: factors in files)
- *  29012 format.h  29309 decode.h  29457 check.h  29787 write.h  30096 load.h  30364 load_inverse.h
- *  30694 load_calls.h
- * (batch: many solves, factors and diagonals by one call)
- *  30893 batch_solve.h  31102 batch_factor.h  31303 batch_diagonal.h
+ *  28359 format.h  28656 decode.h  28804 check.h  29134 write.h  29442 load.h  29711 load_inverse.h
+ *  30041 load_calls.h
+ * (batch: many solves and factorizations by one call, sums of matrices)
+ *  30244 matrix_sum.h  30326 scatter.h  30484 combination.h  30544 batch_solve.h
+ *  30752 batch_factor.h
+ * (batch: diagonals of many inverses)
+ *  30956 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31443 hermitian.h  31605 complex_rows.h
+ *  31098 complex_kernels.h  31210 complex_storage.h  31331 hermitian.h  31493 complex_rows.h
+ * (packs: the tables through which the core calls packs)
+ *  31662 storage_types.h
  * (last: undefine every internal macro)
- *  31773 undef.h
+ *  31689 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  32082 front.inl.h  32084 product.inl.h  32604 copy_rows.inl.h  32642 sweeps.inl.h
- *  32644 unit_triangle.inl.h  32681 two_rhs.inl.h  32855 small_supernode.inl.h
- *  33057 single_rhs.inl.h  33297 multi_rhs.inl.h  33316 complex_groups.inl.h
- *  33455 multi_rhs_small.inl.h  33627 multi_rhs_tiles.inl.h  33904 kernel_set.inl.h
- *  33906 complex_small.inl.h  34096 complex_rows.inl.h  34311 inverse_front.inl.h  34596 row.inl.h
- *  34628 change.inl.h  34871 interleave.inl.h  35005 lanes_undef.inl.h  35024 words_undef.inl.h
+ *  31999 words_scalar.inl.h  32095 change.inl.h  32351 lanes_scalar.inl.h  32383 products.inl.h
+ *  32421 inverse_front.inl.h  32726 inverse_set.inl.h  32739 front.inl.h  32741 product.inl.h
+ *  33229 complex_groups.inl.h  33320 copy_rows.inl.h  33358 sweeps.inl.h  33360 unit_triangle.inl.h
+ *  33397 two_rhs.inl.h  33567 small_supernode.inl.h  33769 single_rhs.inl.h  34009 multi_rhs.inl.h
+ *  34072 multi_rhs_small.inl.h  34251 multi_rhs_tiles.inl.h  34490 complex_small.inl.h
+ *  34686 complex_rows.inl.h  34909 complex_set.inl.h  34927 float_set.inl.h  34945 kernel_set.inl.h
+ *  34947 row.inl.h  34979 interleave.inl.h  35081 lanes_undef.inl.h  35108 words_undef.inl.h
+ *  35191 words_avx2.inl.h  35323 lanes_avx2.inl.h  35385 words_avx512.inl.h
+ *  35494 lanes_avx512.inl.h  35541 words_neon.inl.h  35690 lanes_neon.inl.h  35769 fronts.inl.h
+ *  36000 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -161,6 +179,39 @@
  *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular
  *            graphs, 1998.
  */
+
+/* src/public/packs.h: the packs that a user asks for: what each adds to the core, and what it brings along */
+
+/* The core analyzes, factors, refactors and solves: in full, on plans and in one shot, with one to
+ * many right-hand sides, for regular and for singular matrices. Define the macro of a pack before
+ * every include of this header to add to it, or SL_WITH_ALL for all packs:
+ *
+ *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
+ *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
+ *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
+ *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
+ *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
+ *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS
+ *  SL_WITH_ACCURACY   refinement, condition numbers, defects, half solves
+ *  SL_WITH_FILES      Matrix Market files, matrices with 64-bit indices
+ *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
+ *
+ * A call of a pack that is off does not compile, and the error names the macro. An option that
+ * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CHANGE brings SL_WITH_INVERSE along, which
+ * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
+#if defined(SL_WITH_ALL)
+#define SL_WITH_CHANGE
+#define SL_WITH_SAVE
+#define SL_WITH_BATCH
+#define SL_WITH_COMPLEX
+#define SL_WITH_FLOAT
+#define SL_WITH_ACCURACY
+#define SL_WITH_FILES
+#define SL_WITH_PIVOTS
+#endif
+#if (defined(SL_WITH_CHANGE) || defined(SL_WITH_SAVE)) && !defined(SL_WITH_INVERSE)
+#define SL_WITH_INVERSE
+#endif
 
 /* src/public/config.h: macros that a user may define before the include, the version, and the integer types */
 
@@ -1561,6 +1612,7 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
                                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                                sl_stats *stats);
 
+#if defined(SL_WITH_ACCURACY)
 /* src/public/parts.h: L, D, L' and the permutation applied one by one: half solves, products, samples */
 
 /** The factors of P A P' = L D L', to be combined by |. */
@@ -1787,6 +1839,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
                                                   const double *B, size_t ldb, sl_int nrhs,
                                                   sl_work *W);
 
+#endif
+#if defined(SL_WITH_INVERSE)
 /* src/public/inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
 
 /* With P A P' = L D L', y = L^-1 P b and z = L^-1 P c,
@@ -1923,6 +1977,232 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_inverse(sl_work *W, const sl_fac
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_rows,
                                                       sl_int n_columns);
 
+/* src/public/selected.h: the selected inverse: entries of A^-1 on the pattern of L */
+
+/** Computes entries of A^-1 on the pattern of L, which includes the diagonal and the pattern of A.
+ *
+ *  Works from the roots of the elimination tree to its leaves, supernode by supernode, with dense
+ *  kernels. Z_kl of Z = P A^-1 P' is computed if the panel of a supernode has an entry L_kl,
+ *  including the entries that relaxation adds. For a set of rows only the supernodes on the paths
+ *  from the set to the roots are computed. All numbers have the same bits as in the complete
+ *  selected inverse.
+ *
+ *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
+ *                change if F is refactored or released, until sl_selected_refactor.
+ *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
+ *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
+ *                it is not dereferenced.
+ *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
+ *                F. The instruction set is that of F.
+ *  stats  [out]  selected; error.row: a row out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     about twice the flops of the factorization of the same supernodes. Keeps entries
+ *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
+ *           memory: 8 height^2 bytes per active front, where height counts the columns of a
+ *           supernode and the rows below them. Active are the fronts on the path from the current
+ *           supernode to its root that have unvisited children; with several threads, those of
+ *           every thread and the roots of the subtrees distributed among them, a few dozen.
+ *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
+ *           threads.
+ *  Source   [ET75]; supernodal: [SelInv].
+ *  Example  tests/core/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_factor *F,
+                                                   const sl_int *set, sl_int count,
+                                                   const sl_options *opt, sl_stats *stats);
+
+/** Computes the same entries from the present numbers of F, in the same memory.
+ *
+ *  Z      [in,out]  unchanged on error.
+ *  F      [in]      a factor over the analysis that Z was made for.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or
+ *           Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
+ *           memory is mapped already.
+ *  Threads  exclusive use of Z; runs on the threads that Z was made with.
+ *  Example  tests/core/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F,
+                                                     sl_work *W);
+
+/** Releases a selected inverse; NULL is allowed. */
+SL_API void sl_selected_free(sl_selected *Z);
+
+/** Diagonal entries of A^-1.
+ *
+ *  out    [out]  count entries in the order of rows. On error untouched.
+ *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
+ *                ignored): all n.
+ *  stats  [out]  error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or a row out of range (error.row); SL_ERR_PATTERN: a row
+ *           that the set of Z does not reach (error.row).
+ *  Cost     O(count), with a logarithmic factor if Z was made for a set.
+ *  Threads  any number at once.
+ *  Example  tests/core/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_diagonal(const sl_selected *Z, double *out,
+                                                     const sl_int *rows, sl_int count,
+                                                     sl_stats *stats);
+
+/** Entries (A^-1)_ij on the pattern of L.
+ *
+ *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
+ *                  untouched.
+ *  rows     [in]   count rows of A in 0..n-1.
+ *  columns  [in]   count columns of A in 0..n-1.
+ *  stats    [out]  error.row, error.column; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_PATTERN: an entry that
+ *           is not in the pattern of L or that the set of Z does not reach. error.row and
+ *           error.column name it.
+ *  Cost     O(count) binary searches.
+ *  Threads  any number at once.
+ *  Example  tests/core/test_selected.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
+                                                    const sl_int *rows, const sl_int *columns,
+                                                    sl_int count, sl_stats *stats);
+
+/** Arrays of a selected inverse; valid as long as the object.
+ *
+ *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
+ *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
+ *  tile are unspecified, and padding is 0.
+ */
+typedef struct sl_selected_arrays {
+    const sl_symbolic *symbolic;
+    sl_int count;         /* supernodes */
+    const sl_int *supers; /* count, ascending */
+    const sl_off *begin;  /* count + 1, in doubles */
+    const double *Z;      /* begin[count] */
+} sl_selected_arrays;
+
+SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
+
+/** Fills the selected group of stats again; seconds are those of the last sl_selected_create or
+ *  sl_selected_refactor. */
+SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
+
+/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing, if F
+ *  stores L as the factor that Z is of does (options.storage).
+ *
+ *  W      [in,out]  the workspace.
+ *  Z      [in]      the selected inverse.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(1). The size is exact: the fronts under way and the scratch of each thread, as in
+ *           sl_selected_create.
+ *  Example  tests/core/test_reserve_inverse.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z);
+
+/* src/public/region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
+
+/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it
+ * off. It consists of T, the columns of whole subtrees, and S, the boundary: every row outside T in
+ * which a column of T has an entry of L. For b and x on T and S
+ *
+ *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
+ *
+ * and the backward sweep continues in T. The region keeps (A^-1)_SS, so that a solve reads L in T
+ * only and gives the answer of the full solve up to rounding. If null pivots were skipped, A^-1 is
+ * the generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency
+ * of b is then checked only for null rows inside the region, and where components have several null
+ * vectors (options.null_vector_count), only if the region has no boundary.
+ */
+
+/** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
+ *
+ *  The subtrees are chosen so that a solve with b and x on the whole set reads as few numbers as
+ *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
+ *  set itself is the boundary. The other rows of the subtrees belong to the region too.
+ *
+ *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
+ *                sl_plan_create.
+ *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
+ *                is refactored, or a refactorization fails, plans in the region are refused until
+ *                sl_region_refactor.
+ *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
+ *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
+ *                it is not dereferenced.
+ *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
+ *                all entries needed, for example those of a single row or of the subtree of one
+ *                supernode; such a region is then preferred if it costs a solve at most twice as
+ *                much. Otherwise forward sweeps compute the entries, as in sl_inverse_block.
+ *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
+ *                stats.region.bytes is at most region_bytes. If only a region without boundary
+ *                fits, solves go to the roots of the tree.
+ *  stats  [out]  region; error.row: a row out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
+ *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
+ *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
+ *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
+ *           boundary.
+ *  Threads  reads F and Z.
+ *  Source   [HDA17] 3 for the sweeps. The part of the matrix outside T enters as a Schur
+ *           complement, whose inverse is (A^-1)_SS.
+ *  Example  tests/core/test_region.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
+                                                 const sl_int *set, sl_int count,
+                                                 const sl_selected *Z, const sl_options *opt,
+                                                 sl_stats *stats);
+
+/** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
+ *
+ *  R      [in,out]  unchanged on error.
+ *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
+ *                   accepts.
+ *  Z      [in]      as in sl_region_create; may be NULL.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
+ *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED: as sl_region_create;
+ *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     as sl_region_create without the plan; no allocation once W has grown.
+ *  Threads  exclusive use of R and of its plans.
+ *  Example  tests/core/test_region.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor *F,
+                                                   const sl_selected *Z, sl_work *W);
+
+/** Releases a region; NULL is allowed. */
+SL_API void sl_region_free(sl_region *R);
+
+/** Fills the region group of stats. */
+SL_API void sl_region_stats(const sl_region *R, sl_stats *stats);
+
+/** Arrays of a region; valid as long as the object. */
+typedef struct sl_region_arrays {
+    const sl_symbolic *symbolic;
+    sl_int n_roots;
+    const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
+    sl_int n_boundary;
+    const sl_int *boundary; /* n_boundary rows of A, in elimination order */
+} sl_region_arrays;
+
+SL_API sl_region_arrays sl_region_view(const sl_region *R);
+
+/** Grows W to what sl_region_refactor(R, F, Z, W) takes, so that the call allocates nothing, with
+ *  any Z or none.
+ *
+ *  W      [in,out]  the workspace.
+ *  R      [in]      the region.
+ *  F      [in]      a factor over the analysis of R. The size depends on its instruction set, not
+ *                   on its numbers.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F is of another analysis; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
+ *  Cost     O(boundary) paths to the roots. The size is exact where the numbers come from forward
+ *           sweeps; where they are copied from Z, no workspace is needed.
+ *  Example  tests/core/test_reserve_inverse.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
+                                                       const sl_factor *F);
+
+#endif
+#if defined(SL_WITH_BATCH)
 /* src/public/batch.h: many independent solves by one call, distributed over threads */
 
 /** One solve of a batch: a plan and its right-hand sides, or a full solve. */
@@ -2151,230 +2431,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
                                                   sl_work *const *works, sl_int *failed,
                                                   sl_stats *stats);
 
-/* src/public/selected.h: the selected inverse: entries of A^-1 on the pattern of L */
-
-/** Computes entries of A^-1 on the pattern of L, which includes the diagonal and the pattern of A.
- *
- *  Works from the roots of the elimination tree to its leaves, supernode by supernode, with dense
- *  kernels. Z_kl of Z = P A^-1 P' is computed if the panel of a supernode has an entry L_kl,
- *  including the entries that relaxation adds. For a set of rows only the supernodes on the paths
- *  from the set to the roots are computed. All numbers have the same bits as in the complete
- *  selected inverse.
- *
- *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
- *                change if F is refactored or released, until sl_selected_refactor.
- *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
- *                it is not dereferenced.
- *  opt    [in]   allocator, threads; may be NULL. The object keeps the threads; without, those of
- *                F. The instruction set is that of F.
- *  stats  [out]  selected; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes. Keeps entries
- *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
- *           memory: 8 height^2 bytes per active front, where height counts the columns of a
- *           supernode and the rows below them. Active are the fronts on the path from the current
- *           supernode to its root that have unvisited children; with several threads, those of
- *           every thread and the roots of the subtrees distributed among them, a few dozen.
- *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
- *           threads.
- *  Source   [ET75]; supernodal: [SelInv].
- *  Example  tests/core/test_selected.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_selected_create(sl_selected **out, const sl_factor *F,
-                                                   const sl_int *set, sl_int count,
-                                                   const sl_options *opt, sl_stats *stats);
-
-/** Computes the same entries from the present numbers of F, in the same memory.
- *
- *  Z      [in,out]  unchanged on error.
- *  F      [in]      a factor over the analysis that Z was made for.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, or
- *           Z is mapped; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     as sl_selected_create; no allocation once W has grown. Up to twice as fast, since the
- *           memory is mapped already.
- *  Threads  exclusive use of Z; runs on the threads that Z was made with.
- *  Example  tests/core/test_selected.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F,
-                                                     sl_work *W);
-
-/** Releases a selected inverse; NULL is allowed. */
-SL_API void sl_selected_free(sl_selected *Z);
-
-/** Diagonal entries of A^-1.
- *
- *  out    [out]  count entries in the order of rows. On error untouched.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
- *  stats  [out]  error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or a row out of range (error.row); SL_ERR_PATTERN: a row
- *           that the set of Z does not reach (error.row).
- *  Cost     O(count), with a logarithmic factor if Z was made for a set.
- *  Threads  any number at once.
- *  Example  tests/core/test_selected.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_selected_diagonal(const sl_selected *Z, double *out,
-                                                     const sl_int *rows, sl_int count,
-                                                     sl_stats *stats);
-
-/** Entries (A^-1)_ij on the pattern of L.
- *
- *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
- *                  untouched.
- *  rows     [in]   count rows of A in 0..n-1.
- *  columns  [in]   count columns of A in 0..n-1.
- *  stats    [out]  error.row, error.column; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_PATTERN: an entry that
- *           is not in the pattern of L or that the set of Z does not reach. error.row and
- *           error.column name it.
- *  Cost     O(count) binary searches.
- *  Threads  any number at once.
- *  Example  tests/core/test_selected.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_selected_entries(const sl_selected *Z, double *out,
-                                                    const sl_int *rows, const sl_int *columns,
-                                                    sl_int count, sl_stats *stats);
-
-/** Arrays of a selected inverse; valid as long as the object.
- *
- *  The panel of supernode supers[k] begins at Z[begin[k]] and has the layout of the panels of L,
- *  described at sl_symbolic_arrays. Unlike there, the diagonal is stored; entries above it within a
- *  tile are unspecified, and padding is 0.
- */
-typedef struct sl_selected_arrays {
-    const sl_symbolic *symbolic;
-    sl_int count;         /* supernodes */
-    const sl_int *supers; /* count, ascending */
-    const sl_off *begin;  /* count + 1, in doubles */
-    const double *Z;      /* begin[count] */
-} sl_selected_arrays;
-
-SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
-
-/** Fills the selected group of stats again; seconds are those of the last sl_selected_create or
- *  sl_selected_refactor. */
-SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
-
-/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing, if F
- *  stores L as the factor that Z is of does (options.storage).
- *
- *  W      [in,out]  the workspace.
- *  Z      [in]      the selected inverse.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(1). The size is exact: the fronts under way and the scratch of each thread, as in
- *           sl_selected_create.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z);
-
-/* src/public/region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
-
-/* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it
- * off. It consists of T, the columns of whole subtrees, and S, the boundary: every row outside T in
- * which a column of T has an entry of L. For b and x on T and S
- *
- *     y = L_TT^-1 b_T,  u = b_S - L_ST y,  x_S = (A^-1)_SS u,
- *
- * and the backward sweep continues in T. The region keeps (A^-1)_SS, so that a solve reads L in T
- * only and gives the answer of the full solve up to rounding. If null pivots were skipped, A^-1 is
- * the generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency
- * of b is then checked only for null rows inside the region, and where components have several null
- * vectors (options.null_vector_count), only if the region has no boundary.
- */
-
-/** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
- *
- *  The subtrees are chosen so that a solve with b and x on the whole set reads as few numbers as
- *  possible. Few large subtrees have a short boundary and large panels; with no subtree at all, the
- *  set itself is the boundary. The other rows of the subtrees belong to the region too.
- *
- *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
- *                sl_plan_create.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
- *                is refactored, or a refactorization fails, plans in the region are refused until
- *                sl_region_refactor.
- *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
- *                it is not dereferenced.
- *  Z      [in]   a selected inverse of the present numbers of F, or NULL. It is used if it contains
- *                all entries needed, for example those of a single row or of the subtree of one
- *                supernode; such a region is then preferred if it costs a solve at most twice as
- *                much. Otherwise forward sweeps compute the entries, as in sl_inverse_block.
- *  opt    [in]   allocator, region_bytes; may be NULL. Subtrees are chosen so that
- *                stats.region.bytes is at most region_bytes. If only a region without boundary
- *                fits, solves go to the roots of the tree.
- *  stats  [out]  region; error.row: a row out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
- *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
- *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
- *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
- *           boundary.
- *  Threads  reads F and Z.
- *  Source   [HDA17] 3 for the sweeps. The part of the matrix outside T enters as a Schur
- *           complement, whose inverse is (A^-1)_SS.
- *  Example  tests/core/test_region.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_factor *F,
-                                                 const sl_int *set, sl_int count,
-                                                 const sl_selected *Z, const sl_options *opt,
-                                                 sl_stats *stats);
-
-/** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
- *
- *  R      [in,out]  unchanged on error.
- *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
- *                   accepts.
- *  Z      [in]      as in sl_region_create; may be NULL.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
- *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED: as sl_region_create;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     as sl_region_create without the plan; no allocation once W has grown.
- *  Threads  exclusive use of R and of its plans.
- *  Example  tests/core/test_region.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_region_refactor(sl_region *R, const sl_factor *F,
-                                                   const sl_selected *Z, sl_work *W);
-
-/** Releases a region; NULL is allowed. */
-SL_API void sl_region_free(sl_region *R);
-
-/** Fills the region group of stats. */
-SL_API void sl_region_stats(const sl_region *R, sl_stats *stats);
-
-/** Arrays of a region; valid as long as the object. */
-typedef struct sl_region_arrays {
-    const sl_symbolic *symbolic;
-    sl_int n_roots;
-    const sl_int *roots; /* n_roots supernodes, ascending: roots of the interior subtrees */
-    sl_int n_boundary;
-    const sl_int *boundary; /* n_boundary rows of A, in elimination order */
-} sl_region_arrays;
-
-SL_API sl_region_arrays sl_region_view(const sl_region *R);
-
-/** Grows W to what sl_region_refactor(R, F, Z, W) takes, so that the call allocates nothing, with
- *  any Z or none.
- *
- *  W      [in,out]  the workspace.
- *  R      [in]      the region.
- *  F      [in]      a factor over the analysis of R. The size depends on its instruction set, not
- *                   on its numbers.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F is of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     O(boundary) paths to the roots. The size is exact where the numbers come from forward
- *           sweeps; where they are copied from Z, no workspace is needed.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
-                                                       const sl_factor *F);
-
+#endif
+#if defined(SL_WITH_SAVE)
 /* src/public/save.h: a factor in a file or in memory: saved, loaded, and mapped without a copy */
 
 /* A saved factor outlives its process, and any number of processes can map one file and share one
@@ -2632,6 +2690,8 @@ SL_API SL_WARN_UNUSED sl_status sl_map_set_file(sl_saved_set *set, const char *p
  *  object, set its pointer to NULL before. NULL is allowed. */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
+#endif
+#if defined(SL_WITH_CHANGE)
 /* src/public/change.h: a factor that follows small changes of its matrix */
 
 /** Changes a factor of A into one of A + V diag(sigma) V'. Plans stay valid; regions and selected
@@ -2877,137 +2937,6 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
                                               size_t ldx, const double *B, size_t ldb,
                                               const double *G, size_t ldg, sl_int nrhs, sl_work *W);
 
-/* src/public/complex.h: complex Hermitian systems, solved as real ones of twice the size */
-
-/* Connection Laplacians and the like: H x = b with a Hermitian H of n complex rows. Complex row k
- * becomes the real rows 2k (real part) and 2k + 1 (imaginary part), and an entry a + bi becomes the
- * block [a -b; b a]. The real matrix is symmetric, and definite if and only if H is.
- *
- * A complex vector in memory, real and imaginary parts in turn, IS the vector of the real system:
- * every call on factors and plans takes complex arrays as they are, with leading dimensions counted
- * in doubles, twice the complex ones. What differs is here: matrices, sets of rows, entries of the
- * inverse, the determinant. Of statistics, n and the counts of pivots (stats.factor.positive, ...)
- * are twice those of H; condition and backward errors are those of the real system.
- *
- *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
- *     A = sl_matrix_view(M);
- *     blocks.block_size = 2;                           orders a block as one row, which is quicker
- *     sl_symbolic_create(&S, &A, &blocks, NULL);
- *     half.storage = SL_STORAGE_COMPLEX;               half the bytes of L
- *     sl_factor_create(&F, S, &A, &half, NULL);
- *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
- *
- * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
- * operations and half the memory. Solves read half as much, and share each read of L as those of
- * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
- * that L as complex is not changed, restricted or saved. */
-
-/** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
- *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
-typedef struct sl_hermitian {
-    sl_int n;
-    const sl_int *p; /* n + 1 */
-    const sl_int *i; /* p[n] */
-    /* 2 p[n] with real and imaginary parts in turn; the real parts alone, p[n], if im is not NULL;
-     * NULL: pattern only */
-    const double *x;
-    const double *im; /* p[n] imaginary parts, or NULL */
-} sl_hermitian;
-
-/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores, and zeros
- *  beside the diagonal: with options.block_size 2 the columns of a block then follow each other in
- *  one supernode.
- *
- *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.row, error.column, in complex rows; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
- *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
- *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
- *  Cost     O(n + nnz).
- *  Threads  any number with different outputs.
- *  Example  tests/core/test_complex.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
-                                                         const sl_options *opt, sl_stats *stats);
-
-/** Replaces the values of such a matrix by those of another H with the same pattern, for
- *  sl_factor_refactor.
- *
- *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
- *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN: another pattern.
- *  Cost     O(n + nnz).
- *  Threads  exclusive use of M.
- *  Example  tests/core/test_complex.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
-                                                           sl_stats *stats);
-
-/** A set of complex rows as real rows: out[2k] = 2 rows[k], out[2k + 1] = 2 rows[k] + 1. For calls
- *  that have no complex form: pins, regions, requests of a batch.
- *
- *  out    [out]  2 count rows; must not overlap rows.
- *  rows   [in]   count rows in 0..2^30-5.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range.  Cost  O(count).
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
-
-/** sl_plan_create with sets of complex rows.
- *
- *  S      [in]   analysis of the real matrix, 2n columns; borrowed, must outlive the plan.
- *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
- *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
- *  stats  [out]  as in sl_plan_create; error.row is a complex row.
- *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
- *  Cost     as sl_plan_create.
- *  Threads  as sl_plan_create.
- *  Example  tests/core/test_complex.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
-                                                       const sl_int *bset, sl_int nb,
-                                                       const sl_int *xset, sl_int nx,
-                                                       const sl_options *opt, sl_stats *stats);
-
-/** A dense block of the complex inverse: Z(i, j) = (H^-1)(rows[i], columns[j]).
- *
- *  Z        [out]  n_rows x n_columns complex numbers, real and imaginary parts in turn,
- *                  column-major, leading dimension ldz >= n_rows complex numbers.
- *  rows, columns  [in]  n_rows and n_columns complex rows, any order, repetitions allowed.
- *  W, stats  as in sl_inverse_block; error.row and error.column are complex rows.
- *  Returns  as sl_inverse_block; SL_ERR_ARGUMENT also if F has an odd number of rows.
- *  Cost     sl_inverse_block of 2 n_rows x n_columns entries; allocates the sets.
- *  Threads  as sl_inverse_block.
- *  Example  tests/core/test_complex.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
-                                                         const sl_int *rows, sl_int n_rows,
-                                                         const sl_int *columns, sl_int n_columns,
-                                                         sl_work *W, sl_stats *stats);
-
-/** Entries of the complex inverse: out[2k] and out[2k + 1] are the real and the imaginary part of
- *  (H^-1)(rows[k], columns[k]).
- *
- *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
- *  W, stats  as in sl_inverse_pairs; error.row and error.column are complex rows.
- *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
- *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
- *  Threads  as sl_inverse_pairs.
- *  Example  tests/core/test_complex.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
-                                                         const sl_int *rows, const sl_int *columns,
-                                                         sl_int count, sl_work *W, sl_stats *stats);
-
-/** log |det H| and the sign of det H, which is real: half the logarithm of the real determinant,
- *  and the parity of half the negative pivots.
- *
- *  Returns  as sl_factor_logdet.  Cost  O(n).
- */
-SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
-                                                  double *sign);
-
 /* src/public/restrict.h: the factor of a principal submatrix, from that of the whole matrix */
 
 /** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
@@ -3146,6 +3075,140 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
                                                const sl_int *new_of, const sl_options *opt,
                                                sl_stats *stats);
 
+#endif
+#if defined(SL_WITH_COMPLEX)
+/* src/public/complex.h: complex Hermitian systems, solved as real ones of twice the size */
+
+/* Connection Laplacians and the like: H x = b with a Hermitian H of n complex rows. Complex row k
+ * becomes the real rows 2k (real part) and 2k + 1 (imaginary part), and an entry a + bi becomes the
+ * block [a -b; b a]. The real matrix is symmetric, and definite if and only if H is.
+ *
+ * A complex vector in memory, real and imaginary parts in turn, IS the vector of the real system:
+ * every call on factors and plans takes complex arrays as they are, with leading dimensions counted
+ * in doubles, twice the complex ones. What differs is here: matrices, sets of rows, entries of the
+ * inverse, the determinant. Of statistics, n and the counts of pivots (stats.factor.positive, ...)
+ * are twice those of H; condition and backward errors are those of the real system.
+ *
+ *     sl_matrix_from_hermitian(&M, &H, NULL, NULL);
+ *     A = sl_matrix_view(M);
+ *     blocks.block_size = 2;                           orders a block as one row, which is quicker
+ *     sl_symbolic_create(&S, &A, &blocks, NULL);
+ *     half.storage = SL_STORAGE_COMPLEX;               half the bytes of L
+ *     sl_factor_create(&F, S, &A, &half, NULL);
+ *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
+ *
+ * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
+ * operations and half the memory. Solves read half as much, and share each read of L as those of
+ * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
+ * that L as complex is not changed, restricted or saved. */
+
+/** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
+ *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */
+typedef struct sl_hermitian {
+    sl_int n;
+    const sl_int *p; /* n + 1 */
+    const sl_int *i; /* p[n] */
+    /* 2 p[n] with real and imaginary parts in turn; the real parts alone, p[n], if im is not NULL;
+     * NULL: pattern only */
+    const double *x;
+    const double *im; /* p[n] imaginary parts, or NULL */
+} sl_hermitian;
+
+/** The real matrix of a Hermitian one. It stores the triangle or triangles that H stores, and zeros
+ *  beside the diagonal: with options.block_size 2 the columns of a block then follow each other in
+ *  one supernode.
+ *
+ *  out    [out]  2n x 2n, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.row, error.column, in complex rows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also im without x, or a diagonal entry with an imaginary part
+ *           that is not 0; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^30 - 4 rows, or more than
+ *           2^31 - 1 entries, of which a complex one is 4; SL_ERR_MEMORY.
+ *  Cost     O(n + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_hermitian(sl_matrix **out, const sl_hermitian *H,
+                                                         const sl_options *opt, sl_stats *stats);
+
+/** Replaces the values of such a matrix by those of another H with the same pattern, for
+ *  sl_factor_refactor.
+ *
+ *  M      [in,out]  of sl_matrix_from_hermitian, with values; on error untouched.
+ *  stats  [out]     error.row, error.column, in complex rows; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a pattern without values; SL_ERR_PATTERN: another pattern.
+ *  Cost     O(n + nnz).
+ *  Threads  exclusive use of M.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_refill_hermitian(sl_matrix *M, const sl_hermitian *H,
+                                                           sl_stats *stats);
+
+/** A set of complex rows as real rows: out[2k] = 2 rows[k], out[2k + 1] = 2 rows[k] + 1. For calls
+ *  that have no complex form: pins, regions, requests of a batch.
+ *
+ *  out    [out]  2 count rows; must not overlap rows.
+ *  rows   [in]   count rows in 0..2^30-5.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range.  Cost  O(count).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows, sl_int count);
+
+/** sl_plan_create with sets of complex rows.
+ *
+ *  S      [in]   analysis of the real matrix, 2n columns; borrowed, must outlive the plan.
+ *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
+ *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
+ *  stats  [out]  as in sl_plan_create; error.row is a complex row.
+ *  Returns  as sl_plan_create; SL_ERR_ARGUMENT also if S has an odd number of columns.
+ *  Cost     as sl_plan_create.
+ *  Threads  as sl_plan_create.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S,
+                                                       const sl_int *bset, sl_int nb,
+                                                       const sl_int *xset, sl_int nx,
+                                                       const sl_options *opt, sl_stats *stats);
+
+/** A dense block of the complex inverse: Z(i, j) = (H^-1)(rows[i], columns[j]).
+ *
+ *  Z        [out]  n_rows x n_columns complex numbers, real and imaginary parts in turn,
+ *                  column-major, leading dimension ldz >= n_rows complex numbers.
+ *  rows, columns  [in]  n_rows and n_columns complex rows, any order, repetitions allowed.
+ *  W, stats  as in sl_inverse_block; error.row and error.column are complex rows.
+ *  Returns  as sl_inverse_block; SL_ERR_ARGUMENT also if F has an odd number of rows.
+ *  Cost     sl_inverse_block of 2 n_rows x n_columns entries; allocates the sets.
+ *  Threads  as sl_inverse_block.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                                                         const sl_int *rows, sl_int n_rows,
+                                                         const sl_int *columns, sl_int n_columns,
+                                                         sl_work *W, sl_stats *stats);
+
+/** Entries of the complex inverse: out[2k] and out[2k + 1] are the real and the imaginary part of
+ *  (H^-1)(rows[k], columns[k]).
+ *
+ *  rows, columns  [in]  count complex rows each, any order, repetitions allowed.
+ *  W, stats  as in sl_inverse_pairs; error.row and error.column are complex rows.
+ *  Returns  as sl_inverse_pairs; SL_ERR_ARGUMENT also if F has an odd number of rows.
+ *  Cost     sl_inverse_pairs of 2 count entries; allocates the sets.
+ *  Threads  as sl_inverse_pairs.
+ *  Example  tests/core/test_complex.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out,
+                                                         const sl_int *rows, const sl_int *columns,
+                                                         sl_int count, sl_work *W, sl_stats *stats);
+
+/** log |det H| and the sign of det H, which is real: half the logarithm of the real determinant,
+ *  and the parity of half the negative pivots.
+ *
+ *  Returns  as sl_factor_logdet.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
+                                                  double *sign);
+
+#endif
 #ifdef __cplusplus
 }
 #endif
@@ -3865,103 +3928,6 @@ static int sli_hash_indices(sli_hash *h, const sl_int *a, sl_int count, sl_int n
   return count == 0 || (beyond & 0x8000000080000000u) == 0;
 }
 
-/* src/impl/base/file_map.h: files mapped into memory, read-only, and the size of a file */
-
-typedef struct sli_mapping {
-  const void *bytes;
-  size_t size;
-} sli_mapping;
-
-static sl_status sli_map(const char *path, sli_mapping *out) {
-  sl_status status = SL_ERR_IO;
-  out->bytes = NULL;
-  out->size = 0;
-#if defined(SLI_MMAP)
-  {
-    const int file = open(path, O_RDONLY);
-    struct stat found;
-    void *bytes;
-    if (file < 0) {
-      return SL_ERR_IO;
-    }
-    if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
-      const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
-      status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
-    }
-    if (status == SL_OK) {
-      bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
-      if (bytes == MAP_FAILED) {
-        status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
-      } else {
-        out->bytes = bytes;
-        out->size = (size_t)found.st_size;
-      }
-    }
-    close(file);
-  }
-#elif defined(SLI_MAP_VIEW)
-  {
-    void *const file = CreateFileA(path, 0x80000000u, 1 | 4, NULL, 3, 0x80, NULL);
-    void *section;
-    int64_t size = 0;
-    if ((intptr_t)file == -1) {
-      return SL_ERR_IO;
-    }
-    if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
-      status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
-    }
-    section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
-    if (section != NULL) {
-      out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
-      CloseHandle(section);
-    }
-    if (status == SL_OK && out->bytes == NULL) {
-      status = SL_ERR_IO;
-    } else if (status == SL_OK) {
-      out->size = (size_t)size;
-    }
-    CloseHandle(file);
-  }
-#else
-  (void)path;
-  status = SL_ERR_UNSUPPORTED;
-#endif
-  return status;
-}
-
-static void sli_unmap(const sli_mapping *map) {
-  if (map->bytes != NULL) {
-#if defined(SLI_MMAP)
-    munmap((void *)(uintptr_t)map->bytes, map->size);
-#elif defined(SLI_MAP_VIEW)
-    UnmapViewOfFile(map->bytes);
-#endif
-  }
-}
-
-static uint64_t sli_file_size(FILE *file) {
-#if defined(_WIN32)
-  const int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : 0;
-#else
-  const int64_t size = fseek(file, 0, SEEK_END) == 0 ? (int64_t)ftell(file) : 0;
-#endif
-  rewind(file);
-  return size > 0 ? (uint64_t)size : 0;
-}
-
-static int sli_flush(FILE *file) {
-  if (fflush(file) != 0) {
-    return 0;
-  }
-#if defined(SLI_FSYNC)
-  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
-#elif defined(_WIN32)
-  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file));
-#else
-  return 1;
-#endif
-}
-
 /* src/impl/base/sort.h: sorts pairs (key, value): insertion sort for few, radix sort for many; binary search */
 
 SLI_INLINE uint64_t sli_keyed(sl_int key, sl_int value) {
@@ -4216,12 +4182,6 @@ static void sli_team_run(const sl_threads *t, sl_int workers,
   sli_parallel(t, workers, sli_team_body, &team);
 }
 
-static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
-                   int is_triangle) {
-  const double share = (double)k / workers;
-  return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
-}
-
 /* kernels: numerical kernels on raw arrays, once for each instruction set */
 /* src/impl/kernels/panel.h: how the columns of L of one supernode are stored: row tiles of 8 */
 
@@ -4438,10 +4398,9 @@ typedef struct sli_front {
   double *E;
   double *reciprocals;
   sli_front_single single;
-  int is_complex;
   int is_small;
   const sli_pivot_rule *rule;
-  sl_int column;
+  sl_int super, column;
 } sli_front;
 
 typedef void (*sli_pivots_kernel)(const sli_front *f, sl_int c0, void *scratch);
@@ -4669,105 +4628,7 @@ static void sli_pair_pack(const double *l, const double *E, sl_int length, doubl
   }
 }
 
-/* src/impl/kernels/inverse_front.h: a front of the inverse, and the contract of the kernels that compute it */
-
-typedef struct sli_inverse_front {
-  const double *panel;
-  const double *D;
-  double *front;
-  sl_int width, below;
-  sl_int first;
-} sli_inverse_front;
-
-SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
-  return (ptrdiff_t)SLI_TILE * h * t;
-}
-
-#define SLI_INVERSE_GROUP 16
-#define SLI_INVERSE_COLUMNS (SLI_INVERSE_GROUP * SLI_TILE)
-#define SLI_INVERSE_ROW (SLI_INVERSE_COLUMNS * SLI_TILE)
-
-SLI_INLINE sl_int sli_inverse_last_group(const sli_inverse_front *f) {
-  return (f->width - 1) / SLI_INVERSE_COLUMNS * SLI_INVERSE_COLUMNS;
-}
-
-SLI_INLINE sl_int sli_inverse_group_columns(const sli_inverse_front *f, sl_int j0) {
-  return sli_min(SLI_INVERSE_COLUMNS, f->width - j0);
-}
-
-SLI_INLINE double *sli_inverse_weights(double *scratch) {
-  return scratch + 2 * SLI_INVERSE_GROUP * SLI_INVERSE_ROW;
-}
-SLI_INLINE ptrdiff_t sli_inverse_stride(const sli_inverse_front *f, sl_int j0) {
-  const sl_int above = (j0 + sli_inverse_group_columns(f, j0)) / SLI_TILE;
-  return SLI_TILE * SLI_TILE * (ptrdiff_t)(sli_tiles(f->width + f->below) - above);
-}
-SLI_INLINE sl_off sli_inverse_scratch(sl_int height, sl_int width) {
-  return 2 * SLI_INVERSE_GROUP * SLI_INVERSE_ROW +
-       (sl_off)SLI_TILE * SLI_TILE * sli_min(sli_tiles(width), SLI_INVERSE_GROUP) *
-         sli_tiles(height);
-}
-
-typedef void (*sli_gather_kernel)(const sli_inverse_front *f, const double *from, sl_int height,
-                  const sl_int *relative, sl_int t0, sl_int t1);
-
-typedef void (*sli_takahashi_kernel)(const sli_inverse_front *f, double *scratch);
-
-typedef enum sli_inverse_phase {
-  SLI_INVERSE_TRIANGLE = 0,
-  SLI_INVERSE_WEIGHTS,
-  SLI_INVERSE_PRODUCT,
-  SLI_INVERSE_MIRROR,
-  SLI_INVERSE_SQUARE
-} sli_inverse_phase;
-#define SLI_INVERSE_PHASES 5
-
-typedef struct sli_tile_range {
-  sl_int first, last;
-} sli_tile_range;
-
-SLI_INLINE sli_tile_range sli_inverse_tiles(const sli_inverse_front *f, sl_int j0,
-                      sli_inverse_phase phase) {
-  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
-  sli_tile_range range = {0, sli_tiles(m)};
-  if (phase != SLI_INVERSE_TRIANGLE && phase != SLI_INVERSE_SQUARE) {
-    range.last = j0 + m < h ? sli_tiles(h) : 0;
-    range.first = sli_min((j0 + m) / SLI_TILE, range.last);
-  }
-  return range;
-}
-
-typedef void (*sli_inverse_phase_kernel)(const sli_inverse_front *f, sl_int j0,
-                     sli_inverse_phase phase, sl_int t0, sl_int t1,
-                     double *scratch);
-
 /* src/impl/kernels/table.h: the table of kernels, which every instruction set fills */
-
-typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
-
-typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
-
-typedef struct sli_ranks {
-  double U[SLI_TILE][SLI_TILE];
-  double alpha[SLI_TILE];
-  double e[SLI_TILE], magnitude[SLI_TILE];
-  sl_int ranks, lanes;
-} sli_ranks;
-
-typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
-                   const double *w, double *c);
-
-typedef struct sli_rank_one {
-  double *panel;
-  const double *D;
-  sl_int width, below, first_tile;
-  int is_trial;
-  double sum;
-  double *w;
-  double *b;
-  double *e;
-} sli_rank_one;
-typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
 
 typedef void (*sli_interleave_kernel)(double *v, sl_int stride, const sl_int *index, sl_int count,
                     const double *M, size_t ldm, int is_streamed);
@@ -4776,18 +4637,11 @@ typedef void (*sli_separate_kernel)(double *M, size_t ldm, const double *v, sl_i
 
 typedef struct sli_kernels {
   sl_isa isa;
-  sli_sweeps sweeps[3];
+  sli_sweeps sweeps;
+  sli_front_kernels front;
   sli_row_kernel row;
-  sli_front_kernels fronts[3];
-  sli_products_kernel products;
   sli_interleave_kernel interleave;
   sli_separate_kernel separate;
-  sli_gather_kernel gather;
-  sli_inverse_phase_kernel inverse_phase;
-  sli_takahashi_kernel takahashi;
-  sli_change_kernel change[SLI_NRHS_KINDS - 1];
-  sli_ranks_kernel change_ranks;
-  sli_rank_one_kernel change_panel;
 } sli_kernels;
 
 /* src/impl/kernels/simd.h: the SIMD vocabulary of the kernel templates, and macros that repeat code */
@@ -4832,8 +4686,14 @@ typedef struct sli_kernels {
     } \
   }
 
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
+#define SLI_LOOP(count, statement) \
+  { \
+    int i_; \
+    for (i_ = 0; i_ < (count); i_++) { \
+      statement; \
+    } \
+  }
+
 #define SLI_PASTE(a, b) a##b
 #define SLI_BY_TYPE(word, is_single) SLI_PASTE(word, is_single)
 #define SLI_VALUE_0 double
@@ -4887,37 +4747,12 @@ typedef struct sli_kernels {
 #define SLV_WIDE(v, columns) SLI_BY_TYPE(SLI_WIDE_, SLV_SINGLE)(v, columns)
 #define SLV_WIDEN(v, l, columns, rows) SLI_BY_TYPE(SLI_WIDEN_, SLV_SINGLE)(v, l, columns, rows)
 
-/* src/impl/kernels/simd_scalar_single.h: the kernels of fronts in float in plain C: a vector is an array */
+/* src/impl/kernels/simd_scalar.h: the kernels in plain C */
 
-#define SLI_LOOP(count, statement) \
-  { \
-    int i_; \
-    for (i_ = 0; i_ < (count); i_++) { \
-      statement; \
-    } \
-  }
-
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#define SLV_NAME(f) sli_single_##f##_scalar
-#define SLV_FUNCTION
-#define SLV_DECLARE(a) float a[SLI_TILE];
-#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0F)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
-#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
-#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
-#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
-#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
-#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0F)
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLW_NRHS 2
+#define SLW_GROUPS 32
 /* The header includes itself from here on: its templates, at the end, are compiled once for
  * each instruction set. SL_HEADER is the name of this file. */
 #if defined(__has_include)
@@ -4925,205 +4760,30 @@ typedef struct sli_kernels {
 #error "sparse_local.h was renamed: define SL_HEADER as its new name, in quotes"
 #endif
 #endif
+#define SLI_SECTION_WORDS_SCALAR
+#define SLI_SECTION_LANES_SCALAR
 #define SLI_SECTION_FRONT
+#define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_KERNEL_SET
+#define SLI_SECTION_LANES_UNDEF
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER /* not found: define SL_HEADER, see above */
 #ifdef SLI_SECTION_WORDS_UNDEF
 #error "sparse_local.h: SL_HEADER names another file, not this one"
 #endif
-/* src/impl/kernels/simd_scalar.h: the kernels in plain C: a vector is an array */
-
-#define SLV_NAME(f) sli_##f##_scalar
-#define SLV_ISA SL_ISA_SCALAR
-#define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) ((c) - (a) * (b))
-#define SLV_DECLARE(a) double a[SLI_TILE];
-#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_TURN_ALL(a, b, re, im) \
-  { \
-    sl_int i_; \
-    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
-      const double re_ = b[i_]; \
-      a[i_] = re b[i_ + 1]; \
-      a[i_ + 1] = im re_; \
-    } \
-  }
-#define SLV_TURN(a, b) SLV_TURN_ALL(a, b, -, +)
-#define SLV_TURN_BACK(a, b) SLV_TURN_ALL(a, b, +, -)
-#define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
-#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
-#define SLV_AXPY(a, l, p) \
-  { \
-    const double s_ = *(p); \
-    SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * s_) \
-  }
-#define SLV_DOT(a, l, v) SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * v[i_])
-#define SLV_LOAD_PART(a, p, count, rest) \
-  { \
-    double part_[SLI_TILE]; \
-    SLI_LOOP(SLI_TILE, part_[i_] = (rest)) \
-    SLI_LOOP(count, part_[i_] = (p)[i_]) \
-    memcpy(a, part_, sizeof part_); \
-  }
-#define SLV_FIRST(a, count) \
-  { \
-    double part_[SLI_TILE]; \
-    SLI_LOOP(SLI_TILE, part_[i_] = 0.0) \
-    SLI_LOOP(count, part_[i_] = a[i_]) \
-    memcpy(a, part_, sizeof part_); \
-  }
-#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
-#define SLV_GATHER(a, x, at) SLI_LOOP(SLI_TILE, a[i_] = (x)[at(i_)])
-#define SLV_SUM_DECLARE(a) double a;
-#define SLV_SUM_ZERO(a) a = 0.0;
-#define SLV_SUM_LOAD(a, p) a = *(p);
-#define SLV_SUM_STORE(p, a) *(p) = a;
-#define SLV_SUM_DOT(a, l, v) \
-  a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) + \
-     (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
-#define SLV_SUMS(r, a) \
-  r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3; \
-  r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
-#define SLV_TRANSPOSE(to, from) \
-  { \
-    int i_, k_; \
-    for (i_ = 0; i_ < SLI_TILE; i_++) { \
-      for (k_ = 0; k_ < SLI_TILE; k_++) { \
-        (to)[SLI_TILE * i_ + k_] = (from)[SLI_TILE * k_ + i_]; \
-      } \
-    } \
-  }
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
-#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
-#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
-#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0)
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLW_ROWS 4
-#define SLW_DECLARE(a) double a[SLW_NRHS];
-#define SLW_ZERO(a) memset(a, 0, sizeof a);
-#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const double s_ = (s); \
-    SLI_LOOP(SLW_NRHS, a[i_] -= s_ * b[i_]) \
-  }
-#define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
-#define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
-
-#define SLW_NAME(f) sli_##f##8_scalar
-#define SLW_GROUPS 32
-#define SLW_NRHS 8
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_NRHS 4
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##2_scalar
-#define SLW_NRHS 2
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##2_scalar
-#define SLW_NRHS 2
-#define SLW_GROUPS 32
-#define SLW_COMPLEX
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_KERNEL_SET
-#define SLI_SECTION_LANES_UNDEF
-#define SLI_SECTION_WORDS_UNDEF
-#include SL_HEADER
-#undef SLI_LOOP
-
-/* src/impl/kernels/simd_avx2_single.h: the kernels of fronts in float in AVX2: a vector of 8 is one register */
+/* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA */
 
 #if defined(SLI_X86)
 
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#define SLV_NAME(f) sli_single_##f##_avx2
-#define SLV_FUNCTION SLI_TARGET("avx2,fma")
-
-SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
-  int at[SLI_TILE], k, from = 0;
-  for (k = 0; k < SLI_TILE; k++) {
-    const int is_set = (int)(mask >> k & 1u);
-    at[k] = is_set ? from : -1;
-    from += is_set;
-  }
-  return _mm256_loadu_si256((const __m256i *)(const void *)at);
-}
-
-#define SLV_DECLARE(a) __m256 a;
-#define SLV_ZERO(a) a = _mm256_setzero_ps();
-#define SLV_LOAD(a, p) a = _mm256_load_ps(p);
-#define SLV_STORE(p, a) _mm256_store_ps((p), a);
-#define SLV_LOAD_PINNED(a, p) \
-  a = _mm256_load_ps(p); \
-  SLI_PIN(a);
-#define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
-#define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
-#define SLV_ADD(a, b) a = _mm256_add_ps(a, b);
-#define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
-#define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
-#define SLV_BELOW(a, k) \
-  a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
-               _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
-#define SLV_TILES 2
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND(mask, lanes, count) \
-  const __m256i order_ = sli_single_expand_index(mask); \
-  const __m256 keep_ = _mm256_castsi256_ps(_mm256_cmpgt_epi32(order_, _mm256_set1_epi32(-1))); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps( \
-    (to), _mm256_add_ps( \
-          _mm256_load_ps(to), \
-          _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/kernels/simd_avx2.h: the kernels in AVX2 and FMA: a vector of 8 doubles is two registers */
-
-#if defined(SLI_X86)
-
-#define SLV_NAME(f) sli_##f##_avx2
-#define SLV_ISA SL_ISA_AVX2
-#define SLV_FUNCTION SLI_TARGET("avx2,fma")
-#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
-
-SLV_FUNCTION SLI_INLINE __m256d sli_lanes_from(int k) {
+SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_lanes_from(int k) {
   return _mm256_castsi256_pd(
     _mm256_cmpgt_epi64(_mm256_set_epi64x(3, 2, 1, 0), _mm256_set1_epi64x(k - 1)));
 }
 
-SLV_FUNCTION SLI_INLINE __m256d sli_load_part(const double *p, int count, double rest) {
+SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_load_part(const double *p, int count, double rest) {
   const __m256d others = sli_lanes_from(count);
   return _mm256_blendv_pd(
     _mm256_maskload_pd(p, _mm256_castpd_si256(_mm256_xor_pd(
@@ -5135,7 +4795,7 @@ SLI_INLINE int sli_count4(unsigned mask) {
   return (int)((mask & 1u) + (mask >> 1 & 1u) + (mask >> 2 & 1u) + (mask >> 3));
 }
 
-SLV_FUNCTION SLI_INLINE __m256i sli_expand_index(unsigned mask) {
+SLI_TARGET("avx2,fma") SLI_INLINE __m256i sli_expand_index(unsigned mask) {
   int at[8], k, from = 0;
   for (k = 0; k < 4; k++) {
     const int is_set = (mask >> k & 1u) != 0;
@@ -5146,671 +4806,97 @@ SLV_FUNCTION SLI_INLINE __m256i sli_expand_index(unsigned mask) {
   return _mm256_loadu_si256((const __m256i *)(const void *)at);
 }
 
-SLV_FUNCTION SLI_INLINE __m256d sli_expand_keep(__m256i index) {
+SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_keep(__m256i index) {
   return _mm256_castsi256_pd(_mm256_cmpgt_epi32(index, _mm256_set1_epi32(-1)));
 }
 
-SLV_FUNCTION SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d keep) {
+SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index, __m256d keep) {
   return _mm256_and_pd(_mm256_castps_pd(_mm256_permutevar8x32_ps(_mm256_castpd_ps(a), index)),
              keep);
 }
 
-#define SLV_DECLARE(a) __m256d a##_0, a##_1;
-#define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
-#define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
-#define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
-#define SLV_STREAM(p, a) _mm256_stream_pd((p), a##_0), _mm256_stream_pd((p) + 4, a##_1);
-#define SLV_STREAM_END _mm_sfence();
-#define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLV_READ_0(l) _mm256_load_pd(l)
-#define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
-#define SLV_WIDEN_ROWS(v, l, rows) \
-  { \
-    _mm256_store_pd((v), _mm256_cvtps_pd(_mm_load_ps(l))); \
-    if ((rows) > 4) { \
-      _mm256_store_pd((v) + 4, _mm256_cvtps_pd(_mm_load_ps((l) + 4))); \
-    } \
-  }
-#define SLV_AXPY(a, l, p) \
-  { \
-    const __m256d s_ = _mm256_broadcast_sd(p); \
-    a##_0 = _mm256_fnmadd_pd(SLV_READ(l), s_, a##_0); \
-    a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), s_, a##_1); \
-  }
-#define SLV_DOT(a, l, v) \
-  a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
-  a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
-#define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLV_TURN(a, b) \
-  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_0, 5)), \
-  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_1, 5));
-#define SLV_TURN_BACK(a, b) \
-  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_0), 5), \
-  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_1), 5);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
-#define SLV_LOAD_PART(a, p, count, rest) \
-  a##_0 = sli_load_part((p), (count), (rest)), a##_1 = sli_load_part((p) + 4, (count)-4, (rest));
-#define SLV_FIRST(a, count) \
-  a##_0 = _mm256_andnot_pd(sli_lanes_from(count), a##_0), \
-  a##_1 = _mm256_andnot_pd(sli_lanes_from((count)-4), a##_1);
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = _mm256_permute4x64_pd((k) < 4 ? a##_0 : a##_1, (k) % 4 * 0x55);
-#define SLV_GATHER(a, x, at) \
-  a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]), \
-  a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
-#define SLV_SUM_DECLARE(a) __m256d a;
-#define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
-#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
-#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
-#define SLV_SUM_DOT(a, l, v) \
-  a = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a); \
-  a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
-#define SLV_SUM_4(a, b, c, d) \
-  _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
-          _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
-#define SLV_SUMS(r, a) \
-  r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
-#define SLV_TRANSPOSE_4(to, from) \
-  { \
-    const __m256d a_ = _mm256_load_pd(from), b_ = _mm256_load_pd((from) + 8); \
-    const __m256d c_ = _mm256_load_pd((from) + 16), d_ = _mm256_load_pd((from) + 24); \
-    const __m256d e_ = _mm256_unpacklo_pd(a_, b_), f_ = _mm256_unpackhi_pd(a_, b_); \
-    const __m256d g_ = _mm256_unpacklo_pd(c_, d_), h_ = _mm256_unpackhi_pd(c_, d_); \
-    _mm256_store_pd((to), _mm256_permute2f128_pd(e_, g_, 0x20)); \
-    _mm256_store_pd((to) + 8, _mm256_permute2f128_pd(f_, h_, 0x20)); \
-    _mm256_store_pd((to) + 16, _mm256_permute2f128_pd(e_, g_, 0x31)); \
-    _mm256_store_pd((to) + 24, _mm256_permute2f128_pd(f_, h_, 0x31)); \
-  }
-#define SLV_TRANSPOSE(to, from) \
-  SLV_TRANSPOSE_4(to, from) \
-  SLV_TRANSPOSE_4((to) + 4, (from) + 32) \
-  SLV_TRANSPOSE_4((to) + 32, (from) + 4) \
-  SLV_TRANSPOSE_4((to) + 36, (from) + 36)
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_LOAD_PINNED(a, p) \
-  a##_0 = _mm256_load_pd(p); \
-  a##_1 = _mm256_load_pd((p) + 4); \
-  SLI_PIN(a##_0);  \
-  SLI_PIN(a##_1);
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
-#define SLV_MULTIPLY(a, b, c) \
-  a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) \
-  a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
-#define SLV_BELOW(a, k) \
-  a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)), \
-  a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
-#define SLV_EXPAND(mask, lanes, count) \
-  const __m256i low_ = sli_expand_index((mask)&15u), high_ = sli_expand_index((mask) >> 4); \
-  const __m256d keep_low_ = sli_expand_keep(low_), keep_high_ = sli_expand_keep(high_); \
-  const ptrdiff_t second_ = sli_count4((mask)&15u); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to), \
-                    sli_expand_4(_mm256_loadu_pd(from), low_, keep_low_))); \
-  _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
-                      sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
-                             keep_high_)));
-#define SLV_DUP_AT(e, l) \
-  { \
-    const __m256d l_ = SLV_READ(l); \
-    e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
-    e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
-  }
-#define SLV_DUP_LOW(e, l) SLV_DUP_AT(e, l)
-#define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
-
-#define SLW_NAME(f) sli_##f##4_avx2
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m256d a;
-#define SLW_ZERO(a) a = _mm256_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
-#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#define SLI_SECTION_WORDS_AVX2
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##4_avx2
-#define SLW_NRHS 4
-#define SLW_GROUPS 32
-#define SLW_COMPLEX
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-#define SLW_NAME(f) sli_##f##2_avx2
-#define SLW_NRHS 2
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m128d a;
-#define SLW_ZERO(a) a = _mm_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
-#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
-#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
-#define SLW_GROUPS 2
-#define SLW_COMPLEX
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##8_avx2
-#define SLW_GROUPS 32
-#define SLW_HALF(f) sli_##f##4_avx2
 #define SLW_NRHS 8
-#define SLW_ROWS 4
-#define SLW_DECLARE(a) __m256d a##_0, a##_1;
-#define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
-#define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
-#define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const __m256d s_ = _mm256_broadcast_sd(&(s)); \
-    a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
-    a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
-  }
-#define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) \
-  a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
-  a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_KERNEL_SET
 #define SLI_SECTION_LANES_UNDEF
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
 #endif
 
-/* src/impl/kernels/simd_avx512_single.h: the kernels of fronts in float in AVX-512F: a register has 16 lanes */
+/* src/impl/kernels/simd_avx512.h: the kernels in AVX-512F; some are those of AVX2 */
 
 #if defined(SLI_X86) && !defined(SL_NO_AVX512)
 
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#define SLV_NAME(f) sli_single_##f##_avx512
-#define SLV_NAME_PIVOTS(f) sli_single_##f##_avx2
-#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-
-#define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
-#define SLV_HALF_OF(a, k) \
-  _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), k))
-
-#define SLV_DECLARE(a) __m512 a;
-#define SLV_ZERO(a) a = _mm512_setzero_ps();
-#define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
-#define SLV_STORE(p, a) _mm256_store_ps((p), SLV_HALF_OF(a, 0));
-#define SLV_VECTOR_TILES 2
-#define SLV_LOAD_TILES(a, p, q) \
-  a = _mm512_castpd_ps( \
-    _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
-#define SLV_STORE_TILES(p, q, a) \
-  SLV_STORE(p, a) \
-  _mm256_store_ps((q), SLV_HALF_OF(a, 1));
-#define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
-#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
-#define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
-#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
-#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
-#define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
-#define SLV_TILES 4
-#define SLV_COLUMNS 8
-#define SLV_EACH_COLUMN SLI_EACH8
-#define SLV_EXPAND(mask, lanes, count) \
-  const __mmask16 expand_ = (__mmask16)(mask); \
-  const __m512i order_ = _mm512_maskz_expand_epi32( \
-    expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_ps( \
-    (to), _mm256_add_ps( \
-          _mm256_load_ps(to), \
-          SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
-                  expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
-                0)));
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
-#include SL_HEADER
-#undef SLV_HALF
-#undef SLV_HALF_OF
-
-#endif
-
-/* src/impl/kernels/simd_avx512.h: the kernels in AVX-512F: a vector of 8 doubles is one register */
-
-#if defined(SLI_X86) && !defined(SL_NO_AVX512)
 #define SLI_AVX512 1
 
-#define SLV_NAME(f) sli_##f##_avx512
-#define SLV_NAME_4(f) sli_##f##4_avx2
-#define SLV_NAME_2(f) sli_##f##2_avx2
-#define SLV_NAME_SMALL(f) sli_##f##_avx2
-#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
-#define SLV_ISA SL_ISA_AVX512
-#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
-#define SLV_DECLARE(a) __m512d a;
-#define SLV_ZERO(a) a = _mm512_setzero_pd();
-#define SLV_LOAD(a, p) a = _mm512_load_pd(p);
-#define SLV_STORE(p, a) _mm512_store_pd((p), a);
-#define SLV_STREAM(p, a) _mm512_stream_pd((p), a);
-#define SLV_STREAM_END _mm_sfence();
-#define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
-#define SLV_READ_0(l) _mm512_load_pd(l)
-#define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
-#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), SLV_READ_1(l));
-#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
-#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
-#define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
-#define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
-#define SLV_TURN(a, b) \
-  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
-#define SLV_TURN_BACK(a, b) \
-  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
-#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
-#define SLV_LOAD_PART(a, p, count, rest) \
-  a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
-#define SLV_FIRST(a, count) a = _mm512_maskz_mov_pd((__mmask8)(0xff >> (8 - (count))), a);
-#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
-#define SLV_GATHER(a, x, at) \
-  a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)], \
-            (x)[at(1)], (x)[at(0)]);
-#define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
-#define SLV_SUM_ZERO(a) SLV_ZERO(a)
-#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
-#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
-#define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
-#define SLV_SUM_2(a, b) \
-  _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
-#define SLV_SUM_4(a, b) \
-  _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88), \
-          _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
-#define SLV_SUMS(r, a) \
-  r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)), \
-          SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
-#define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
-#define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
-#define SLV_TRANSPOSE_4(to, from, unpack) \
-  { \
-    const __m512d a_ = unpack(0xff, _mm512_load_pd(from), _mm512_load_pd((from) + 8)); \
-    const __m512d b_ = unpack(0xff, _mm512_load_pd((from) + 16), _mm512_load_pd((from) + 24)); \
-    const __m512d c_ = unpack(0xff, _mm512_load_pd((from) + 32), _mm512_load_pd((from) + 40)); \
-    const __m512d d_ = unpack(0xff, _mm512_load_pd((from) + 48), _mm512_load_pd((from) + 56)); \
-    const __m512d e_ = SLV_BLOCKS_EVEN(a_, b_), f_ = SLV_BLOCKS_EVEN(c_, d_); \
-    const __m512d g_ = SLV_BLOCKS_ODD(a_, b_), h_ = SLV_BLOCKS_ODD(c_, d_); \
-    _mm512_store_pd((to), SLV_BLOCKS_EVEN(e_, f_)); \
-    _mm512_store_pd((to) + 16, SLV_BLOCKS_EVEN(g_, h_)); \
-    _mm512_store_pd((to) + 32, SLV_BLOCKS_ODD(e_, f_)); \
-    _mm512_store_pd((to) + 48, SLV_BLOCKS_ODD(g_, h_)); \
-  }
-#define SLV_TRANSPOSE(to, from) \
-  SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd) \
-  SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
-#define SLV_TILES 2
-#define SLV_COLUMNS 8
-#define SLV_EACH_COLUMN SLI_EACH8
-#define SLV_LOAD_PINNED(a, p) \
-  a = _mm512_load_pd(p); \
-  SLI_PIN_ANY(a);
-#define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
-#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
-#define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
-#define SLV_EXPAND(mask, lanes, count) \
-  const __mmask8 expand_ = (__mmask8)(mask); \
-  const __m512i order_ = \
-    _mm512_maskz_expand_epi64(expand_, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0)); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm512_store_pd( \
-    (to), _mm512_add_pd(_mm512_load_pd(to), \
-              _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
-#define SLV_DUP_LOW(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
-#define SLV_DUP_HIGH(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
-#define SLV_PAIR(b, p) \
-  b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
-
-#define SLW_TAKES_FLOATS
-#define SLV_SPREAD_0(s) _mm512_set1_pd(s)
-#define SLV_SPREAD_1(s) _mm512_maskz_cvtps_pd(0xff, _mm256_set1_ps(s))
-#define SLV_SPREAD(s) SLI_BY_TYPE(SLV_SPREAD_, SLV_SINGLE)(s)
-
-#define SLW_NAME(f) sli_##f##8_avx512
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
 #define SLW_NRHS 8
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m512d a;
-#define SLW_ZERO(a) a = _mm512_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
-#define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
-#define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#define SLI_SECTION_WORDS_AVX512
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_GROUPS 8
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##8_avx512
-#define SLW_NRHS 8
-#define SLW_GROUPS 8
-#define SLW_COMPLEX
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-#define SLW_NAME(f) sli_##f##16_avx512
-#define SLW_GROUPS 32
 #define SLW_NRHS 16
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m512d a##_0, a##_1;
-#define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
-#define SLW_LOAD(a, p) a##_0 = _mm512_loadu_pd(p), a##_1 = _mm512_loadu_pd((p) + 8);
-#define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const __m512d s_ = SLV_SPREAD(s); \
-    a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
-    a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
-  }
-#define SLW_ADD(a, b) a##_0 = _mm512_add_pd(a##_0, b##_0), a##_1 = _mm512_add_pd(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) \
-  a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
-  a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##16_avx512
-#define SLW_NRHS 16
-#define SLW_GROUPS 32
-#define SLW_COMPLEX
-#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_KERNEL_SET
 #define SLI_SECTION_LANES_UNDEF
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
-#undef SLW_TAKES_FLOATS
-#undef SLV_SPREAD_0
-#undef SLV_SPREAD_1
-#undef SLV_SPREAD
-
 #endif
 
-/* src/impl/kernels/simd_neon_single.h: the kernels of fronts in float in NEON: a vector of 8 is two registers */
+/* src/impl/kernels/simd_neon.h: the kernels in NEON */
 
 #if defined(SLI_ARM)
 
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#define SLV_NAME(f) sli_single_##f##_neon
-#define SLV_FUNCTION
-#define SLV_DECLARE(a) float32x4_t a##_0, a##_1;
-#define SLV_ZERO(a) a##_0 = a##_1 = vdupq_n_f32(0.0F);
-#define SLV_LOAD(a, p) a##_0 = vld1q_f32(p), a##_1 = vld1q_f32((p) + 4);
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_STORE(p, a) vst1q_f32((p), a##_0), vst1q_f32((p) + 4, a##_1);
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
-#define SLV_ADD(a, b) a##_0 = vaddq_f32(a##_0, b##_0), a##_1 = vaddq_f32(a##_1, b##_1);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
-#define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) a##_0 = vdivq_f32(b##_0, c##_0), a##_1 = vdivq_f32(b##_1, c##_1);
-#define SLV_BELOW(a, k) \
-  { \
-    static const int32_t lanes_[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7}; \
-    const int32x4_t k_ = vdupq_n_s32(k); \
-    a##_0 = vreinterpretq_f32_u32( \
-      vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
-    a##_1 = vreinterpretq_f32_u32( \
-      vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
-  }
-#define SLV_TILES 2
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_WORDS_UNDEF
-#include SL_HEADER
-#endif
-
-/* src/impl/kernels/simd_neon.h: the kernels in NEON: a vector of 8 doubles is four registers */
-
-#if defined(SLI_ARM)
-
-#define SLV_NAME(f) sli_##f##_neon
-#define SLV_ISA SL_ISA_NEON
-#define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
-#define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
-#define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
-#define SLV_LOAD(a, p) \
-  a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), \
-  a##_3 = vld1q_f64((p) + 6);
-#define SLV_STORE(p, a) \
-  vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), \
-    vst1q_f64((p) + 6, a##_3);
-#define SLV_ADD(a, b) \
-  a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), \
-  a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
-#define SLV_READ_0(l) vld1q_f64(l)
-#define SLV_READ_1(l) vcvt_f64_f32(vld1_f32(l))
-#define SLV_WIDEN_ROWS(v, l, rows) \
-  { \
-    int i_; \
-    for (i_ = 0; i_ < (rows); i_ += 2) { \
-      vst1q_f64((v) + i_, vcvt_f64_f32(vld1_f32((l) + i_))); \
-    } \
-  }
-#define SLV_AXPY(a, l, p) \
-  { \
-    const float64x2_t s_ = vld1q_dup_f64(p); \
-    a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), s_); \
-    a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), s_); \
-    a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), s_); \
-    a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), s_); \
-  }
-#define SLV_DOT(a, l, v) \
-  a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), v##_0), \
-  a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), v##_1), \
-  a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
-  a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
-#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
-#define SLV_SAME(a) (a)
-#define SLV_TURN(a, b) \
-  a##_0 = SLV_TURN_2(b##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(b##_1, vneg_f64, SLV_SAME), \
-  a##_2 = SLV_TURN_2(b##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(b##_3, vneg_f64, SLV_SAME);
-#define SLV_TURN_BACK(a, b) \
-  a##_0 = SLV_TURN_2(b##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(b##_1, SLV_SAME, vneg_f64), \
-  a##_2 = SLV_TURN_2(b##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(b##_3, SLV_SAME, vneg_f64);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
-  a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
-#define SLV_LOAD_PART(a, p, count, rest) \
-  { \
-    double part_[SLI_TILE]; \
-    sl_int i_; \
-    for (i_ = 0; i_ < SLI_TILE; i_++) { \
-      part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
-    } \
-    SLV_LOAD(a, part_) \
-  }
-#define SLV_FIRST(a, count) \
-  { \
-    double part_[SLI_TILE]; \
-    sl_int i_; \
-    SLV_STORE(part_, a) \
-    for (i_ = (count); i_ < SLI_TILE; i_++) { \
-      part_[i_] = 0.0; \
-    } \
-    SLV_LOAD(a, part_) \
-  }
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0 \
-                                 : (k) < 4 ? a##_1 \
-                                 : (k) < 6 ? a##_2 \
-                                     : a##_3, \
-                                 (k) % 2));
-#define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
-#define SLV_GATHER(a, x, at) \
-  a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)), \
-  a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
-#define SLV_SUM_DECLARE(a) float64x2_t a;
-#define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
-#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
-#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
-#define SLV_SUM_DOT(a, l, v) \
-  a = vfmsq_f64(a, SLV_READ((l) + 0), v##_0); \
-  a = vfmsq_f64(a, SLV_READ((l) + 2), v##_1); \
-  a = vfmsq_f64(a, SLV_READ((l) + 4), v##_2); \
-  a = vfmsq_f64(a, SLV_READ((l) + 6), v##_3);
-#define SLV_SUMS(r, a) \
-  r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3), \
-  r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
-#define SLV_TRANSPOSE(to, from) \
-  { \
-    int i_, k_; \
-    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
-      for (k_ = 0; k_ < SLI_TILE; k_ += 2) { \
-        const float64x2_t low_ = vld1q_f64((from) + SLI_TILE * k_ + i_); \
-        const float64x2_t high_ = vld1q_f64((from) + SLI_TILE * (k_ + 1) + i_); \
-        vst1q_f64((to) + SLI_TILE * i_ + k_, vtrn1q_f64(low_, high_)); \
-        vst1q_f64((to) + SLI_TILE * (i_ + 1) + k_, vtrn2q_f64(low_, high_)); \
-      } \
-    } \
-  }
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_dup_f64(p);
-#define SLV_MULTIPLY(a, b, c) \
-  a##_0 = vmulq_f64(b##_0, c##_0), a##_1 = vmulq_f64(b##_1, c##_1), \
-  a##_2 = vmulq_f64(b##_2, c##_2), a##_3 = vmulq_f64(b##_3, c##_3);
-#define SLV_DIVIDE(a, b, c) \
-  a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1), \
-  a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
-#define SLV_BELOW_2(a, k) \
-  a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a), \
-                    vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), \
-                           vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
-#define SLV_BELOW(a, k) \
-  SLV_BELOW_2(a##_0, k) \
-  SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_DUP_LOW(e, l) \
-  e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
-  e##_3 = vdupq_n_f64((l)[3]);
-#define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
-
-#define SLW_NAME(f) sli_##f##4_neon
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
 #define SLW_NRHS 4
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
-#define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p) a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
-#define SLW_STORE(p, a) vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
-  }
-#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vdivq_f64(a##_0, s_); \
-    a##_1 = vdivq_f64(a##_1, s_); \
-  }
+#define SLI_SECTION_WORDS_NEON
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_SWEEPS
-#define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##4_neon
-#define SLW_NRHS 4
-#define SLW_GROUPS 32
-#define SLW_COMPLEX
-#define SLI_SECTION_FRONT
-#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_LANES_UNDEF
 #include SL_HEADER
-#define SLW_NAME(f) sli_##f##2_neon
-#define SLW_NRHS 2
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) float64x2_t a;
-#define SLW_ZERO(a) a = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p) a = vld1q_f64(p);
-#define SLW_STORE(p, a) vst1q_f64((p), a);
-#define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
-#define SLW_ADD(a, b) a = vaddq_f64(a, b);
-#define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
-#define SLW_GROUPS 2
-#define SLW_COMPLEX
-#define SLI_SECTION_COPY_ROWS
-#define SLI_SECTION_MULTI_RHS
-#define SLI_SECTION_LANES_UNDEF
-#include SL_HEADER
-#define SLW_NAME(f) sli_##f##8_neon
-#define SLW_GROUPS 32
-#define SLW_HALF(f) sli_##f##4_neon
 #define SLW_NRHS 8
-#define SLW_ROWS 4
-#define SLW_DECLARE(a) SLV_DECLARE(a)
-#define SLW_ZERO(a) SLV_ZERO(a)
-#define SLW_LOAD(a, p) SLV_LOAD(a, p)
-#define SLW_STORE(p, a) SLV_STORE(p, a)
-#define SLW_FNMA(a, s, b) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
-    a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
-    a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
-  }
-#define SLW_ADD(a, b) SLV_ADD(a, b)
-#define SLW_DIVIDE(a, s) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vdivq_f64(a##_0, s_); \
-    a##_1 = vdivq_f64(a##_1, s_); \
-    a##_2 = vdivq_f64(a##_2, s_); \
-    a##_3 = vdivq_f64(a##_3, s_); \
-  }
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
-#include SL_HEADER
-#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_KERNEL_SET
 #define SLI_SECTION_LANES_UNDEF
 #define SLI_SECTION_WORDS_UNDEF
@@ -5908,6 +4994,27 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
 #endif
   return NULL;
 }
+
+SLI_INLINE int sli_isa_row(sl_isa isa) {
+  return isa == SL_ISA_SCALAR ? 1
+       : isa == SL_ISA_AVX2 ? 2
+                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
+}
+
+#define SLI_ISAS 4
+#if defined(SLI_AVX512)
+#define SLI_ISA_TABLES(name) \
+  { NULL, &name##_scalar, &name##_avx2, &name##_avx512 }
+#elif defined(SLI_X86)
+#define SLI_ISA_TABLES(name) \
+  { NULL, &name##_scalar, &name##_avx2, NULL }
+#elif defined(SLI_ARM)
+#define SLI_ISA_TABLES(name) \
+  { &name##_neon, &name##_scalar, NULL, NULL }
+#else
+#define SLI_ISA_TABLES(name) \
+  { NULL, &name##_scalar, NULL, NULL }
+#endif
 
 /* matrix: sparse matrices of the caller and of the library */
 /* src/impl/matrix/csc.h: matrices in compressed columns: check, stored triangle, matrices of the library */
@@ -6187,77 +5294,6 @@ SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_
   return SL_OK;
 }
 
-/* src/impl/matrix/csc64.h: matrices with 64-bit indices, converted to 32 bits */
-
-static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
-  sl_status status;
-  int64_t j;
-  status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
-  if (status != SL_OK || A->n_cols == 0) {
-    return status;
-  }
-  if (A->p[0] != 0) {
-    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
-  }
-  for (j = 0; j < A->n_cols; j++) {
-    if (A->p[j + 1] < A->p[j]) {
-      return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0);
-    }
-  }
-  if (A->p[A->n_cols] > INT32_MAX) {
-    return SL_ERR_TOO_LARGE;
-  }
-  return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
-}
-
-static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats) {
-  sl_int j, p;
-  M->p[0] = 0;
-  for (j = 0; j < M->n_cols; j++) {
-    M->p[j + 1] = (sl_int)A->p[j + 1];
-    for (p = M->p[j]; p < M->p[j + 1]; p++) {
-      const int64_t i = A->i[p];
-      if (i < 0 || i >= A->n_rows) {
-        const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
-        return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0);
-      }
-      M->i[p] = (sl_int)i;
-    }
-  }
-  if (A->x != NULL && M->p[M->n_cols] > 0) {
-    memcpy(M->x, A->x, (size_t)M->p[M->n_cols] * sizeof(double));
-  }
-  return SL_OK;
-}
-
-SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const sl_options *opt,
-                    sl_stats *stats) {
-  const sl_allocator a = sli_allocator(opt);
-  sl_matrix *M = NULL;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status =
-    sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
-  if (status == SL_OK) {
-    const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
-    status =
-      sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz, A->x != NULL, &a);
-  }
-  if (status == SL_OK) {
-    status = sli_csc64_copy(A, M, stats);
-  }
-  if (status != SL_OK) {
-    sl_matrix_free(M);
-    return status;
-  }
-  *out = M;
-  return SL_OK;
-}
-
 /* src/impl/matrix/csc_triangle.h: the triangle that a factorization reads; checks that a pattern is symmetric */
 
 static sl_status sli_csc_check_symmetry(const sl_csc *A, const sl_csc *T, sl_int *mark,
@@ -6503,745 +5539,6 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     }
     sli_free(&a, b.base);
   }
-  return status;
-}
-
-/* src/impl/matrix/sum.h: weighted sums of symmetric matrices with any stored triangles */
-
-typedef struct sli_summands {
-  sl_int count;
-  sl_int *row, *column;
-  double *x;
-} sli_summands;
-
-static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
-                 sl_off *entries, sl_stats *stats) {
-  sl_int t;
-  *entries = 0;
-  for (t = 0; t < count; t++) {
-    const sl_csc *A = &terms[t];
-    const sl_status status = sl_csc_check(A, stats);
-    if (status != SL_OK) {
-      return status;
-    }
-    if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
-      (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
-      return SL_ERR_ARGUMENT;
-    }
-    *entries += sli_nnz(A);
-  }
-  return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
-}
-
-static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
-  sl_int j, p;
-  for (j = 0; j < A->n_cols; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      if (sli_is_read(triangle, A->i[p], j)) {
-        all->row[all->count] = sli_max(A->i[p], j);
-        all->column[all->count] = sli_min(A->i[p], j);
-        if (all->x != NULL) {
-          all->x[all->count] = c * A->x[p];
-        }
-        all->count++;
-      }
-    }
-  }
-}
-
-SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
-                 sl_int count, const sl_options *opt, sl_stats *stats) {
-  const sl_allocator a = sli_allocator(opt);
-  sli_block b = {NULL, 0, 0};
-  sli_summands all = {0, NULL, NULL, NULL};
-  sl_off entries;
-  sl_status status;
-  sl_int t;
-  int pass;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (terms == NULL || count < 1 || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_sum_check(coefficients, terms, count, &entries, stats);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    all.row = SLI_TAKE(&b, sl_int, entries);
-    all.column = SLI_TAKE(&b, sl_int, entries);
-    all.x = coefficients != NULL ? SLI_TAKE(&b, double, entries) : NULL;
-    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
-  }
-  for (t = 0; t < count && status == SL_OK; t++) {
-    sl_triangle triangle = SL_TRIANGLE_NONE;
-    status = sli_csc_triangle(&terms[t], sli_triangle_scan(&terms[t]), &triangle, opt, stats);
-    if (status == SL_OK) {
-      sli_sum_append(&all, &terms[t], triangle, coefficients != NULL ? coefficients[t] : 0.0);
-    }
-  }
-  if (status == SL_OK) {
-    const sl_int n = terms[0].n_cols;
-    status = sli_from_triplets(out, n, n, all.count, all.row, all.column, all.x, &a);
-  }
-  sli_free(&a, b.base);
-  return status;
-}
-
-/* src/impl/matrix/output_file.h: a file that takes the place of an old one only once it is complete */
-
-#define SLI_TEMPORARY_NAMES 100
-#define SLI_TEMPORARY_SUFFIX 16
-
-#if defined(SLI_FSYNC) && defined(__linux__) && defined(__O_TMPFILE)
-#define SLI_UNNAMED_FILES 1
-#define SLI_FILE_NAME_MAX 32
-#define SLI_HERE (-100)
-#define SLI_FOLLOW 0x400
-#endif
-
-typedef struct sli_output {
-  FILE *file;
-  const char *path;
-  char *temporary;
-  int is_unnamed;
-} sli_output;
-
-#if defined(SLI_POSIX)
-static int sli_is_replaceable(const char *path, int *exists) {
-  struct stat found;
-  FILE *probe;
-  *exists = 0;
-  if (sli_is_link(path) || strncmp(path, "/dev/", 5) == 0) {
-    return 0;
-  }
-  if (stat(path, &found) != 0) {
-    return errno == ENOENT;
-  }
-  if (!S_ISREG(found.st_mode)) {
-    return 0;
-  }
-  *exists = 1;
-  probe = fopen(path, "ab");
-  if (probe != NULL) {
-    fclose(probe);
-  }
-  return probe != NULL;
-}
-
-static int sli_take_attributes(const char *name, const char *old_name) {
-  struct stat made, old;
-  int can = stat(name, &made) == 0 && stat(old_name, &old) == 0; /* untested: one vanished */
-  can = can && made.st_dev == old.st_dev;                        /* untested: a mount point */
-  can = can && made.st_uid == old.st_uid && made.st_gid == old.st_gid; /* untested: a group */
-  return can && ((made.st_mode & 0777) == (old.st_mode & 0777) ||
-           chmod(name, old.st_mode & 0777) == 0); /* untested: an owner may */
-}
-#else
-static int sli_is_replaceable(const char *path, int *exists) {
-  FILE *probe;
-  long length = 0;
-  *exists = 0;
-#if defined(SLI_WINDOWS)
-  if (sli_is_link(path)) {
-    return 0;
-  }
-#endif
-  probe = fopen(path, "r+b");
-  if (probe != NULL) {
-    length = fseek(probe, 0, SEEK_END) == 0 ? ftell(probe) : 0;
-    fclose(probe);
-    return length != 0;
-  }
-  probe = fopen(path, "rb");
-  if (probe != NULL) {
-    fclose(probe);
-  }
-  return probe == NULL;
-}
-#endif
-
-static FILE *sli_create_new(const char *name) {
-#if defined(SLI_POSIX)
-  return fopen(name, "wbx");
-#else
-  FILE *old = fopen(name, "rb");
-  if (old != NULL) {
-    fclose(old);
-    return NULL;
-  }
-  return fopen(name, "wb");
-#endif
-}
-
-#if defined(SLI_UNNAMED_FILES)
-static int sli_create_unnamed(sli_output *o, int exists) {
-  const char *slash = strrchr(o->path, '/');
-  const size_t length = slash == NULL ? 0 : (size_t)(slash - o->path) + 1;
-  char name[SLI_FILE_NAME_MAX];
-  int file;
-  memcpy(o->temporary, o->path, length);
-  memcpy(o->temporary + length, ".", 2);
-  file = open(o->temporary, __O_TMPFILE | O_WRONLY, 0666);
-  if (file < 0) {
-    return 0;
-  }
-  snprintf(name, sizeof name, "/proc/self/fd/%d", file);
-  o->file = !exists || sli_take_attributes(name, o->path) ? sli_fdopen(file, "wb") : NULL;
-  if (o->file == NULL) {
-    close(file);
-  }
-  return o->file != NULL;
-}
-
-static int sli_name_unnamed(sli_output *o) {
-  const size_t length = strlen(o->path);
-  char name[SLI_FILE_NAME_MAX];
-  int k, is_named = 0;
-  snprintf(name, sizeof name, "/proc/self/fd/%d", sli_fileno(o->file));
-  memcpy(o->temporary, o->path, length);
-  for (k = 0; k < SLI_TEMPORARY_NAMES && !is_named; k++) {
-    snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
-    is_named = sli_linkat(SLI_HERE, name, SLI_HERE, o->temporary, SLI_FOLLOW) == 0;
-  }
-  return is_named;
-}
-#endif
-
-static int sli_create_beside(sli_output *o, int exists) {
-  const size_t length = strlen(o->path);
-  int k;
-#if defined(SLI_UNNAMED_FILES)
-  o->is_unnamed = sli_create_unnamed(o, exists);
-#endif
-  memcpy(o->temporary, o->path, length);
-  for (k = 0; k < SLI_TEMPORARY_NAMES && o->file == NULL; k++) {
-    snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
-    o->file = sli_create_new(o->temporary);
-  }
-  if (o->file == NULL) {
-    return errno != EACCES && errno != EPERM && errno != EROFS && errno != ENAMETOOLONG;
-  }
-#if defined(SLI_POSIX)
-  if (exists && !o->is_unnamed &&
-    !sli_take_attributes(o->temporary, o->path)) { /* untested: a mount point */
-    fclose(o->file);
-    o->file = NULL;
-    remove(o->temporary);
-    return 0;
-  }
-#else
-  (void)exists;
-#endif
-  return 1;
-}
-
-static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
-  int exists, could_replace;
-  o->path = path;
-  o->temporary = NULL;
-  o->file = NULL;
-  o->is_unnamed = 0;
-  if (sli_is_replaceable(path, &exists)) {
-    o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
-    if (o->temporary == NULL) {
-      return SL_ERR_MEMORY;
-    }
-    could_replace = sli_create_beside(o, exists);
-    if (o->file != NULL) {
-      return SL_OK;
-    }
-    sli_free(a, o->temporary);
-    o->temporary = NULL;
-    if (could_replace) {
-      return SL_ERR_IO;
-    }
-  }
-  o->file = fopen(path, "wb");
-  return o->file != NULL ? SL_OK : SL_ERR_IO;
-}
-
-static int sli_replace(const sli_output *o, int *is_only_copy) {
-  *is_only_copy = 0;
-#if defined(SLI_WINDOWS)
-  if (MoveFileExA(o->temporary, o->path, 1) != 0) {
-    return 1;
-  }
-#endif
-  if (rename(o->temporary, o->path) == 0) {
-    return 1;
-  }
-#if !defined(SLI_POSIX)
-  *is_only_copy = remove(o->path) == 0;
-  if (*is_only_copy && rename(o->temporary, o->path) == 0) {
-    return 1;
-  }
-#endif
-  return 0;
-}
-
-static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
-  int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
-#if defined(SLI_UNNAMED_FILES)
-  has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
-  ok = ok && has_name;
-#endif
-  ok = fclose(o->file) == 0 && ok; /* untested: it has been flushed */
-  if (o->temporary != NULL) {
-    ok = ok && sli_replace(o, &is_only_copy);
-    if (!ok && has_name && !is_only_copy) { /* untested: without POSIX */
-      remove(o->temporary);
-    }
-    sli_free(a, o->temporary);
-  }
-  return ok;
-}
-
-/* src/impl/matrix/text_reader.h: lines, words and numbers of a text, in any locale */
-
-#define SLI_TOKEN_MAX 63
-#define SLI_POINT_MAX 16
-#define SLI_LINE_MAX 65536
-
-typedef struct sli_reader {
-  const char *at, *end;
-  FILE *file;
-  char *buffer;
-  int failed;
-  sl_off line;
-  char point[SLI_POINT_MAX + 1];
-} sli_reader;
-
-static int sli_reader_fill(sli_reader *r) {
-  const size_t kept = (size_t)(r->end - r->at);
-  size_t got;
-  if (r->file == NULL || kept == SLI_LINE_MAX) {
-    return 0;
-  }
-  if (kept > 0) {
-    memmove(r->buffer, r->at, kept);
-  }
-  got = fread(r->buffer + kept, 1, SLI_LINE_MAX - kept, r->file);
-  r->at = r->buffer;
-  r->end = r->buffer + kept + got;
-  if (got < SLI_LINE_MAX - kept) {
-    r->failed |= ferror(r->file) != 0;
-    r->file = NULL;
-  }
-  return got > 0;
-}
-
-static void sli_skip_line(sli_reader *r) {
-  do {
-    while (r->at < r->end && *r->at != '\n') {
-      r->at++;
-    }
-  } while (r->at == r->end && sli_reader_fill(r));
-  r->at += r->at < r->end;
-}
-
-static int sli_skip_blanks(sli_reader *r) {
-  do {
-    while (r->at < r->end && (*r->at == ' ' || *r->at == '\t' || *r->at == '\r')) {
-      r->at++;
-    }
-  } while (r->at == r->end && sli_reader_fill(r));
-  return r->at < r->end;
-}
-
-static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
-  while (r->at < r->end || sli_reader_fill(r)) {
-    ptrdiff_t length = 0;
-    r->line++;
-    if (!sli_skip_blanks(r)) {
-      break;
-    }
-    if (*r->at == '%' && !comments) {
-      sli_skip_line(r);
-      continue;
-    }
-    do {
-      while (length < r->end - r->at && r->at[length] != '\n') {
-        length++;
-      }
-    } while (length == r->end - r->at && sli_reader_fill(r));
-    if (length >= SLI_LINE_MAX) {
-      r->failed = 1;
-      break;
-    }
-    *start = r->at;
-    *stop = r->at + length;
-    r->at += length + (length < r->end - r->at);
-    if (length > 0) {
-      return 1;
-    }
-  }
-  return 0;
-}
-
-static int sli_token(const char **at, const char *stop, char *token) {
-  const char *s = *at;
-  int length = 0;
-  while (s < stop && (*s == ' ' || *s == '\t' || *s == '\r')) {
-    s++;
-  }
-  while (s < stop && *s != ' ' && *s != '\t' && *s != '\r') {
-    if (length == SLI_TOKEN_MAX || *s == '\0') {
-      return 0;
-    }
-    token[length++] = *s++;
-  }
-  token[length] = '\0';
-  *at = s;
-  return length > 0;
-}
-
-static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off high, sl_off *out) {
-  char token[SLI_TOKEN_MAX + 1];
-  sl_off value = 0;
-  int k = 0;
-  if (!sli_token(at, stop, token)) {
-    return 0;
-  }
-  k += token[0] == '+';
-  if (token[k] == '\0') {
-    return 0;
-  }
-  for (; token[k] != '\0'; k++) {
-    if (token[k] < '0' || token[k] > '9' || value > (INT64_MAX - 9) / 10) {
-      return 0;
-    }
-    value = 10 * value + (token[k] - '0');
-  }
-  *out = value;
-  return value >= low && value <= high;
-}
-
-SLI_INLINE int sli_is_numeric(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
-       c == '-' || c == '(' || c == ')' || c == '_';
-}
-
-static void sli_find_point(char *point) {
-  char half[SLI_POINT_MAX + 3];
-  const int length = snprintf(half, sizeof half, "%.1f", 0.5);
-  if (length < 3 || length >= (int)sizeof half) { /* untested: no locale is like this */
-    memcpy(half, "0.5", 4);                    /* untested: the same */
-  }
-  half[strlen(half) - 1] = '\0';
-  memcpy(point, half + 1, strlen(half));
-}
-
-static int sli_token_double(const sli_reader *r, const char **at, const char *stop, double *out) {
-  char token[SLI_TOKEN_MAX + 1], number[SLI_TOKEN_MAX + SLI_POINT_MAX + 1], *to = number, *rest;
-  const char *c;
-  int n_points = 0;
-  if (!sli_token(at, stop, token)) {
-    return 0;
-  }
-  for (c = token; *c != '\0'; c++) {
-    if (*c == '.' && n_points++ == 0) {
-      memcpy(to, r->point, strlen(r->point));
-      to += strlen(r->point);
-    } else if (sli_is_numeric(*c)) {
-      *to++ = *c;
-    } else {
-      return 0;
-    }
-  }
-  *to = '\0';
-  *out = strtod(number, &rest);
-  return rest != number && *rest == '\0';
-}
-
-SLI_NOINLINE static int sli_token_is(const char *token, const char *word) {
-  for (; *token != '\0' && *word != '\0'; token++, word++) {
-    const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
-    if (c != *word) {
-      return 0;
-    }
-  }
-  return *token == *word;
-}
-
-static int sli_token_in(const char *token, const char *const *words) {
-  while (*words != NULL && !sli_token_is(token, *words)) {
-    words++;
-  }
-  return *words != NULL;
-}
-
-static int sli_line_ends(const char *s, const char *e) {
-  while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
-    s++;
-  }
-  return s == e;
-}
-
-/* src/impl/matrix/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
-
-#define SLI_ENTRIES_FIRST 65536
-
-static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
-  static const char *const sli_formats[] = {"coordinate", "array", NULL};
-  static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
-  static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
-                         "hermitian", NULL};
-  char token[5][SLI_TOKEN_MAX + 1];
-  const char *s, *e;
-  int k;
-  if (!sli_next_line(r, &s, &e, 1)) {
-    return SL_ERR_IO;
-  }
-  for (k = 0; k < 5; k++) {
-    if (!sli_token(&s, e, token[k])) {
-      return SL_ERR_IO;
-    }
-  }
-  if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
-    !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
-    !sli_token_in(token[4], sli_symmetries)) {
-    return SL_ERR_IO;
-  }
-  *has_values = !sli_token_is(token[3], "pattern");
-  *symmetric = sli_token_is(token[4], "symmetric");
-  return sli_token_is(token[2], "coordinate") && !sli_token_is(token[3], "complex") &&
-           (*symmetric || sli_token_is(token[4], "general"))
-         ? SL_OK
-         : SL_ERR_UNSUPPORTED;
-}
-
-typedef struct sli_triplets {
-  void *block;
-  sl_int *i, *j;
-  double *x;
-  sl_off count, room;
-} sli_triplets;
-
-static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
-                   const sl_allocator *a) {
-  sli_block b = {NULL, 0, 0};
-  sli_triplets larger = *t;
-  sl_status status = SL_OK;
-  int pass;
-  larger.room = room;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    larger.i = SLI_TAKE(&b, sl_int, room);
-    larger.j = SLI_TAKE(&b, sl_int, room);
-    larger.x = has_values ? SLI_TAKE(&b, double, room) : NULL;
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  if (t->count > 0) {
-    memcpy(larger.i, t->i, (size_t)t->count * sizeof *t->i);
-    memcpy(larger.j, t->j, (size_t)t->count * sizeof *t->j);
-    if (has_values) {
-      memcpy(larger.x, t->x, (size_t)t->count * sizeof *t->x);
-    }
-  }
-  sli_free(a, t->block);
-  larger.block = b.base;
-  *t = larger;
-  return SL_OK;
-}
-
-static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
-                  sli_triplets *t, const sl_allocator *a) {
-  const char *s, *e;
-  sl_off row, column;
-  sl_status status;
-  for (; t->count < size[2]; t->count++) {
-    if (t->count == t->room) {
-      const sl_off more = 2 * t->room < size[2] ? 2 * t->room : size[2];
-      status = sli_triplets_grow(t, more, has_values, a);
-      if (status != SL_OK) {
-        return status;
-      }
-    }
-    if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
-      !sli_token_int(&s, e, 1, size[1], &column) ||
-      (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
-      return SL_ERR_IO;
-    }
-    t->i[t->count] = (sl_int)(symmetric && row < column ? column : row) - 1;
-    t->j[t->count] = (sl_int)(symmetric && row < column ? row : column) - 1;
-  }
-  return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
-}
-
-static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
-  const char *s, *e;
-  sl_off size[3] = {0, 0, 0}, room;
-  sli_triplets t;
-  int has_values, symmetric, k;
-  sl_status status = sli_read_banner(r, &has_values, &symmetric);
-  if (status != SL_OK) {
-    return status;
-  }
-  if (!sli_next_line(r, &s, &e, 0)) {
-    return SL_ERR_IO;
-  }
-  for (k = 0; k < 3; k++) {
-    if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
-      return SL_ERR_IO;
-    }
-    if (size[k] > SLI_ROWS_MAX) {
-      return SL_ERR_TOO_LARGE;
-    }
-  }
-  if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
-    (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
-    return SL_ERR_IO;
-  }
-  memset(&t, 0, sizeof t);
-  room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
-  status = sli_triplets_grow(&t, room, has_values, a);
-  status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
-  if (status == SL_OK) {
-    status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], t.i, t.j,
-                   t.x, a);
-  }
-  sli_free(a, t.block);
-  return status;
-}
-
-static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_allocator *a,
-                 sl_stats *stats) {
-  const int saved = errno;
-  sl_status status;
-  sli_find_point(r->point);
-  status = sli_parse(out, r, a);
-  if (status != SL_OK && stats != NULL) {
-    stats->error.line = r->line > 0 ? r->line : 1;
-  }
-  errno = saved;
-  return status;
-}
-
-SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
-                 const sl_options *opt, sl_stats *stats) {
-  const sl_allocator a = sli_allocator(opt);
-  sli_reader r;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (text == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  memset(&r, 0, sizeof r);
-  r.at = text;
-  r.end = text + length;
-  return sli_read_matrix(out, &r, &a, stats);
-}
-
-SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
-                sl_stats *stats) {
-  const sl_allocator a = sli_allocator(opt);
-  const int saved = errno;
-  sli_reader r;
-  FILE *file;
-  sl_status status = SL_ERR_MEMORY;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
-    return SL_ERR_ARGUMENT;
-  }
-  file = fopen(path, "rb");
-  if (file == NULL) {
-    errno = saved;
-    return SL_ERR_IO;
-  }
-  memset(&r, 0, sizeof r);
-  r.file = file;
-  r.buffer = (char *)sli_alloc(&a, SLI_LINE_MAX);
-  if (r.buffer != NULL) {
-    r.at = r.end = r.buffer;
-    status = sli_read_matrix(out, &r, &a, stats);
-  }
-  sli_free(&a, r.buffer);
-  fclose(file);
-  errno = saved;
-  return status;
-}
-
-static void sli_set_point(char *number) {
-  const char *from = number;
-  char *to = number;
-  while (*from != '\0') {
-    if (sli_is_numeric(*from)) {
-      *to++ = *from++;
-      continue;
-    }
-    *to++ = '.';
-    while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
-      from++;
-    }
-  }
-  *to = '\0';
-}
-
-static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
-  char number[40];
-  if (value == NULL) {
-    return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
-  }
-  snprintf(number, sizeof number, "%.17g", *value);
-  sli_set_point(number);
-  return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
-}
-
-static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
-  sl_int j, p;
-  sl_off count = 0;
-  int ok;
-  for (j = 0; j < A->n_cols; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      count += sli_is_read(triangle, A->i[p], j);
-    }
-  }
-  ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
-         A->x != NULL ? "real" : "pattern",
-         reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
-         (long)A->n_cols, (long)count) > 0;
-  for (j = 0; j < A->n_cols && ok; j++) {
-    for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
-      const sl_int i = A->i[p];
-      if (sli_is_read(triangle, i, j)) {
-        const int flip = reading == SL_AS_SYMMETRIC && i < j;
-        ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
-                   A->x != NULL ? A->x + p : NULL);
-      }
-    }
-  }
-  return ok;
-}
-
-SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
-  const int saved = errno;
-  sl_triangle triangle = SL_TRIANGLE_NONE;
-  sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
-                          : sl_csc_check(A, NULL);
-  const sl_allocator a = sli_allocator(NULL);
-  sli_output output;
-  if (status != SL_OK) {
-    return status;
-  }
-  if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_output_open(&output, path, &a);
-  if (status == SL_OK) {
-    const int complete = sli_write(output.file, A, reading, triangle);
-    status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
-  }
-  errno = saved;
   return status;
 }
 
@@ -12075,6 +10372,12 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
 /* analysis: elimination tree, supernodes, structure of L; never sees a value */
 /* src/impl/analysis/symbolic_types.h: the analysis object, filled by this layer and read by all later ones */
 
+typedef struct sli_backing {
+  void (*release)(const void *bytes, size_t size);
+  const void *bytes;
+  size_t size;
+} sli_backing;
+
 struct sl_symbolic {
   sl_allocator allocator;
   sl_stats stats;
@@ -12105,7 +10408,7 @@ struct sl_symbolic {
   sl_int n_nodes;
   sl_int *node_of;
   sl_int *node_parent, *node_level;
-  sli_mapping mapping;
+  sli_backing backing;
   int is_partial;
   sl_off ordered_l, ordered_a;
 };
@@ -12795,31 +11098,6 @@ static void sli_fill_descendants(sl_symbolic *S) {
     if (up != -1) {
       S->first_descendant[up] = sli_min(S->first_descendant[up], S->first_descendant[s]);
     }
-  }
-}
-
-static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
-  const sl_off begin = S->rows_begin[s];
-  const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
-  sl_int c;
-  sl_off at;
-  for (c = 0; c < width; c++) {
-    local[first + c] = c;
-  }
-  for (at = begin; at < S->rows_begin[s + 1]; at++) {
-    local[S->rows[at]] = width + (sl_int)(at - begin);
-  }
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
-      S->relative[at] = local[S->rows[at]];
-    }
-  }
-}
-
-static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    sli_fill_relative_of(S, s, local);
   }
 }
 
@@ -13610,7 +11888,9 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
 SL_API void sl_symbolic_free(sl_symbolic *S) {
   if (S != NULL) {
     const sl_allocator a = S->allocator;
-    sli_unmap(&S->mapping);
+    if (S->backing.release != NULL) {
+      S->backing.release(S->backing.bytes, S->backing.size);
+    }
     sli_free(&a, S);
   }
 }
@@ -13729,8 +12009,8 @@ static void sli_reach_add_path(const sl_symbolic *S, sl_int k, sl_int low, sl_in
   }
 }
 
-static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
-              sli_reach *R) {
+SLI_INLINE void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
+                sli_reach *R) {
   sli_reach_add_path(S, k, before < 0 ? -1 : S->super_of[before],
              behind < 0 ? S->n_supers : S->super_of[behind], R);
 }
@@ -13747,8 +12027,8 @@ static void sli_reach_measure_within(const sl_symbolic *S, const sli_region_exte
   R->columns += extent == NULL ? 0 : extent->n_rows;
 }
 
-static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                sli_reach *R) {
+SLI_INLINE void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                  sli_reach *R) {
   sli_reach_measure_within(S, NULL, seeds, count, R);
 }
 
@@ -13857,8 +12137,8 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
   R->rows = rows;
 }
 
-static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-               sli_step *steps, sl_int *rows, sli_reach *R) {
+SLI_INLINE void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                 sli_step *steps, sl_int *rows, sli_reach *R) {
   sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
 }
 
@@ -13957,11 +12237,21 @@ typedef struct sli_extent {
   sl_int zero;
 } sli_extent;
 
+typedef struct sli_storage_type sli_storage_type;
+
+typedef struct sli_copied {
+  const sl_int *from;
+  void (*copy)(sl_factor *F, sl_int s, sl_int worker);
+} sli_copied;
+
 struct sl_factor {
   sl_allocator allocator;
   sl_stats stats;
   const sl_symbolic *S;
   const sli_kernels *kernels;
+  const sli_storage_type *type;
+  const sli_sweeps *sweeps;
+  const sli_front_kernels *front;
   sli_pivot_rule rule;
   sl_null_pivots null_pivots;
   sl_method method;
@@ -13977,7 +12267,6 @@ struct sl_factor {
   double scale;
   double lowest;
   sli_hash analysis;
-  sl_storage storage;
   void *values;
   double *panels;
   sl_off panel_room;
@@ -14012,11 +12301,11 @@ struct sl_factor {
   double *center_scratch;
   double *buffer;
   uint64_t *marks;
-  const struct sli_kept *kept;
+  const sli_copied *copied;
 
   sl_threads threads;
   sli_schedule schedule;
-  double *stack;
+  void *stack;
   double *magnitude;
   double *reciprocals;
   sli_failure *failures;
@@ -14090,27 +12379,6 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
   return low;
 }
 
-SLI_INLINE double sli_epsilon(sl_storage storage) {
-  return storage == SL_STORAGE_FLOAT_FRONTS ? (double)FLT_EPSILON : DBL_EPSILON;
-}
-
-SLI_INLINE int sli_is_single(const sl_factor *F) {
-  return F->storage == SL_STORAGE_FLOAT_FRONTS;
-}
-
-SLI_INLINE int sli_is_float(const sl_factor *F) {
-  return F->storage == SL_STORAGE_FLOAT || sli_is_single(F);
-}
-
-SLI_INLINE int sli_is_complex(const sl_factor *F) {
-  return F->storage == SL_STORAGE_COMPLEX;
-}
-
-SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-  return sli_is_float(F) ? F->panels + F->panel_room * worker
-               : (double *)F->values + (F->S->steps[s].panel >> sli_is_complex(F));
-}
-
 SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
   return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
 }
@@ -14125,15 +12393,72 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
 
 #define SLI_CHANGE_DRIFT 1e-11
 
-#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
-#define SLI_SINGLE_LEAST 7.888609052210118e-31
+/* src/impl/factor/storage_type.h: a table for each sl_storage: how L is kept and how fronts are computed */
 
-/* src/impl/factor/panel_load.h: adds the entries of A to the panel of a supernode */
+struct sli_storage_type {
+  sl_storage storage;
+  size_t value_bytes;
+  size_t front_bytes;
+  int half;
+  double epsilon;
+  const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
+  const sli_front_kernels *(*front)(const sli_kernels *kernels);
 
-SLI_INLINE float sli_single(double a) {
-  const float x = (float)a;
-  return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
+  sl_status (*factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
+            sl_int worker, sli_failure *failure);
+  sli_front (*shared)(const sl_factor *F, sl_int s, sl_int group);
+  void (*clear)(const sli_front *f, sl_int t0, sl_int t1);
+  sl_status (*load)(sl_factor *F, const sli_source *from, const sli_front *f,
+            sli_failure *failure);
+  void (*assemble)(const sl_factor *F, const sli_front *f, sl_int worker, sl_int t0, sl_int t1);
+  sl_status (*finish)(const sl_factor *F, const sli_front *f, sli_failure *failure);
+
+  sl_status (*store)(const sl_factor *F, const sli_front *f, sli_failure *failure);
+  double (*entry)(const void *values, sl_off at);
+  void (*entry_clear)(void *values, sl_off at);
+  int (*suits)(const sl_factor *F);
+  int (*accepts)(const sli_source *from);
+  int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
+};
+
+static const sli_storage_type *sli_storage_type_of(sl_storage storage);
+
+SLI_INLINE int sli_is_float(const sl_factor *F) {
+  return F->type->value_bytes == sizeof(float);
 }
+
+SLI_INLINE int sli_is_single(const sl_factor *F) {
+  return F->type->front_bytes == sizeof(float);
+}
+
+SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
+  return sli_is_float(F) ? F->panels + F->panel_room * worker
+               : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
+}
+
+SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
+                  const sl_int *rows, double *x, double *scratch) {
+  F->sweeps->forward[kind](count, steps, rows, F->values, x, scratch);
+}
+SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
+                   const sli_step *steps, const sl_int *rows_end, const double *D,
+                   double *x, double *scratch) {
+  F->sweeps->backward[kind](count, steps, rows_end, F->values, D, x, scratch);
+}
+
+SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
+  return F->type->entry == NULL ? ((const double *)F->values)[at] : F->type->entry(F->values, at);
+}
+
+SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
+  if (F->type->entry_clear != NULL) {
+    F->type->entry_clear(F->values, at);
+  } else {
+    ((double *)F->values)[at] = 0.0;
+  }
+}
+
+/* src/impl/factor/panel_load.h: the entries of a matrix or of a weighted sum, for the panels of supernodes */
 
 #define SLI_ENTRIES_AHEAD 32
 
@@ -14144,49 +12469,6 @@ SLI_INLINE uint64_t sli_mark_entry(double a, sl_off place) {
 }
 
 #define SLI_MARK_BEGIN SLI_HASH_4
-
-SLI_ALWAYS_INLINE sl_status sli_panel_load_entries(const sl_factor *F, sl_int s, double *panel,
-                           float *single, int is_half, double most,
-                           uint64_t *marks, sl_off first, sl_off last,
-                           const double *x, const sl_int *scatter_from,
-                           sli_failure *failure) {
-  const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
-  const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
-  double largest = F->extents[s].entry;
-  uint64_t mark = 0;
-  sl_off m;
-  for (m = first; m < last; m++) {
-    if (scatter_from != NULL && m < ahead) { /* untested: constant */
-      SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
-    }
-    const double a =
-      scatter_from != NULL ? x[scatter_from[m]] : x[m - first]; /* untested: constant */
-    const double size = fabs(a);
-    if (!(size <= most)) {
-      const sl_status status = /* untested: finite only in float */
-        sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE; /* untested: the same */
-      return sli_fail(failure, status, s, -1, m, a);
-    }
-    if (panel == NULL) { /* untested: constant */
-      single[to[m] - begin] += sli_single(a);
-    } else if (is_half) { /* untested: constant */
-      if ((to[m] & SLI_TILE) == 0) { /* untested: constant where is_half is 0 */
-        panel[sli_half_at(to[m] - begin)] += a;
-      }
-    } else {
-      panel[to[m] - begin] += a;
-    }
-    if (marks != NULL) { /* untested: constant in float */
-      mark += sli_mark_entry(a, to[m] - begin);
-    }
-    largest = size > largest ? size : largest;
-  }
-  F->extents[s].entry = largest;
-  if (marks != NULL) { /* untested: the same */
-    marks[s] += mark;
-  }
-  return SL_OK;
-}
 
 #define SLI_SUM_ENTRIES 64
 
@@ -14202,43 +12484,19 @@ static void sli_source_sum(const sli_source *from, sl_off first, sl_int count, d
   }
 }
 
-static sl_status sli_panel_load(const sl_factor *F, const sli_source *from, sl_int s, double *panel,
-                float *single, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  const sl_off end = S->scatter_begin[s + 1];
-  sl_off m = S->scatter_begin[s], last;
-  double sums[SLI_SUM_ENTRIES];
-  sl_status status = SL_OK;
+typedef struct sli_loading {
+  const double *x;
+  const sl_int *scatter_from;
+  sl_off first, last;
+} sli_loading;
+
+SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
   F->extents[s].entry = F->extents[s].magnitude = 0.0;
   F->extents[s].pivot = -1;
   F->extents[s].zero = 0;
   if (F->marks != NULL) {
     F->marks[s] = SLI_MARK_BEGIN;
   }
-  if (from->A != NULL && panel == NULL) {
-    return sli_panel_load_entries(F, s, NULL, single, 0, SLI_SINGLE_MOST, NULL, m, end,
-                    from->A->x, S->scatter_from, failure);
-  }
-  if (from->A != NULL && sli_is_complex(F)) {
-    return sli_panel_load_entries(F, s, panel, NULL, 1, DBL_MAX, F->marks, m, end, from->A->x,
-                    S->scatter_from, failure);
-  }
-  if (from->A != NULL) {
-    return sli_panel_load_entries(F, s, panel, NULL, 0, DBL_MAX, F->marks, m, end, from->A->x,
-                    S->scatter_from, failure);
-  }
-  for (; m < end && status == SL_OK; m = last) {
-    last = end - m < SLI_SUM_ENTRIES ? end : m + SLI_SUM_ENTRIES;
-    sli_source_sum(from, m, (sl_int)(last - m), sums);
-    if (panel == NULL) {
-      status = sli_panel_load_entries(F, s, NULL, single, 0, SLI_SINGLE_MOST, NULL, m, last,
-                      sums, NULL, failure);
-    } else {
-      status = sli_panel_load_entries(F, s, panel, NULL, 0, DBL_MAX, F->marks, m, last, sums,
-                      NULL, failure);
-    }
-  }
-  return status;
 }
 
 /* src/impl/factor/pivot_check.h: which pivots are refused, and what is recorded of the others */
@@ -14264,21 +12522,6 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
   return SL_OK;
-}
-
-SLI_INLINE sl_status sli_check_single(const sl_factor *F, sl_int s, sl_int k, float pivot,
-                    float magnitude, sli_failure *failure) {
-  const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
-  const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
-  F->D[k] = d;
-  if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
-    return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
-  }
-  if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
-    sli_record_magnitude(F, s, k, m);
-    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
-  }
-  return sli_check_pivot(F, s, k, d, m, failure);
 }
 
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,
@@ -14358,791 +12601,6 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
     }
   }
   F->stats.factor = info;
-}
-
-/* src/impl/factor/storage.h: L in double, in float or as complex: sweeps over it, its entries, panels to store */
-
-SLI_INLINE const sli_sweeps *sli_sweeps_of(const sl_factor *F) {
-  return &F->kernels->sweeps[sli_is_complex(F) ? 2 : sli_is_float(F)];
-}
-
-SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
-                  const sl_int *rows, double *x, double *scratch) {
-  sli_sweeps_of(F)->forward[kind](count, steps, rows, F->values, x, scratch);
-}
-SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
-                   const sli_step *steps, const sl_int *rows_end, const double *D,
-                   double *x, double *scratch) {
-  sli_sweeps_of(F)->backward[kind](count, steps, rows_end, F->values, D, x, scratch);
-}
-
-SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
-  if (sli_is_complex(F)) {
-    const double *l = (const double *)F->values + at / (2 * SLI_TILE) * SLI_TILE;
-    const sl_off lane = at % SLI_TILE;
-    return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
-  }
-  return sli_is_float(F) ? (double)((const float *)F->values)[at]
-               : ((const double *)F->values)[at];
-}
-
-SLI_INLINE void sli_entry_clear(sl_factor *F, sl_off at) {
-  if (sli_is_float(F)) {
-    ((float *)F->values)[at] = 0.0F;
-  } else {
-    ((double *)F->values)[at] = 0.0;
-  }
-}
-
-SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
-                  double l) {
-  const double d =
-    f->E != NULL && f->E[j] != 0.0 ? fmax(fabs(f->D[j]), fabs(f->E[j])) : fabs(f->D[j]);
-  if (fabs(l) > (double)FLT_MAX || d == SLI_NULL_PIVOT) {
-    return d != SLI_NULL_PIVOT;
-  }
-  if (l == 0.0 || fabs(l) >= (double)FLT_MIN || ldexp(d, -252) <= f->magnitude[r]) {
-    return 0;
-  }
-  return F->null_vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
-}
-
-static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sl_int s,
-                 sli_failure *failure) {
-  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
-  float *to = (float *)F->values + F->S->steps[s].panel;
-  const double *from = f->panel;
-  sl_int t, j, r;
-  for (t = 0; t < tiles; t++) {
-    const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
-    for (j = 0; j < columns; j++, from += SLI_TILE, to += SLI_TILE) {
-      int odd = 0;
-      for (r = 0; r < SLI_TILE; r++) {
-        const double size = fabs(from[r]);
-        odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
-      }
-      for (r = 0; r < SLI_TILE && odd; r++) {
-        if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
-          return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
-                  f->D[j]);
-        }
-      }
-      for (r = 0; r < SLI_TILE; r++) {
-        to[r] = (float)from[r];
-      }
-    }
-  }
-  return SL_OK;
-}
-
-static sl_status sli_panel_store(const sl_factor *F, const sli_front *f, sl_int s,
-                 sli_failure *failure) {
-  return F->storage == SL_STORAGE_FLOAT ? sli_panel_round(F, f, s, failure) : SL_OK;
-}
-
-static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
-  const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
-  sl_off k;
-  for (k = 0; k < size; k++) {
-    to[k] = sli_entry(F, first + k);
-  }
-}
-
-static int sli_are_pairs(const sl_int *rows, sl_int count) {
-  sl_int k;
-  for (k = 0; k + 1 < count; k += 2) {
-    if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
-      return 0;
-    }
-  }
-  return k == count;
-}
-
-static int sli_rows_are_paired(const sl_symbolic *S) {
-  sl_int s, is_paired = sli_are_pairs(S->perm, S->n);
-  for (s = 0; s < S->n_supers && is_paired; s++) {
-    const sli_step *step = &S->steps[s];
-    is_paired =
-      step->column % 2 == 0 && sli_are_pairs(S->rows + S->rows_begin[s], step->below);
-  }
-  return is_paired;
-}
-
-static int sli_matrix_is_complex(const sl_csc *A) {
-  sl_int j, p, q;
-  for (j = 0; j + 1 < A->n_cols; j += 2) {
-    const sl_int middle = A->p[j + 1], end = A->p[j + 2];
-    for (p = A->p[j], q = middle; p < middle || q < end;) {
-      const sl_int row = p < middle ? A->i[p] : A->i[q];
-      if (row / 2 != j / 2) {
-        if (row % 2 != 0 || p + 1 >= middle || q + 1 >= end || A->i[p + 1] != row + 1 ||
-          A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
-          A->x[q] != -A->x[p + 1]) {
-          return 0;
-        }
-        p += 2;
-        q += 2;
-      } else {
-        const sl_int p_zero = p + 1 < middle && A->i[p + 1] == j + 1;
-        const sl_int q_zero = q < end && A->i[q] == j;
-        if (row != j || p >= middle || (p_zero && A->x[p + 1] != 0.0) ||
-          (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
-          A->x[q + q_zero] != A->x[p]) {
-          return 0;
-        }
-        p += 1 + p_zero;
-        q += 1 + q_zero;
-      }
-    }
-  }
-  return 1;
-}
-
-/* src/impl/factor/pivot_search.h: a multifrontal factorization that only selects 1x1 and 2x2 pivots by values */
-
-#define SLI_PIVOT_THRESHOLD 0.01
-
-typedef struct sli_contribution {
-  void *block;
-  sl_int delayed;
-  sl_int count;
-  sl_int *index;
-  double *values;
-} sli_contribution;
-
-typedef struct sli_dense_front {
-  sl_int rows, columns;
-  sl_int *index;
-  double *values;
-  double *D, *E;
-} sli_dense_front;
-
-typedef struct sli_pivot_search {
-  const sl_symbolic *S;
-  sl_allocator allocator;
-  sli_contribution *contributions;
-  sl_int *local;
-  sl_int *order;
-  unsigned char *is_first;
-  sl_int selected;
-  sl_int delayed;
-  void *front_block;
-  size_t front_size;
-} sli_pivot_search;
-
-SLI_INLINE double *sli_dense_column(const sli_dense_front *f, sl_int j) {
-  return f->values + (size_t)f->rows * (size_t)j;
-}
-
-static double sli_column_max(const double *column, sl_int first, sl_int last, sl_int a, sl_int b,
-               sl_int *row) {
-  double most = 0.0;
-  sl_int i;
-  for (i = first; i < last; i++) {
-    const double size = fabs(column[i]);
-    if (size > most && i != a && i != b) {
-      most = size;
-      *row = i;
-    }
-  }
-  return most;
-}
-
-static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *partner) {
-  const double *column = sli_dense_column(f, c), *other;
-  sl_int t = -1, row = -1;
-  double e, most, rest, a, b, room, rest_t;
-  e = sli_column_max(column, k, f->columns, c, c, &t);
-  rest = sli_column_max(column, f->columns, f->rows, c, c, &row);
-  most = e > rest ? e : rest;
-  if (fabs(column[c]) >= SLI_PIVOT_THRESHOLD * most && (column[c] != 0.0 || most == 0.0)) {
-    return 1;
-  }
-  if (t == -1) {
-    return 0;
-  }
-  other = sli_dense_column(f, t);
-  rest = sli_column_max(column, k, f->rows, c, t, &row);
-  rest_t = sli_column_max(other, k, f->rows, c, t, &row);
-  a = fabs(column[c] / e);
-  b = fabs(other[t] / e);
-  room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
-  *partner = t;
-  return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
-}
-
-static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
-  double *a = sli_dense_column(f, i), *b = sli_dense_column(f, j);
-  const sl_int index = f->index[i];
-  sl_int k;
-  if (i == j) {
-    return;
-  }
-  for (k = 0; k < f->rows; k++) {
-    const double keep = a[k];
-    a[k] = b[k];
-    b[k] = keep;
-  }
-  for (k = 0; k < f->columns; k++) {
-    double *column = sli_dense_column(f, k);
-    const double keep = column[i];
-    column[i] = column[j];
-    column[j] = keep;
-  }
-  f->index[i] = f->index[j];
-  f->index[j] = index;
-}
-
-static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
-  double *u = sli_dense_column(f, k), *v = u;
-  const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
-  sl_int i, j;
-  sli_pair_steps steps;
-  memset(&steps, 0, sizeof steps);
-  f->D[k] = u[k];
-  f->E[k] = 0.0;
-  if (size == 2) {
-    v = sli_dense_column(f, k + 1);
-    f->E[k] = u[k + 1];
-    f->D[k + 1] = v[k + 1];
-    f->E[k + 1] = 0.0;
-    steps = sli_pair_eliminate(u[k], v[k + 1], u[k + 1]);
-  }
-  for (j = k + size; j < f->columns; j++) {
-    double *column = sli_dense_column(f, j);
-    double x = inverse * u[j], y;
-    if (size == 2) {
-      sli_pair_solve(&steps, u[j], v[j], &x, &y);
-      for (i = k + 2; i < f->rows; i++) {
-        column[i] -= u[i] * x + v[i] * y;
-      }
-    } else if (x != 0.0) {
-      for (i = k + 1; i < f->rows; i++) {
-        column[i] -= u[i] * x;
-      }
-    }
-  }
-  for (i = k + size; i < f->rows; i++) {
-    if (size == 2) {
-      sli_pair_solve(&steps, u[i], v[i], &u[i], &v[i]);
-    } else {
-      u[i] *= inverse;
-    }
-  }
-}
-
-static sl_int sli_dense_factor(sli_pivot_search *p, sli_dense_front *f) {
-  sl_int k = 0, c = 0, failures = 0;
-  while (k < f->columns && failures < f->columns - k) {
-    sl_int partner = -1;
-    const int size = sli_pivot_test(f, k, c, &partner);
-    failures = size == 0 ? failures + 1 : 0;
-    if (size > 0) {
-      sli_dense_swap(f, k, c);
-      if (size == 2) {
-        sli_dense_swap(f, k + 1, partner == k ? c : partner);
-      }
-      sli_dense_eliminate(f, k, size);
-      p->is_first[p->selected] = (unsigned char)(size == 2);
-      p->order[p->selected++] = f->index[k];
-      if (size == 2) {
-        p->is_first[p->selected] = 0;
-        p->order[p->selected++] = f->index[k + 1];
-      }
-      k += size;
-    }
-    c = c + 1 < f->columns ? sli_max(c + 1, k) : k;
-  }
-  return k;
-}
-
-static void sli_dense_update(const sli_dense_front *f, sl_int pivots) {
-  sl_int i, j, k, m;
-  for (j = f->columns; j < f->rows; j++) {
-    double *to = sli_dense_column(f, j);
-    for (k = 0; k < pivots; k += 4) {
-      const double *l[4];
-      double x[4];
-      for (m = 0; m < 4; m++) {
-        const sl_int c = sli_min(k + m, pivots - 1);
-        l[m] = sli_dense_column(f, c);
-        x[m] = k + m < pivots ? f->D[c] * l[m][j] : 0.0;
-        if (k + m < pivots && f->E[c] != 0.0) {
-          x[m] += f->E[c] * sli_dense_column(f, c + 1)[j];
-        } else if (k + m < pivots && c > 0 && f->E[c - 1] != 0.0) {
-          x[m] += f->E[c - 1] * sli_dense_column(f, c - 1)[j];
-        }
-      }
-      for (i = j; i < f->rows; i++) {
-        to[i] -= l[0][i] * x[0] + l[1][i] * x[1] + (l[2][i] * x[2] + l[3][i] * x[3]);
-      }
-    }
-  }
-}
-
-SLI_INLINE void sli_dense_add(const sli_dense_front *f, sl_int i, sl_int j, double value) {
-  const sl_int low = sli_min(i, j), high = sli_max(i, j);
-  sli_dense_column(f, low)[high] += value;
-  if (high < f->columns && low != high) {
-    sli_dense_column(f, high)[low] += value;
-  }
-}
-
-static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_int s,
-                 const sli_dense_front *f, sl_stats *stats) {
-  const sl_symbolic *S = p->S;
-  sl_int tile = sli_last_tile(S, s), i, j;
-  sl_off m;
-  for (m = S->scatter_begin[s + 1] - 1; m >= S->scatter_begin[s]; m--) {
-    const sl_int from = S->scatter_from[m];
-    if (!sli_is_finite(A->x[from])) {
-      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[from], sli_column_of(A, from),
-                 A->x[from]);
-    }
-    sli_scatter_map_pivots(S, s, m, &tile, &i, &j);
-    sli_dense_add(f, p->local[i], p->local[j], A->x[from]);
-  }
-  return SL_OK;
-}
-
-static void sli_search_assemble(const sli_pivot_search *p, const sli_contribution *c,
-                const sli_dense_front *f) {
-  sl_int i, j;
-  for (j = 0; j < c->count; j++) {
-    const double *column = c->values + (size_t)c->count * (size_t)j;
-    const sl_int to = p->local[c->index[j]];
-    for (i = j; i < c->count; i++) {
-      sli_dense_add(f, p->local[c->index[i]], to, column[i]);
-    }
-  }
-}
-
-static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front *f) {
-  const sl_symbolic *S = p->S;
-  sli_block b = {NULL, 0, 0};
-  sl_int c, k, at = 0;
-  int pass;
-  f->columns = S->steps[s].width;
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    f->columns += p->contributions[c].delayed;
-  }
-  f->rows = f->columns + S->steps[s].below;
-  for (pass = 0; pass < 2; pass++) {
-    f->index = SLI_TAKE(&b, sl_int, f->rows);
-    f->D = SLI_TAKE(&b, double, f->columns);
-    f->E = SLI_TAKE(&b, double, f->columns);
-    f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
-    if (b.overflow) {            /* untested: on 32 bits only */
-      return SL_ERR_TOO_LARGE; /* untested: the same */
-    }
-    if (pass == 0 && b.used > p->front_size) {
-      sli_free(&p->allocator, p->front_block);
-      p->front_size = 0;
-      p->front_block = sli_alloc(&p->allocator, b.used);
-      if (p->front_block == NULL) {
-        return SL_ERR_MEMORY;
-      }
-      p->front_size = b.used;
-    }
-    b.base = (unsigned char *)p->front_block;
-    b.used = 0;
-  }
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    for (k = 0; k < p->contributions[c].delayed; k++) {
-      f->index[at++] = p->contributions[c].index[k];
-    }
-  }
-  for (k = 0; k < S->steps[s].width; k++) {
-    f->index[at++] = S->super_first[s] + k;
-  }
-  for (k = 0; k < S->steps[s].below; k++) {
-    f->index[at++] = S->rows[S->rows_begin[s] + k];
-  }
-  for (k = 0; k < f->rows; k++) {
-    p->local[f->index[k]] = k;
-  }
-  memset(f->values, 0, (size_t)f->rows * (size_t)f->rows * sizeof(double));
-  return SL_OK;
-}
-
-static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
-                 sl_int pivots) {
-  sli_contribution *c = &p->contributions[s];
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_int j;
-  int pass;
-  c->delayed = f->columns - pivots;
-  c->count = f->rows - pivots;
-  p->delayed += c->delayed;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    c->index = SLI_TAKE(&b, sl_int, c->count);
-    c->values = SLI_TAKE(&b, double, (uint64_t)c->count *(uint64_t)c->count);
-    status = pass == 0 ? sli_block_alloc(&b, &p->allocator) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  c->block = b.base;
-  memcpy(c->index, f->index + pivots, (size_t)c->count * sizeof(sl_int));
-  for (j = 0; j < c->count; j++) {
-    memcpy(c->values + (size_t)c->count * (size_t)j + j,
-         sli_dense_column(f, pivots + j) + pivots + j,
-         (size_t)(c->count - j) * sizeof(double));
-  }
-  return SL_OK;
-}
-
-static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
-                    sl_stats *stats) {
-  const sl_symbolic *S = p->S;
-  sli_dense_front f;
-  sl_status status = sli_search_front(p, s, &f);
-  sl_int c, k;
-  if (status == SL_OK) {
-    status = sli_search_load(p, A, s, &f, stats);
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    sli_search_assemble(p, &p->contributions[c], &f);
-    sli_free(&p->allocator, p->contributions[c].block);
-    p->contributions[c].block = NULL;
-  }
-  k = sli_dense_factor(p, &f);
-  if (S->super_parent[s] != -1) {
-    sli_dense_update(&f, k);
-    return sli_search_keep(p, s, &f, k);
-  }
-  for (; k < f.columns; k++) {
-    p->is_first[p->selected] = 0;
-    p->order[p->selected++] = f.index[k];
-  }
-  return SL_OK;
-}
-
-static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
-  p->contributions = SLI_TAKE(b, sli_contribution, p->S->n_supers);
-  p->local = SLI_TAKE(b, sl_int, p->S->n);
-  p->order = SLI_TAKE(b, sl_int, p->S->n);
-  p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
-}
-
-static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
-  sl_status status = SL_OK;
-  sl_int s;
-  memset(p->contributions, 0, (size_t)p->S->n_supers * sizeof(sli_contribution));
-  for (s = 0; s < p->S->n_supers && status == SL_OK; s++) {
-    status = sli_search_supernode(p, A, s, stats);
-  }
-  for (s = 0; s < p->S->n_supers; s++) {
-    sli_free(&p->allocator, p->contributions[s].block);
-  }
-  sli_free(&p->allocator, p->front_block);
-  SLI_ASSERT(status != SL_OK || p->selected == p->S->n);
-  return status;
-}
-
-/* src/impl/factor/pivoted.h: sl_symbolic_create_pivoted: an analysis whose order follows the values of a matrix */
-
-static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *p, const sl_csc *A,
-                   const sl_options *opt, sl_stats *stats) {
-  sl_options given = sli_options_with(&p->allocator);
-  const sl_symbolic_info *first = &p->S->stats.symbolic;
-  sl_int k, pairs = 0;
-  sl_stats found;
-  sl_status status;
-  for (k = 0; k < p->S->n; k++) {
-    p->local[k] = p->S->perm[p->order[k]];
-    pairs += p->is_first[k];
-  }
-  given.ordering = SL_ORDERING_GIVEN;
-  given.perm = p->local;
-  given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
-  given.triangle = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
-  given.threads = opt == NULL ? given.threads : opt->threads;
-  status = sli_symbolic_create(out, A, pairs > 0 ? p->is_first : NULL, &given, &found);
-  if (status == SL_OK) {
-    sl_symbolic_info *info = &(*out)->stats.symbolic;
-    (*out)->is_pivoted = 1;
-    info->delayed = p->delayed;
-    info->seconds_order = first->seconds_order;
-    info->seconds_analyze += first->seconds_analyze;
-    if (stats != NULL) {
-      stats->symbolic = *info;
-    }
-  }
-  return status;
-}
-
-SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
-                      const sl_options *opt, sl_stats *stats) {
-  double started;
-  sli_pivot_search p;
-  sl_symbolic *S = NULL;
-  sl_stats found;
-  sli_block b = {NULL, 0, 0};
-  sl_status status;
-  int pass;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  status = sl_symbolic_create(&S, A, opt, &found);
-  if (status != SL_OK) {
-    return stats == NULL ? status
-               : sli_fail_at(stats, status, found.error.row, found.error.column,
-                       found.error.value);
-  }
-  memset(&p, 0, sizeof p);
-  p.S = S;
-  p.allocator = S->allocator;
-  started = sli_seconds();
-  status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_search_layout(&p, &b);
-    status = pass == 0 ? sli_block_alloc(&b, &p.allocator) : SL_OK;
-  }
-  status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
-  S->stats.symbolic.seconds_analyze += sli_seconds() - started;
-  status = status == SL_OK ? sli_pivoted_analyze(out, &p, A, opt, stats) : status;
-  sli_free(&p.allocator, b.base);
-  sl_symbolic_free(S);
-  return status;
-}
-
-/* src/impl/factor/scatter.h: scatters a matrix into a value array in the order of the scatter map */
-
-typedef struct sli_scatter_work {
-  sl_int *begin;
-  sl_int *from;
-  sl_int *to;
-  sl_int *index;
-  sl_int *head;
-  sl_int *next;
-  sl_int *row;
-} sli_scatter_work;
-
-static void sli_scatter_layout(sli_scatter_work *w, sli_block *b, const sl_symbolic *S,
-                 sl_int entries) {
-  sl_off most = 0;
-  sl_int s;
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_off here = S->scatter_begin[s + 1] - S->scatter_begin[s];
-    most = here > most ? here : most;
-  }
-  w->begin = SLI_TAKE(b, sl_int, (size_t)S->n + 1);
-  w->from = SLI_TAKE(b, sl_int, entries);
-  w->to = SLI_TAKE(b, sl_int, entries);
-  w->index = SLI_TAKE(b, sl_int, S->n);
-  w->head = SLI_TAKE(b, sl_int, S->widest);
-  w->next = SLI_TAKE(b, sl_int, most);
-  w->row = SLI_TAKE(b, sl_int, most);
-}
-
-static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl_csc *K,
-               sl_triangle triangle) {
-  const sl_int *iperm = S->iperm;
-  sl_int j, p, total = 0;
-  memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
-  for (j = 0; j < S->n; j++) {
-    for (p = K->p[j]; p < K->p[j + 1]; p++) {
-      w->begin[sli_min(iperm[K->i[p]], iperm[j])] += sli_is_read(triangle, K->i[p], j);
-    }
-  }
-  for (j = 0; j <= S->n; j++) {
-    const sl_int here = w->begin[j];
-    w->begin[j] = total;
-    total += here;
-  }
-  for (j = 0; j < S->n; j++) {
-    for (p = K->p[j]; p < K->p[j + 1]; p++) {
-      if (sli_is_read(triangle, K->i[p], j)) {
-        const sl_int at = w->begin[sli_min(iperm[K->i[p]], iperm[j])]++;
-        w->from[at] = p;
-        w->to[at] = sli_max(iperm[K->i[p]], iperm[j]);
-      }
-    }
-  }
-  memmove(w->begin + 1, w->begin, (size_t)S->n * sizeof(sl_int));
-  w->begin[0] = 0;
-}
-
-static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s) {
-  const sl_off start = S->scatter_begin[s];
-  sl_int k, j, m, tile = sli_last_tile(S, s);
-  for (j = 0; j < S->steps[s].width; j++) {
-    w->head[j] = -1;
-  }
-  for (m = (sl_int)(S->scatter_begin[s + 1] - start) - 1; m >= 0; m--) {
-    sli_scatter_map_pivots(S, s, start + m, &tile, &k, &j);
-    j -= S->super_first[s];
-    w->row[m] = k;
-    w->next[m] = w->head[j];
-    w->head[j] = m;
-  }
-}
-
-static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_int start,
-                 sl_int missing) {
-  sl_int m, q;
-  for (m = head; m != -1; m = w->next[m]) {
-    w->index[w->row[m]] = start + m;
-  }
-  for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
-    w->to[q] = w->index[w->to[q]];
-    missing = w->to[q] == -1 ? sli_min(missing, w->from[q]) : missing;
-  }
-  for (m = head; m != -1; m = w->next[m]) {
-    w->index[w->row[m]] = -1;
-  }
-  return missing;
-}
-
-static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
-  sl_int s, j, missing = INT32_MAX;
-  for (j = 0; j < S->n; j++) {
-    w->index[j] = -1;
-  }
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_int first = S->super_first[s], last = S->super_first[s + 1];
-    if (w->begin[first] < w->begin[last]) {
-      sli_scatter_list(S, w, s);
-      for (j = first; j < last; j++) {
-        if (w->begin[j] < w->begin[j + 1]) {
-          missing = sli_scatter_find(w, j, w->head[j - first],
-                         (sl_int)S->scatter_begin[s], missing);
-        }
-      }
-    }
-  }
-  return missing;
-}
-
-SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
-  return S == NULL ? 0 : (sl_int)S->scatter_begin[S->n_supers];
-}
-
-SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const sl_csc *K,
-                   sl_stats *stats) {
-  sl_options opt;
-  sli_scatter_work w;
-  sli_block b = {NULL, 0, 0};
-  sl_triangle triangle = SL_TRIANGLE_NONE;
-  sl_int q, missing;
-  int pass;
-  sl_status status = sl_csc_check(K, stats);
-  if (S == NULL || status != SL_OK) {
-    return S == NULL ? SL_ERR_ARGUMENT : status;
-  }
-  if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
-    (sl_symbolic_entries(S) > 0 && values == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (K->n_cols != S->n) {
-    return SL_ERR_PATTERN;
-  }
-  memset(&w, 0, sizeof w);
-  opt = sli_options_with(&S->allocator);
-  status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_scatter_layout(&w, &b, S, sli_nnz(K));
-    status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_scatter_sort(S, &w, K, triangle);
-  missing = sli_scatter_find_all(S, &w);
-  if (missing == INT32_MAX) {
-    for (q = 0; q < sl_symbolic_entries(S); q++) {
-      values[q] = 0.0;
-    }
-    for (q = 0; q < w.begin[S->n]; q++) {
-      values[w.to[q]] += K->x[w.from[q]];
-    }
-  } else {
-    status = sli_fail_at(stats, SL_ERR_PATTERN, K->i[missing], sli_column_of(K, missing),
-               K->x[missing]);
-  }
-  sli_free(&S->allocator, b.base);
-  return status;
-}
-
-/* src/impl/factor/uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
-
-static void sli_row_link(sl_factor *F, sl_int s) {
-  const sl_off at = F->S->rows_begin[s] + F->position[s];
-  if (at < F->S->rows_begin[s + 1]) {
-    const sl_int k = F->S->rows[at];
-    F->next[s] = F->head[k];
-    F->head[k] = s;
-  }
-}
-
-static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
-  const sl_symbolic *S = F->S;
-  const sl_int first = S->super_first[s];
-  F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
-          F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
-}
-
-static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
-  const sl_symbolic *S = F->S;
-  const sl_int own = S->super_of[k];
-  uint64_t *list = F->list + S->n_supers;
-  sl_int s, m, count = 0;
-  for (s = F->head[k]; s != -1; s = F->next[s]) {
-    *--list = sli_keyed(s, 0);
-    count++;
-  }
-  sli_sort(list, count, F->list_scratch);
-  for (m = 0; m < count; m++) {
-    s = sli_key(list[m]);
-    sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
-    F->position[s]++;
-    sli_row_link(F, s);
-  }
-  if (k > S->super_first[own]) {
-    sli_row_solve(F, own, k - S->super_first[own], pivot, magnitude);
-  }
-}
-
-static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_status status = SL_OK;
-  sl_int k;
-  for (k = 0; k < S->n; k++) {
-    F->head[k] = -1;
-    F->x[k] = 0.0;
-  }
-  for (k = 0; k < S->n && status == SL_OK; k++) {
-    const sl_int s = S->super_of[k], q = k - S->super_first[s];
-    double *panel = sli_front_panel(F, s, 0), *diagonal, pivot, magnitude;
-    if (q == 0) {
-      const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-      memset(panel, 0, (size_t)size * sizeof(double));
-      status = sli_panel_load(F, from, s, panel, NULL, failure);
-      if (status != SL_OK) {
-        break;
-      }
-    }
-    diagonal = panel + sli_panel_at(S->steps[s].width, q, q);
-    pivot = *diagonal;
-    magnitude = fabs(pivot);
-    *diagonal = 0.0;
-    sli_row_solve_all(F, k, &pivot, &magnitude);
-    pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
-    F->D[k] = pivot;
-    status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
-    if (q == S->steps[s].width - 1) {
-      F->position[s] = 0;
-      sli_row_link(F, s);
-    }
-  }
-  return status;
 }
 
 /* src/impl/factor/null_product.h: A z for a candidate z of the null space of A, and the components of A */
@@ -15827,21 +13285,6 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
   return SL_OK;
 }
 
-static int sli_nulls_remain(const sl_factor *F) {
-  sl_int m, k;
-  for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
-    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
-      return 0;
-    }
-  }
-  for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
-    if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
 static int sli_null_is_suspected(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
@@ -15863,7 +13306,7 @@ static int sli_null_is_suspected(const sl_factor *F) {
 
 static int sli_null_suspect_fits(const sl_factor *F) {
   const sl_off entries = F->S->panel_begin[F->S->n_supers];
-  return F->storage == SL_STORAGE_DOUBLE ||
+  return F->type->storage == SL_STORAGE_DOUBLE ||
        (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
 }
 
@@ -15888,74 +13331,14 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
   return SL_OK;
 }
 
-/* src/impl/factor/multifrontal.h: the fronts of the supernodal factorization: each passes its update matrix up */
+/* src/impl/factor/multifrontal.h: fronts in double: each passes its update matrix up */
 
-SLI_INLINE void *sli_update_matrix(const sl_factor *F, sl_int s, sl_int worker) {
-  const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
-  const sl_off at = begin < own ? begin + worker * own : begin;
-  return sli_is_single(F) ? (void *)((float *)(void *)F->stack + at)
-              : (void *)(F->stack + (at >> sli_is_complex(F)));
-}
-
-SLI_INLINE const sli_front_kernels *sli_front_kernels_of(const sl_factor *F) {
-  return &F->kernels->fronts[sli_is_complex(F) ? 2 : sli_is_single(F)];
-}
-
-static sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
-  const sli_step *step = &F->S->steps[s];
-  const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
-  double *magnitude = F->magnitude + (ptrdiff_t)worker * rows;
-  double *reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
-  sli_front f;
-  f.is_complex = f.is_small = 0;
-  f.pairs = NULL;
-  f.width = step->width;
-  f.below = step->below;
-  f.rule = &F->rule;
-  f.column = step->column;
-  if (sli_is_single(F)) {
-    f.panel = f.update = f.D = f.magnitude = f.E = f.reciprocals = NULL;
-    f.single.panel = (float *)F->values + step->panel;
-    f.single.update = (float *)sli_update_matrix(F, s, worker);
-    f.single.magnitude = (float *)(void *)magnitude;
-    f.single.D = f.single.magnitude + rows;
-    f.single.reciprocals = (float *)(void *)reciprocals;
-    return f;
-  }
-  f.single.panel = f.single.update = f.single.D = NULL;
-  f.single.magnitude = f.single.reciprocals = NULL;
-  f.panel = sli_front_panel(F, s, worker);
-  f.update = (double *)sli_update_matrix(F, s, worker);
-  f.D = F->D + step->column;
-  f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
-  f.E = F->E == NULL ? NULL : F->E + step->column;
-  f.magnitude = magnitude;
-  f.reciprocals = reciprocals;
-  f.is_complex = sli_is_complex(F);
-  return f;
+SLI_INLINE int sli_is_copied(const sl_factor *F, sl_int s) {
+  return F->copied != NULL && F->copied->from[s] != -1;
 }
 
 SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
   return sli_tiles(f->width + f->below);
-}
-
-static void sli_front_clear(const sli_front *f, sl_int t0, sl_int t1) {
-  const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
-  const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
-  const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
-  const int has_update = f->below > 0 && t1 > whole;
-  if (f->panel == NULL) {
-    memset(f->single.panel + from, 0, (size_t)size * sizeof(float));
-    if (has_update) {
-      memset(f->single.update + at, 0, (size_t)(end - at) * sizeof(float));
-    }
-    return;
-  }
-  memset(f->panel + (from >> f->is_complex), 0, (size_t)(size >> f->is_complex) * sizeof(double));
-  if (has_update) {
-    memset(f->update + (at >> f->is_complex), 0,
-         (size_t)((end - at) >> f->is_complex) * sizeof(double));
-  }
 }
 
 SLI_INLINE void sli_front_clear_small(const sli_front *f) {
@@ -15969,96 +13352,13 @@ SLI_INLINE void sli_front_clear_small(const sli_front *f) {
   }
 }
 
-static sl_status sli_front_load(sl_factor *F, const sli_source *from, const sli_front *f, sl_int s,
-                sli_failure *failure) {
-  const sl_status status = sli_panel_load(F, from, s, f->panel, f->single.panel, failure);
-  const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
-  sl_int k, r;
-  if (f->panel == NULL) {
-    memset(f->single.magnitude, 0, (size_t)rows * sizeof(float));
-    for (k = 0; k < w; k++) {
-      f->single.magnitude[k] = (float)fabs(f->single.panel[sli_panel_at(w, k, k)]);
-    }
-    return status;
-  }
-  for (k = 0; k < rows; k++) {
-    f->magnitude[k] = 0.0;
-  }
-  for (k = 0; k < w && f->is_complex; k += 2) {
-    f->magnitude[k] = fabs(f->panel[sli_half_at(sli_panel_at(w, k, k))]);
-  }
-  for (k = 0; k < w && !f->is_complex; k += SLI_TILE) {
-    const double *tile = f->panel + sli_panel_at(w, k, k);
-    const sl_int columns = sli_min(SLI_TILE, w - k);
-    for (r = 0; r < columns; r++) {
-      f->magnitude[k + r] = fabs(tile[(SLI_TILE + 1) * r]);
-    }
-  }
-  return status;
-}
-
-static void sli_front_assemble(const sl_factor *F, const sli_front *f, sl_int s, sl_int worker,
-                 sl_int t0, sl_int t1) {
-  const sl_symbolic *S = F->S;
-  const sl_int tiles = sli_front_tiles(f);
-  sl_int c, k;
-  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-    const sli_step *child = &S->steps[c];
-    const sl_int *relative = S->relative + S->rows_begin[c];
-    const void *from = sli_update_matrix(F, c, worker);
-    const sl_off magnitudes = child->width % SLI_TILE +
-                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
-    const sl_int last =
-      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
-    sli_front_kernels_of(F)->assemble(f, from, child->width % SLI_TILE, relative, child->below,
-                      first, last);
-    if (f->panel == NULL) {
-      const float *magnitude = (const float *)from + magnitudes;
-      for (k = first; k < last; k++) {
-        f->single.magnitude[relative[k]] += magnitude[k];
-      }
-    } else {
-      const int half = f->is_complex;
-      const double *magnitude = (const double *)from + (magnitudes >> half);
-      for (k = first; k < last; k += 1 + half) {
-        f->magnitude[relative[k]] += magnitude[k >> half];
-      }
-    }
-  }
-}
-
-static void sli_front_hand_over(const sli_front *f) {
-  const sl_int tiles = sli_update_tiles(f->width, f->below);
-  const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
-  const size_t rows = SLI_TILE * (size_t)tiles;
-  if (f->panel == NULL) {
-    memcpy(f->single.update + sli_triangle_offset(tiles), f->single.magnitude + first,
-         rows * sizeof(float));
-  } else if (f->is_complex) {
-    double *to = f->update + sli_triangle_offset(tiles) / 2;
-    const double *from = f->magnitude + first;
-    size_t k;
-    for (k = 0; k < rows; k += 2) {
-      to[k / 2] = from[k] + from[k + 1];
-    }
-  } else {
-    double *to = f->update + sli_triangle_offset(tiles);
-    const double *from = f->magnitude + first;
-    size_t k;
-    for (k = 0; k < rows; k++) {
-      to[k] = from[k];
-    }
-  }
-}
-
 static int sli_front_is_regular(const sl_factor *F, const sli_front *f, sl_int s) {
   const double tolerance = F->rule.null_tolerance > 0.0 ? F->rule.null_tolerance : 0.0;
   const sl_int w = f->width;
   double most = 0.0;
   sl_int k, at = -1;
   int is_regular = 1;
-  if (f->panel == NULL || f->pairs != NULL || F->rule.replaces) {
+  if (f->pairs != NULL || F->rule.replaces) {
     return 0;
   }
   for (k = 0; k < w; k++) {
@@ -16072,23 +13372,6 @@ static int sli_front_is_regular(const sl_factor *F, const sli_front *f, sl_int s
     F->extents[s].pivot = at;
   }
   return is_regular;
-}
-
-static sl_status sli_front_check(const sl_factor *F, const sli_front *f, sl_int s,
-                 sli_failure *failure) {
-  const sl_int first = f->column;
-  const sl_int count = sli_front_is_regular(F, f, s) ? 0 : f->width;
-  sl_status status = SL_OK;
-  sl_int k;
-  for (k = 0; k < count && f->panel == NULL && status == SL_OK; k++) {
-    status = sli_check_single(F, s, first + k, f->single.D[k], f->single.magnitude[k], failure);
-  }
-  for (k = 0; k < count && f->panel != NULL && status == SL_OK; k++) {
-    status = f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
-           ? sli_check_pair(F, s, first + k, f->magnitude + k, failure)
-           : sli_check_pivot(F, s, first + k, f->D[k], f->magnitude[k], failure);
-  }
-  return status == SL_OK ? sli_panel_store(F, f, s, failure) : status;
 }
 
 static void sli_front_eliminate(const sli_front_kernels *kernels, const sli_front *f,
@@ -16112,245 +13395,157 @@ static void sli_front_update(const sli_front_kernels *kernels, const sli_front *
   }
 }
 
-static sl_status sli_front_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
-                  sli_failure *failure) {
-  sli_front f = sli_front_of(F, s, worker);
-  const sl_int tiles = sli_front_tiles(&f);
-  double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-  sl_status status;
-  f.is_small = tiles == 1 && f.pairs == NULL && !f.is_complex;
-  if (f.is_small && f.panel != NULL) {
-    sli_front_clear_small(&f);
-  } else {
-    sli_front_clear(&f, 0, tiles);
-  }
-  status = sli_front_load(F, from, &f, s, failure);
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_front_assemble(F, &f, s, worker, 0, tiles);
-  sli_front_eliminate(sli_front_kernels_of(F), &f, scratch);
-  sli_front_update(sli_front_kernels_of(F), &f, scratch);
-  sli_front_hand_over(&f);
-  return sli_front_check(F, &f, s, failure);
+static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker) {
+  const sli_step *step = &F->S->steps[s];
+  sli_front f;
+  memset(&f.single, 0, sizeof f.single);
+  f.update = NULL;
+  f.super = s;
+  f.is_small = 0;
+  f.width = step->width;
+  f.below = step->below;
+  f.rule = &F->rule;
+  f.column = step->column;
+  f.panel = sli_front_panel(F, s, worker);
+  f.D = F->D + step->column;
+  f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
+  f.E = F->E == NULL ? NULL : F->E + step->column;
+  f.magnitude = F->magnitude + (ptrdiff_t)worker * (SLI_TILE * sli_tiles(F->S->tallest));
+  f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
+  return f;
 }
 
-/* src/impl/factor/gather.h: adds the updates of descendants, computed from their panels, to a front */
+SLI_INLINE sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker);
 
-typedef struct sli_left_work {
-  sl_int *local;
-  sl_int *relative;
-  double *buffer;
-} sli_left_work;
+#define SLF_NAME(f) sli_double_##f
+#define SLF_VALUE double
+#define SLF_SINGLE 0
+#define SLF_HALF 0
+#define SLF_OF(f, array) (f)->array
+#define SLF_FRONT sli_front_of
+#define SLI_SECTION_FRONTS
+#define SLI_SECTION_FRONTS_UNDEF
+#include SL_HEADER
+SLI_INLINE sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+  sli_front f = sli_front_in_double(F, s, worker);
+  f.update = sli_double_update_matrix(F, s, worker);
+  return f;
+}
 
-static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-              sl_int d, sl_int first, sl_int last, double *update) {
+SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
+  const sli_step *step = &F->S->steps[f->super];
+  f->magnitude = f->update + (sli_update_size(step) >> F->type->half);
+  f->reciprocals = f->magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(f) +
+           SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+  f->panel = sli_front_panel(F, f->super, F->schedule.workers);
+}
+
+static sli_front sli_double_shared(const sl_factor *F, sl_int s, sl_int group) {
+  sli_front f = sli_front_of(F, s, 0);
+  sli_front_share(F, &f, group);
+  return f;
+}
+
+static const sli_sweeps *sli_double_sweeps(const sli_kernels *kernels) {
+  return &kernels->sweeps;
+}
+
+static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
+  return &kernels->front;
+}
+
+static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
+                          sizeof(double),
+                          sizeof(double),
+                          0,
+                          DBL_EPSILON,
+                          sli_double_sweeps,
+                          sli_double_front,
+                          sli_double_factor,
+                          sli_double_shared,
+                          sli_double_front_clear,
+                          sli_double_front_load,
+                          sli_double_front_assemble,
+                          sli_double_front_finish,
+                          NULL,
+                          NULL,
+                          NULL,
+                          NULL,
+                          NULL,
+                          NULL};
+
+/* src/impl/factor/uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
+
+static void sli_row_link(sl_factor *F, sl_int s) {
+  const sl_off at = F->S->rows_begin[s] + F->position[s];
+  if (at < F->S->rows_begin[s + 1]) {
+    const sl_int k = F->S->rows[at];
+    F->next[s] = F->head[k];
+    F->head[k] = s;
+  }
+}
+
+static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
-  const sl_int *rows = S->rows + S->rows_begin[d];
-  sli_front from = sli_front_of(F, d, 0);
-  const sl_int w = from.width, tiles = sli_front_tiles(&from);
-  const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
-  sl_int t, r;
-  from.update = update;
-  for (t = c0; t < tiles; t++) {
-    memset(from.update + sli_triangle_offset(t - c0), 0,
-         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
-  }
-  F->kernels->fronts[0].update(&from, c0, c1, c0, tiles, p->buffer);
-  for (r = first; r < from.below; r++) {
-    p->relative[r - first] = p->local[rows[r]];
-  }
-  F->kernels->fronts[0].assemble(f, from.update, (w + first) % SLI_TILE, p->relative,
-                   last - first, 0, from.below - first);
+  const sl_int first = S->super_first[s];
+  F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
+          F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
 }
 
-static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-                sl_int d, sl_int first, sl_int last) {
-  const sli_front from = sli_front_of(F, d, 0);
-  const sl_int w = from.width;
-  sl_int r, j;
-  for (r = first; r < last; r++) {
-    const double *l = from.panel + sli_panel_at(w, w + r, 0);
-    double *magnitude = f->magnitude + p->relative[r - first];
-    for (j = 0; j < w; j++, l += SLI_TILE) {
-      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
-        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
-        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
-      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
-        *magnitude += fabs(*l * *l * from.D[j]);
+static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
+  const sl_symbolic *S = F->S;
+  const sl_int own = S->super_of[k];
+  uint64_t *list = F->list + S->n_supers;
+  sl_int s, m, count = 0;
+  for (s = F->head[k]; s != -1; s = F->next[s]) {
+    *--list = sli_keyed(s, 0);
+    count++;
+  }
+  sli_sort(list, count, F->list_scratch);
+  for (m = 0; m < count; m++) {
+    s = sli_key(list[m]);
+    sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
+    F->position[s]++;
+    sli_row_link(F, s);
+  }
+  if (k > S->super_first[own]) {
+    sli_row_solve(F, own, k - S->super_first[own], pivot, magnitude);
+  }
+}
+
+static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_status status = SL_OK;
+  sl_int k;
+  for (k = 0; k < S->n; k++) {
+    F->head[k] = -1;
+    F->x[k] = 0.0;
+  }
+  for (k = 0; k < S->n && status == SL_OK; k++) {
+    const sl_int s = S->super_of[k], q = k - S->super_first[s];
+    double *panel = sli_front_panel(F, s, 0), *diagonal, pivot, magnitude;
+    if (q == 0) {
+      const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
+      memset(panel, 0, (size_t)size * sizeof(double));
+      status = sli_double_panel_load(F, from, s, panel, failure);
+      if (status != SL_OK) {
+        break;
       }
     }
-  }
-}
-
-/* src/impl/factor/kept.h: supernodes whose numbers are those of another factor: copies them, and computes what the */
-
-typedef struct sli_kept {
-  const sl_factor *F;
-  const sl_int *from;
-  const sl_int *columns;
-  int is_subset;
-  int has_one_sign;
-  sl_int *local;
-  sl_int *relative;
-  double *update;
-  sl_off update_room;
-} sli_kept;
-
-SLI_INLINE int sli_is_kept(const sl_factor *F, sl_int s) {
-  return F->kept != NULL && F->kept->from[s] != -1;
-}
-
-static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
-  const sl_symbolic *S = G->S;
-  const uint64_t workers = (uint64_t)G->schedule.workers;
-  sl_status status = SL_OK;
-  sl_int s;
-  int pass;
-  p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
-  for (s = 0; s < S->n_supers; s++) {
-    const sli_step *step = &S->steps[s];
-    const sl_off size =
-      sli_triangle_offset(sli_update_tiles(step->width, step->below)) + SLI_TILE;
-    p->update_room = p->from[s] != -1 && size > p->update_room ? size : p->update_room;
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    p->local = SLI_TAKE(b, sl_int, workers * (uint64_t)S->n);
-    p->relative = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
-    p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
-    status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
+    diagonal = panel + sli_panel_at(S->steps[s].width, q, q);
+    pivot = *diagonal;
+    magnitude = fabs(pivot);
+    *diagonal = 0.0;
+    sli_row_solve_all(F, k, &pivot, &magnitude);
+    pivot = F->rule.replaces ? sli_pivot_by_rule(&F->rule, k, pivot, magnitude) : pivot;
+    F->D[k] = pivot;
+    status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
+    if (q == S->steps[s].width - 1) {
+      F->position[s] = 0;
+      sli_row_link(F, s);
+    }
   }
   return status;
-}
-
-static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int *keep,
-              sl_int count) {
-  const sl_int tiles = sli_tiles(w + count);
-  sl_int t, j, r;
-  for (t = w / SLI_TILE; t < tiles; t++) {
-    const double *at[SLI_TILE];
-    double *tile = to + sli_tile_offset(w, t);
-    for (r = 0; r < SLI_TILE; r++) {
-      const sl_int local = SLI_TILE * t + r, row = local < w           ? local
-                             : local < w + count ? keep[local - w]
-                                       : -1;
-      at[r] = row == -1 ? NULL : from + sli_panel_at(w, row, 0);
-    }
-    for (j = 0; j < w; j++) {
-      for (r = 0; r < SLI_TILE; r++) {
-        tile[j * SLI_TILE + r] = at[r] == NULL ? 0.0 : at[r][j * SLI_TILE];
-      }
-    }
-  }
-}
-
-static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
-  const sli_kept *p = G->kept;
-  const sl_factor *F = p->F;
-  const sl_int there = p->from[s];
-  const sli_step *step = &F->S->steps[there], *own = &G->S->steps[s];
-  const sl_int w = step->width, *rows = F->S->rows + F->S->rows_begin[there];
-  const double *from = (const double *)F->values + step->panel;
-  double *panel = (double *)G->values + own->panel;
-  int is_whole = own->below == step->below;
-  const sl_int searched = is_whole && p->is_subset ? 0 : own->below;
-  sl_int k, m;
-  for (k = 0, m = 0; k < searched; k++, m++) {
-    const sl_int row = p->columns[G->S->rows[G->S->rows_begin[s] + k]];
-    if (m >= step->below || rows[m] != row) {
-      m = sli_lower_bound(rows, step->below, row);
-    }
-    keep[k] = w + m;
-    is_whole &= m == k;
-  }
-  if (is_whole) {
-    memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
-  } else {
-    memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
-    sli_kept_rows(panel, from, w, keep, own->below);
-  }
-  memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
-  if (F->rule.shifts != NULL) {
-    memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
-         (size_t)w * sizeof(double));
-  }
-  G->extents[s] = F->extents[there];
-  if (G->extents[s].pivot != -1) {
-    G->extents[s].pivot += own->column - step->column;
-  }
-}
-
-static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
-                sl_int s, int has_one_sign) {
-  sl_int k;
-  sli_front_update(&G->kernels->fronts[0], f, p->buffer);
-  for (k = 0; k < f->below && !has_one_sign; k++) {
-    p->relative[k] = f->width + k;
-  }
-  if (!has_one_sign) {
-    sli_left_magnitudes(G, p, f, s, 0, f->below);
-  }
-}
-
-static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
-              int has_one_sign, double *update) {
-  const sl_symbolic *S = G->S;
-  const sli_front f = sli_front_of(G, s, worker);
-  const sl_int *rows = S->rows + S->rows_begin[s];
-  const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
-  sl_int k, d;
-  for (k = 0; k < f.below; k++) {
-    p->local[rows[k]] = f.width + k;
-  }
-  for (k = 0; k < SLI_TILE * tiles; k++) {
-    f.magnitude[k] = 0.0;
-  }
-  memset(f.update, 0,
-       (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
-  sli_kept_update_own(G, p, &f, s, has_one_sign);
-  for (d = s - 1; d >= S->first_descendant[s];) {
-    const sl_int below = S->steps[d].below;
-    const sl_int first =
-      sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
-    if (first < below) {
-      sli_left_update(G, p, &f, d, first, below, update);
-      if (!has_one_sign) {
-        sli_left_magnitudes(G, p, &f, d, first, below);
-      }
-      d--;
-    } else {
-      d = S->first_descendant[d] - 1;
-    }
-  }
-  for (k = f.width; k < f.width + f.below && has_one_sign; k++) {
-    const sl_int tile = k / SLI_TILE - whole, column = k - SLI_TILE * whole;
-    f.magnitude[k] =
-      fabs(f.update[sli_triangle_offset(tile) + (sl_off)column * SLI_TILE + k % SLI_TILE]);
-  }
-  sli_front_hand_over(&f);
-}
-
-static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
-  const sli_kept *p = G->kept;
-  const sl_int up = G->S->super_parent[s];
-  sli_left_work work;
-  work.local = p->local + (ptrdiff_t)worker * G->S->n;
-  work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
-  work.buffer = G->buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
-  sli_kept_copy(G, s, work.relative);
-  if (up != -1 && p->from[up] == -1) {
-    sli_kept_update(G, &work, s, worker, p->has_one_sign,
-            p->update + (ptrdiff_t)(p->update_room * worker));
-  }
-}
-
-static sl_status sli_super_factor(sl_factor *F, const sli_source *from, sl_int s, sl_int worker,
-                  sli_failure *failure) {
-  if (sli_is_kept(F, s)) {
-    sli_kept_run(F, s, worker);
-    return SL_OK;
-  }
-  return sli_front_factor(F, from, s, worker, failure);
 }
 
 /* src/impl/factor/front_tasks.h: the multifrontal factorization as a list of tasks from which workers draw */
@@ -16386,10 +13581,9 @@ enum { SLI_STEP_CLEAR, SLI_STEP_ASSEMBLE, SLI_STEP_ROWS };
 
 SLI_INLINE sl_int sli_piece_begin(const sli_step *s, const sli_top *top, sl_int piece) {
   const sl_int groups = sli_front_groups(s->width);
-  return piece < groups
-         ? SLI_GROUP_TILES * piece
-         : sli_min(sli_tiles(s->width) + (piece - groups) * top->piece_tiles,
-             sli_tiles(s->width + s->below));
+  return piece < groups ? SLI_GROUP_TILES * piece
+              : sli_min(sli_tiles(s->width) + (piece - groups) * top->piece_tiles,
+                  sli_tiles(s->width + s->below));
 }
 
 SLI_INLINE sl_int sli_piece_last_step(const sli_step *s, sl_int piece) {
@@ -16470,7 +13664,7 @@ static sli_task sli_job_draw(sli_job *job) {
   while (k < job->n_ready) {
     const sl_int at = p->ready[k];
     const sli_top *top = &p->tops[at];
-    const int is_whole = top->pieces == 0 || sli_is_kept(job->F, p->top[at]);
+    const int is_whole = top->pieces == 0 || sli_is_copied(job->F, p->top[at]);
     const int skip = !top->is_begun && p->top[at] > job->failed;
     if (is_whole || skip) {
       p->ready[k] = p->ready[--job->n_ready];
@@ -16535,22 +13729,6 @@ static void sli_job_return(sli_job *job, const sli_task *task, sl_status status)
   }
 }
 
-static sli_front sli_large_front(const sl_factor *F, sl_int s) {
-  const sli_step *step = &F->S->steps[s];
-  const ptrdiff_t rows = SLI_TILE * (ptrdiff_t)sli_tiles(step->width + step->below);
-  sli_front f = sli_front_of(F, s, 0);
-  if (sli_is_single(F)) {
-    f.single.magnitude = f.single.update + sli_update_size(step);
-    f.single.D = f.single.magnitude + rows;
-    f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width);
-    return f;
-  }
-  f.magnitude = f.update + (sli_update_size(step) >> f.is_complex);
-  f.reciprocals = f.magnitude + rows;
-  f.panel = sli_front_panel(F, s, F->schedule.workers);
-  return f;
-}
-
 static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   const sl_int s = F->schedule.top[task->at], piece = task->piece;
   const sli_step *step = &F->S->steps[s];
@@ -16558,39 +13736,28 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
   const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
   double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-  const sli_front_kernels *kernels = sli_front_kernels_of(F);
-  sli_front f = sli_large_front(F, s);
+  const sli_storage_type *type = F->type;
+  const sli_front f = type->shared(F, s, sli_max(group, 0));
   if (task->step == SLI_STEP_CLEAR) {
-    sli_front_clear(&f, t0, t1);
+    type->clear(&f, t0, t1);
   } else if (task->step == SLI_STEP_ASSEMBLE) {
-    sli_front_assemble(F, &f, s, worker, t0, t1);
+    type->assemble(F, &f, worker, t0, t1);
   } else if (task->step > sli_piece_last_step(step, piece)) {
-    kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+    F->front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+  } else if (group == piece) {
+    F->front->pivots(&f, SLI_GROUP_TILES * group, scratch);
   } else {
-    if (f.panel == NULL) {
-      f.single.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-    } else {
-      f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-    }
-    if (group == piece) {
-      kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
-    } else {
-      kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
-    }
+    F->front->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
   }
 }
 
 static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle, sl_int worker) {
   const sli_schedule *p = &F->schedule;
-  sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0, s;
+  sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0;
   for (; m < p->bundle_end[bundle]; m++) {
     sli_failure failure;
-    sl_status status = SL_OK;
-    for (s = p->first[m]; s <= p->last[m] && status == SL_OK; s++) {
-      status = sli_super_factor(F, from, s, worker, &failure);
-      if (status != SL_OK) {
-        sli_keep_first_failure(&F->failures[worker], &failure);
-      }
+    if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
+      sli_keep_first_failure(&F->failures[worker], &failure);
     }
   }
 }
@@ -16606,16 +13773,15 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
     sli_subtrees_run(F, from, task->at, worker);
     break;
   case SLI_TASK_FRONT:
-    (void)sli_super_factor(F, from, s, worker, &failure);
+    (void)F->type->factor(F, from, s, s, worker, &failure);
     break;
   case SLI_TASK_LOAD:
-    f = sli_large_front(F, s);
-    (void)sli_front_load(F, from, &f, s, &failure);
+    f = F->type->shared(F, s, 0);
+    (void)F->type->load(F, from, &f, &failure);
     break;
   case SLI_TASK_FINISH:
-    f = sli_large_front(F, s);
-    sli_front_hand_over(&f);
-    (void)sli_front_check(F, &f, s, &failure);
+    f = F->type->shared(F, s, 0);
+    (void)F->type->finish(F, &f, &failure);
     break;
   default:
     sli_piece_run(F, task, worker);
@@ -17136,10 +14302,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     F->center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
     F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
   }
-  F->values = sli_is_float(F)
-          ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
-          : (void *)SLI_TAKE(b, double,
-                     S->panel_begin[S->n_supers] >> sli_is_complex(F));
+  F->values =
+    sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
 }
 
 static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
@@ -17212,9 +14376,8 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     b.base = NULL;
     b.used = 0;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-      F->stack = sli_is_single(F)
-               ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
-               : SLI_TAKE(&b, double, F->schedule.stack >> sli_is_complex(F));
+      F->stack =
+        sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
       sli_schedule_layout_tops(&F->schedule, S, &b);
       F->stats.factor.bytes += pass == 0 ? b.used : 0;
       status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
@@ -17283,7 +14446,7 @@ SLI_INLINE double sli_limit(double option, double limit) {
   return option == 0.0 ? limit : option < 0.0 ? (double)INFINITY : option;
 }
 
-static double sli_limit_option(double limit) {
+SLI_INLINE double sli_limit_option(double limit) {
   return limit <= DBL_MAX ? limit : -1.0;
 }
 
@@ -17291,7 +14454,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
   F->null_pivots = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
-  F->rule.epsilon = sli_epsilon(F->storage);
+  F->rule.epsilon = F->type->epsilon;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
   F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
@@ -17299,9 +14462,8 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
   F->consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-  F->growth_limit =
-    sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-          sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
+  F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+                sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -17375,8 +14537,8 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   F->schedule.workers = 1;
   if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
     F->threads = opt->threads;
-    F->schedule.workers = sli_min(
-      sli_workers_for(&opt->threads, sli_schedule_flops(F->S)), sli_max(F->S->n_supers, 1));
+    F->schedule.workers = sli_min(sli_workers_for(&opt->threads, sli_schedule_flops(F->S)),
+                    sli_max(F->S->n_supers, 1));
   }
   if (F->kernels == NULL) {
     F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
@@ -17386,12 +14548,10 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   }
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
-  F->stats.storage = (sl_off)F->storage;
+  F->sweeps = F->type->sweeps(F->kernels);
+  F->front = F->type->front(F->kernels);
+  F->stats.storage = (sl_off)F->type->storage;
   return SL_OK;
-}
-
-static int sli_complex_is_possible(const sl_factor *F) {
-  return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
 }
 
 static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, const sl_options *opt,
@@ -17407,12 +14567,14 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.S = S;
   draft.kernels = kernels;
   draft.analysis = S->identity;
-  draft.storage = opt == NULL ? SL_STORAGE_DOUBLE : opt->storage;
+  draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
+  if (draft.type == NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
   status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
-           (S->n_pairs > 0 && sli_is_single(&draft)) ||
-           (sli_is_complex(&draft) && !sli_complex_is_possible(&draft))
+           (draft.type->suits != NULL && !draft.type->suits(&draft))
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -17467,7 +14629,7 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
                                          : SL_ERR_PATTERN;
 }
 
-static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
+SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
   return F->is_valid && sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A)
                                    : SL_ERR_STATE;
 }
@@ -17538,8 +14700,8 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
   F->stats.factor.seconds = sli_seconds() - started;
   F->is_valid = failure->status == SL_OK;
   if (F->is_valid) {
-    const sl_int storage = (sl_int)F->storage;
-    if (F->storage != SL_STORAGE_DOUBLE) {
+    const sl_int storage = (sl_int)F->type->storage;
+    if (F->type->storage != SL_STORAGE_DOUBLE) {
       F->identity = sli_hash_ints(F->identity, &storage, 1);
     }
     F->identity = sli_hash_words(F->identity, F->D, F->S->n);
@@ -17597,7 +14759,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
       (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
     }
   }
-  if (sli_is_complex(F) && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
+  if (F->type->accepts != NULL && !F->type->accepts(from)) {
     (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
   }
   if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
@@ -17658,160 +14820,6 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
   }
   status = sli_factor_check(S, A);
   return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
-}
-
-/* src/impl/factor/leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
-
-static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
-  p->local = SLI_TAKE(b, sl_int, S->n);
-  p->relative = SLI_TAKE(b, sl_int, S->tallest);
-}
-
-static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                 sl_int s, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sli_front f = sli_front_of(F, s, 0);
-  const sl_int *rows = S->rows + S->rows_begin[s];
-  const sl_int start = S->super_first[s], end = S->super_first[s + 1];
-  sl_int k, d;
-  sl_status status;
-  for (k = 0; k < f.width; k++) {
-    p->local[start + k] = k;
-  }
-  for (k = 0; k < f.below; k++) {
-    p->local[rows[k]] = f.width + k;
-  }
-  memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
-  status = sli_front_load(F, from, &f, s, failure);
-  if (status != SL_OK) {
-    return status;
-  }
-  for (d = s - 1; d >= S->first_descendant[s];) {
-    const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
-    const sl_int first = sli_lower_bound(of, below, start);
-    const sl_int last = first + sli_lower_bound(of + first, below - first, end);
-    if (first < last) {
-      sli_left_update(F, p, &f, d, first, last, F->stack);
-      sli_left_magnitudes(F, p, &f, d, first, last);
-      d--;
-    } else {
-      d = S->first_descendant[d] - 1;
-    }
-  }
-  sli_front_eliminate(&F->kernels->fronts[0], &f, F->buffer);
-  return sli_front_check(F, &f, s, failure);
-}
-
-static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                   const uint64_t *seeds, sl_int count, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_status status = SL_OK;
-  sl_int k = 0, s, next;
-  while (k < count && status == SL_OK) {
-    s = S->super_of[sli_key(seeds[k])];
-    next = sli_next_seed(S, seeds, count, &k);
-    for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
-      status = sli_left_factor(F, p, from, s, failure);
-    }
-  }
-  return status;
-}
-
-static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
-                sl_int count, uint64_t *seeds, uint64_t *scratch) {
-  sl_int k, p, total = 0;
-  for (k = 0; k < count; k++) {
-    const sl_int j = S->iperm[columns[k]];
-    sl_int last = INT32_MAX;
-    for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
-      const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
-      if (seed != last) {
-        seeds[total++] = sli_keyed(seed, 0);
-        last = seed;
-      }
-    }
-  }
-  sli_sort(seeds, total, scratch);
-  return total;
-}
-
-static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                   const uint64_t *seeds, sl_int count, double started,
-                   sl_stats *stats) {
-  sli_failure failure;
-  memset(&failure, 0, sizeof failure);
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    (void)sli_null_vectors_check(F, from, &failure);
-  }
-  if (failure.status == SL_OK && !sli_nulls_remain(F)) {
-    return sli_factor_numbers(F, from, started, stats);
-  }
-  if (failure.status == SL_OK) {
-    (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
-  }
-  if (failure.status == SL_OK && sli_null_is_suspected(F)) {
-    return sli_factor_numbers(F, from, started, stats);
-  }
-  return sli_factor_done(F, from, &failure, started, stats);
-}
-
-static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                       sl_int count, const uint64_t *given, sl_int n_given,
-                       sl_stats *stats) {
-  const double started = sli_seconds();
-  const sli_source from = sli_source_matrix(A);
-  sli_left_work work;
-  sli_block b = {NULL, 0, 0};
-  uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
-  sl_status status;
-  sl_int k;
-  int pass;
-  sli_stats_clear_error(stats);
-  if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
-  if (status != SL_OK) {
-    return status;
-  }
-  for (k = 0; k < count; k++) {
-    if (columns[k] < 0 || columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
-    }
-    entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
-  }
-  if (F->method != SL_METHOD_SUPERNODAL || F->storage != SL_STORAGE_DOUBLE ||
-    entries >= (uint64_t)sli_nnz(A)) {
-    return sl_factor_refactor(F, A, stats);
-  }
-  status = sli_factor_prepare(F);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    seeds = SLI_TAKE(&b, uint64_t, entries);
-    scratch = SLI_TAKE(&b, uint64_t, entries);
-    sli_left_work_layout(&work, &b, F->S);
-    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  work.buffer = F->buffer;
-  sli_factor_begin(F);
-  for (k = 0; k < count; k++) {
-    const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
-    F->identity = sli_hash_ints(F->identity, &columns[k], 1);
-    F->identity = sli_hash_words(F->identity, A->x + p, q - p);
-  }
-  count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-  status = sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started,
-                 stats);
-  F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
-  sli_free(&F->allocator, b.base);
-  return status;
-}
-
-SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                      sl_int count, sl_stats *stats) {
-  return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
 }
 
 /* src/impl/factor/factor_query.h: read access to a factor: statistics, null rows, determinant, L as a matrix */
@@ -17941,7 +14949,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
   sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL};
   if (F != NULL) {
     v.symbolic = F->S;
-    v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
+    v.L = F->type->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
     v.L_float = sli_is_float(F) ? (const float *)F->values : NULL;
     v.D = F->D;
     v.E = F->E;
@@ -17949,171 +14957,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
   return v;
 }
 
-/* src/impl/factor/combination.h: factorization of a weighted sum of value arrays in the order of the scatter map */
-
-static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
-                   const double *const *values, sl_int terms, sli_source *from) {
-  sl_int t;
-  if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
-    return SL_ERR_ARGUMENT;
-  }
-  for (t = 0; t < terms; t++) {
-    if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
-      return SL_ERR_ARGUMENT;
-    }
-  }
-  from->A = NULL;
-  from->values = values;
-  from->coefficients = coefficients;
-  from->terms = terms;
-  return SL_OK;
-}
-
-SL_API sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
-                        const double *coefficients,
-                        const double *const *values, sl_int terms,
-                        const sl_options *opt, sl_stats *stats) {
-  sli_source from;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (S == NULL || !sli_factor_options_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_source_of_sum(S, coefficients, values, terms, &from);
-  return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
-}
-
-SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coefficients,
-                        const double *const *values, sl_int terms,
-                        sl_stats *stats) {
-  const double started = sli_seconds();
-  sli_source from;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  if (F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (!sli_factor_may_change(F)) {
-    return SL_ERR_STATE;
-  }
-  status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
-  status = status == SL_OK ? sli_factor_prepare(F) : status;
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_factor_begin(F);
-  return sli_factor_numbers(F, &from, started, stats);
-}
-
 /* solve: full and local solves */
-/* src/impl/solve/region_types.h: the region object, and the product with its cached inverse */
-
-struct sl_region {
-  sl_allocator allocator;
-  const sl_symbolic *S;
-  sli_hash analysis;
-  sli_hash identity;
-  sli_numbers numbers;
-  sli_region_extent extent;
-  sl_int *roots, *rows;
-  sl_int *requested;
-  sl_int *relative;
-  sl_off *begin;
-  double *Z;
-  int is_copied;
-  int is_mapped;
-  int is_immutable;
-  double seconds;
-  size_t bytes;
-};
-
-#define SLI_REGION_COLUMNS 8
-
-SLI_INLINE sl_int sli_region_chunks(sl_int rows) {
-  return rows / SLI_REGION_COLUMNS + (rows % SLI_REGION_COLUMNS != 0);
-}
-
-SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
-  sli_step step;
-  step.panel = R->begin[first / SLI_REGION_COLUMNS];
-  step.column = 0;
-  step.base = first;
-  step.width = sli_min(SLI_REGION_COLUMNS, R->extent.n_rows - first);
-  step.below = R->extent.n_rows - first;
-  step.first_tile = 0;
-  step.up = -1;
-  return step;
-}
-
-static sl_off sli_region_entries(sl_int rows) {
-  sl_off size = 0;
-  sl_int first;
-  for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
-    size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
-  }
-  return size;
-}
-
-static void sli_region_layout(sl_region *R, sli_block *b) {
-  const sl_int rows = R->extent.n_rows;
-  (void)sli_take(b, 1, sizeof(sl_region));
-  R->roots = SLI_TAKE(b, sl_int, R->extent.n_roots);
-  R->rows = SLI_TAKE(b, sl_int, rows);
-  R->requested = SLI_TAKE(b, sl_int, rows);
-  R->relative = SLI_TAKE(b, sl_int, rows);
-  R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
-  R->Z = R->is_mapped ? R->Z : SLI_TAKE(b, double, sli_region_entries(rows));
-  R->bytes = b->used;
-}
-
-SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
-  return sli_numbers_are_of(&R->numbers, F);
-}
-
-SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
-  return 3 * (uint64_t)R->extent.n_rows * (uint64_t)lanes;
-}
-
-SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
-  return sli_sweep_scratch(SLI_REGION_COLUMNS + R->extent.n_rows, SLI_REGION_COLUMNS, lanes);
-}
-
-typedef struct sli_boundary_use {
-  const unsigned char *b, *x;
-  sl_off entries;
-} sli_boundary_use;
-
-static void sli_region_apply(const sl_region *R, const sli_boundary_use *boundary,
-               const sli_kernels *kernels, int kind, const double *u, double *x,
-               double *vectors, double *scratch) {
-  static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-  const sli_sweeps *sweeps = &kernels->sweeps[SL_STORAGE_DOUBLE];
-  const sl_int n = R->extent.n_rows;
-  const size_t size = (size_t)n << kind;
-  sl_int first;
-  if (n == 0) {
-    return;
-  }
-  memcpy(vectors, u, size * sizeof(double));
-  memset(vectors + size, 0, size * sizeof(double));
-  memcpy(vectors + 2 * size, u, size * sizeof(double));
-  for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
-    const sli_step step = sli_region_step(R, first);
-    if (boundary->b[first / SLI_REGION_COLUMNS]) {
-      sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
-    }
-    if (boundary->x[first / SLI_REGION_COLUMNS]) {
-      sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                   scratch);
-    }
-  }
-  memcpy(x, vectors + size, size * sizeof(double));
-}
-
 /* src/impl/solve/work.h: the workspace: one block of scratch memory that only grows */
 
 struct sl_work {
@@ -18216,18 +15060,41 @@ SL_API size_t sl_work_bytes(const sl_work *W) {
 
 /* src/impl/solve/query.h: the query, a compiled solve, and moving right-hand sides in and out of it */
 
+typedef struct sli_ending {
+  const struct sli_ending_calls *calls;
+  sl_int rows;
+} sli_ending;
+
+typedef struct sli_ending_use {
+  sli_hash identity;
+  const unsigned char *b, *x;
+  sl_off entries;
+} sli_ending_use;
+
 typedef struct sli_query {
   const sl_symbolic *S;
-  sli_hash analysis, extent;
+  sli_hash analysis;
   sl_int nb, nx;
   int is_shared;
   int b_repeats;
   sli_reach forward, backward;
   const sl_int *b_index;
   const sl_int *x_index;
-  sli_boundary_use boundary;
-  const sl_region *region;
+  const sli_ending *ending;
+  sli_ending_use used;
 } sli_query;
+
+struct sli_set;
+struct sli_vectors;
+typedef struct sli_ending_calls {
+  int (*belongs)(const sli_ending *e, const sl_symbolic *S);
+  int (*place)(const sli_ending *e, struct sli_set *b, struct sli_set *x);
+  void (*finish)(const sli_ending *e, sli_query *q, struct sli_set *b, struct sli_set *x);
+  int (*fits)(const sli_query *q, const sl_factor *F);
+  uint64_t (*vectors)(const sli_ending *e, sl_int lanes);
+  size_t (*scratch)(const sli_ending *e, sl_int lanes);
+  void (*apply)(const sl_factor *F, const sli_query *q, int kind, const struct sli_vectors *v);
+} sli_ending_calls;
 
 static sli_query sli_query_all(const sl_symbolic *S) {
   sli_query q;
@@ -18238,15 +15105,14 @@ static sli_query sli_query_all(const sl_symbolic *S) {
   q.b_repeats = 0;
   q.forward = q.backward = sli_reach_all(S);
   q.b_index = q.x_index = S->iperm;
-  q.region = NULL;
-  q.boundary.entries = 0;
+  q.ending = NULL;
+  q.used.entries = 0;
   return q;
 }
 
 SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
   return F->is_valid && sli_factor_is_over(F, q->S, q->analysis) &&
-       (q->region == NULL || (sli_hash_equals(q->extent, q->region->identity) &&
-                  sli_region_fits(q->region, F)));
+       (q->ending == NULL || q->ending->calls->fits(q, F));
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
@@ -18275,14 +15141,14 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const size_t forward = sli_sweep_scratch(q->forward.tallest, q->forward.widest, lanes);
   const size_t backward = sli_sweep_scratch(q->backward.tallest, q->backward.widest, lanes);
-  const size_t across = q->region == NULL ? 0 : sli_region_scratch(q->region, lanes);
+  const size_t across = q->ending == NULL ? 0 : q->ending->calls->scratch(q->ending, lanes);
   const size_t most = forward > backward ? forward : backward;
   v->y = SLI_TAKE_INLINE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
   v->x = q->is_shared
          ? v->y
          : SLI_TAKE_INLINE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
-  v->product =
-    SLI_TAKE_INLINE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
+  v->product = SLI_TAKE_INLINE(
+    b, double, q->ending == NULL ? 0 : q->ending->calls->vectors(q->ending, lanes));
   v->scratch = SLI_TAKE_INLINE(b, double, most > across ? most : across);
 }
 
@@ -18385,10 +15251,9 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
     sl_int first, r;
     for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
-        kernels->interleave(y + r, lanes, index + first,
-                  sli_min(SLI_PACK_CHUNK, count - first),
-                  B + (size_t)first + (size_t)r * at.column, at.column,
-                  is_streamed);
+        kernels->interleave(
+          y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
+          B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
       }
     }
   } else if (nrhs % 8 == 0) {
@@ -19064,14 +15929,6 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
   }
 }
 
-static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
-               const sli_vectors *v) {
-  const ptrdiff_t n = q->region->extent.n_rows;
-  sli_region_apply(q->region, &q->boundary, F->kernels, kind,
-           v->y + ((q->forward.columns - n) << kind),
-           v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
-}
-
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
                 sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
@@ -19109,7 +15966,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
   if (F->checks) {
     sli_norms(&q->forward, v->y, lanes, norms);
-    if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
+    if (F->null_vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
       !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
       return 0;
     }
@@ -19125,8 +15982,8 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   if (!q->is_shared) {
     sli_sweep_transfer(q, v->y, v->x, lanes);
   }
-  if (q->region != NULL) {
-    sli_sweep_region(F, q, kind, v);
+  if (q->ending != NULL) {
+    q->ending->calls->apply(F, q, kind, v);
   }
   if (F->is_centered || F->null_vectors > 1) {
     sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
@@ -19274,7 +16131,8 @@ typedef struct sli_set {
   sl_int *index;
   sli_step *steps;
   sl_int *row_index;
-  unsigned char *boundary;
+  unsigned char *marks;
+  sl_int n_marks;
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -19296,8 +16154,7 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
     set->index = SLI_TAKE_INLINE(b, sl_int, set->count);
     set->steps = SLI_TAKE_INLINE(b, sli_step, R->count);
     set->row_index = SLI_TAKE_INLINE(b, sl_int, R->n_rows);
-    set->boundary = SLI_TAKE_INLINE(
-      b, unsigned char, set->extent == NULL ? 0 : sli_region_chunks(set->extent->n_rows));
+    set->marks = SLI_TAKE_INLINE(b, unsigned char, set->n_marks);
   }
 }
 
@@ -19323,66 +16180,12 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
   return SL_OK;
 }
 
-static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
-               const sli_region_extent *extent) {
-  sl_int k;
-  for (k = 0; set->rows != NULL && k < set->count; k++) {
-    const sl_int column = sli_key(set->seeds[k]);
-    if (sli_extent_find(S, extent, S->super_of[column]) == -1 &&
-      sli_extent_boundary(extent, column) == -1) {
-      return 0;
-    }
-  }
-  return set->rows != NULL;
-}
-
-static void sli_set_partition(const sl_symbolic *S, sli_set *set, const sli_region_extent *extent) {
-  sl_int k, inside = 0, rest = 0;
-  for (k = 0; k < set->count; k++) {
-    if (sli_extent_find(S, extent, S->super_of[sli_key(set->seeds[k])]) != -1) {
-      set->seeds[inside++] = set->seeds[k];
-    } else {
-      set->scratch[rest++] = set->seeds[k];
-    }
-  }
-  for (k = 0; k < rest; k++) {
-    set->seeds[inside + k] = set->scratch[k];
-  }
-  set->inside = inside;
-  set->extent = extent;
-}
-
 static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach *R) {
   if (set->rows == NULL) {
     *R = sli_reach_all(S);
   } else {
     sli_reach_measure_within(S, set->extent, set->seeds, set->inside, R);
   }
-}
-
-static void sli_set_mark(sli_set *set, const sli_reach *R) {
-  const sl_int n = set->extent->n_rows, base = R->columns - n;
-  const sl_int *rows = R->rows;
-  sl_int k, i;
-  memset(set->boundary, 0, (size_t)sli_region_chunks(n));
-  for (k = set->inside; k < set->count; k++) {
-    set->boundary[(set->index[sli_value(set->seeds[k])] - base) / SLI_REGION_COLUMNS] = 1;
-  }
-  for (k = 0; k < R->count; k++) {
-    for (i = 0; R->steps[k].up == -1 && i < R->steps[k].below; i++) {
-      set->boundary[(rows[i] - base) / SLI_REGION_COLUMNS] = 1;
-    }
-    rows += R->steps[k].below;
-  }
-}
-
-static sl_off sli_boundary_entries(const sl_region *R, const sli_set *b, const sli_set *x) {
-  sl_off sum = 0;
-  sl_int k;
-  for (k = 0; k < sli_region_chunks(R->extent.n_rows); k++) {
-    sum += b->boundary[k] || x->boundary[k] ? R->begin[k + 1] - R->begin[k] : 0;
-  }
-  return sum;
 }
 
 static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **index) {
@@ -19400,9 +16203,6 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
       R->columns - set->extent->n_rows +
       sli_extent_boundary(set->extent, sli_key(set->seeds[k]));
   }
-  if (set->extent != NULL) {
-    sli_set_mark(set, R);
-  }
   *index = set->index;
 }
 
@@ -19419,33 +16219,32 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
   return 1;
 }
 
-static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *region, sli_set *b,
+static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sli_ending *ending, sli_set *b,
                sli_set *x) {
   q->S = S;
   q->analysis = S->identity;
-  q->extent = region == NULL ? S->identity : region->identity;
-  q->region = region;
+  q->ending = ending;
   q->nb = b->count;
   q->nx = x->count;
   q->b_repeats = b->repeats;
   sli_set_fill(S, b, &q->forward, &q->b_index);
   sli_set_fill(S, x, &q->backward, &q->x_index);
   q->is_shared = sli_reach_equal(&q->forward, &q->backward);
-  q->boundary.b = b->boundary;
-  q->boundary.x = x->boundary;
-  q->boundary.entries = region == NULL ? 0 : sli_boundary_entries(region, b, x);
+  if (ending != NULL) {
+    ending->calls->finish(ending, q, b, x);
+  }
 }
 
 static void sli_query_stats(const sli_query *q, sl_stats *stats) {
-  const sl_int boundary = q->region == NULL ? 0 : q->region->extent.n_rows;
+  const sl_int boundary = q->ending == NULL ? 0 : q->ending->rows;
   stats->plan.b_supernodes = q->forward.count;
   stats->plan.b_columns = q->forward.columns - boundary;
   stats->plan.b_entries = q->forward.entries;
   stats->plan.x_supernodes = q->backward.count;
   stats->plan.x_columns = q->backward.columns - boundary;
   stats->plan.x_entries = q->backward.entries;
-  stats->plan.in_region = q->region != NULL;
-  stats->plan.region_entries = q->boundary.entries;
+  stats->plan.in_region = q->ending != NULL;
+  stats->plan.region_entries = q->used.entries;
 }
 
 static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,
@@ -19469,7 +16268,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sl_plan *P = NULL;
   sli_query query;
-  const sl_region *region = opt == NULL ? NULL : opt->region;
+  const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
   sli_set b, x;
   sl_status status;
   int pass;
@@ -19480,8 +16279,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   *out = NULL;
   status = sli_options_are_valid(opt, SLI_READS_REGION) ? sli_check_sets(S, bset, nb, xset, nx)
                               : SL_ERR_ARGUMENT;
-  if (status == SL_OK && region != NULL &&
-    (region->S != S || !sli_hash_equals(region->analysis, S->identity))) {
+  if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
     status = SL_ERR_STATE;
   }
   if (status != SL_OK) {
@@ -19497,14 +16295,10 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   }
   status = status == SL_OK ? sli_set_sort(S, &b, stats) : status;
   status = status == SL_OK ? sli_set_sort(S, &x, stats) : status;
-  if (status == SL_OK && region != NULL && sli_set_is_within(S, &b, &region->extent) &&
-    sli_set_is_within(S, &x, &region->extent)) {
-    sli_set_partition(S, &b, &region->extent);
-    sli_set_partition(S, &x, &region->extent);
-  } else {
-    region = NULL;
-  }
   if (status == SL_OK) {
+    if (ending != NULL && !ending->calls->place(ending, &b, &x)) {
+      ending = NULL;
+    }
     sli_set_measure(S, &b, &query.forward);
     sli_set_measure(S, &x, &query.backward);
   }
@@ -19515,7 +16309,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
   }
   if (status == SL_OK) {
-    sli_query_fill(&query, S, region, &b, &x);
+    sli_query_fill(&query, S, ending, &b, &x);
     P->allocator = a;
     P->bytes = kept.used;
     P->query = query;
@@ -19713,7 +16507,9 @@ SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int 
   return sli_work_block(W, &b);
 }
 
-/* src/impl/solve/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
+/* accuracy: refinement, condition, defects, half solves */
+#if defined(SL_WITH_ACCURACY)
+/* src/impl/accuracy/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
 
 typedef struct sli_parts {
   const sl_factor *F;
@@ -19941,7 +16737,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   if (!sli_factor_is_over(F, P->query.S, P->query.analysis)) {
     return SL_ERR_STATE;
   }
-  if (P->query.region != NULL) {
+  if (P->query.ending != NULL) {
     return SL_ERR_UNSUPPORTED;
   }
   memset(&p, 0, sizeof p);
@@ -19960,7 +16756,7 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
     (part != SL_PART_L && part != SL_PART_LT)) {
     return SL_ERR_ARGUMENT;
   }
-  if (P->query.region != NULL) {
+  if (P->query.ending != NULL) {
     return SL_ERR_UNSUPPORTED;
   }
   R = part == SL_PART_L ? &P->query.forward : &P->query.backward;
@@ -20002,7 +16798,7 @@ SL_API sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P, sl_int 
                         : sli_parts_reserve(W, &P->query, nrhs);
 }
 
-/* src/impl/solve/refine.h: sl_factor_refine: refinement by the componentwise backward error */
+/* src/impl/accuracy/refine.h: sl_factor_refine: refinement by the componentwise backward error */
 
 typedef struct sli_refinement {
   const sl_factor *F;
@@ -20181,7 +16977,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   return status == SL_OK ? sli_refine_done(F, stats, steps, f.steps, worst) : status;
 }
 
-/* src/impl/solve/refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
+/* src/impl/accuracy/refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
 
 typedef struct sli_local_refinement {
   const sl_factor *F;
@@ -20383,7 +17179,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   if (!sli_query_fits(&P->query, F)) {
     return SL_ERR_STATE;
   }
-  if (P->query.region != NULL) {
+  if (P->query.ending != NULL) {
     return SL_ERR_UNSUPPORTED;
   }
   memset(&f, 0, sizeof f);
@@ -20397,7 +17193,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   return status;
 }
 
-/* src/impl/solve/rcond.h: sl_factor_rcond: reciprocal condition number by the Hager-Higham estimator */
+/* src/impl/accuracy/rcond.h: sl_factor_rcond: reciprocal condition number by the Hager-Higham estimator */
 
 #define SLI_ROUNDING_ERROR 64.0
 
@@ -20556,7 +17352,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
   return status;
 }
 
-/* src/impl/solve/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
+/* src/impl/accuracy/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
 
 static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
             const double *B, size_t ldb, sl_int nrhs, void *memory) {
@@ -20614,7 +17410,1022 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   return status;
 }
 
+#endif
+/* pivots: the order of the pivots by the values of a matrix */
+#if defined(SL_WITH_PIVOTS)
+/* src/impl/pivots/pivot_search.h: a multifrontal factorization that only selects 1x1 and 2x2 pivots by values */
+
+#define SLI_PIVOT_THRESHOLD 0.01
+
+typedef struct sli_contribution {
+  void *block;
+  sl_int delayed;
+  sl_int count;
+  sl_int *index;
+  double *values;
+} sli_contribution;
+
+typedef struct sli_dense_front {
+  sl_int rows, columns;
+  sl_int *index;
+  double *values;
+  double *D, *E;
+} sli_dense_front;
+
+typedef struct sli_pivot_search {
+  const sl_symbolic *S;
+  sl_allocator allocator;
+  sli_contribution *contributions;
+  sl_int *local;
+  sl_int *order;
+  unsigned char *is_first;
+  sl_int selected;
+  sl_int delayed;
+  void *front_block;
+  size_t front_size;
+} sli_pivot_search;
+
+SLI_INLINE double *sli_dense_column(const sli_dense_front *f, sl_int j) {
+  return f->values + (size_t)f->rows * (size_t)j;
+}
+
+static double sli_column_max(const double *column, sl_int first, sl_int last, sl_int a, sl_int b,
+               sl_int *row) {
+  double most = 0.0;
+  sl_int i;
+  for (i = first; i < last; i++) {
+    const double size = fabs(column[i]);
+    if (size > most && i != a && i != b) {
+      most = size;
+      *row = i;
+    }
+  }
+  return most;
+}
+
+static int sli_pivot_test(const sli_dense_front *f, sl_int k, sl_int c, sl_int *partner) {
+  const double *column = sli_dense_column(f, c), *other;
+  sl_int t = -1, row = -1;
+  double e, most, rest, a, b, room, rest_t;
+  e = sli_column_max(column, k, f->columns, c, c, &t);
+  rest = sli_column_max(column, f->columns, f->rows, c, c, &row);
+  most = e > rest ? e : rest;
+  if (fabs(column[c]) >= SLI_PIVOT_THRESHOLD * most && (column[c] != 0.0 || most == 0.0)) {
+    return 1;
+  }
+  if (t == -1) {
+    return 0;
+  }
+  other = sli_dense_column(f, t);
+  rest = sli_column_max(column, k, f->rows, c, t, &row);
+  rest_t = sli_column_max(other, k, f->rows, c, t, &row);
+  a = fabs(column[c] / e);
+  b = fabs(other[t] / e);
+  room = e * fabs(column[c] / e * (other[t] / e) - 1.0) / SLI_PIVOT_THRESHOLD;
+  *partner = t;
+  return b * rest + rest_t <= room && rest + a * rest_t <= room ? 2 : 0;
+}
+
+static void sli_dense_swap(sli_dense_front *f, sl_int i, sl_int j) {
+  double *a = sli_dense_column(f, i), *b = sli_dense_column(f, j);
+  const sl_int index = f->index[i];
+  sl_int k;
+  if (i == j) {
+    return;
+  }
+  for (k = 0; k < f->rows; k++) {
+    const double keep = a[k];
+    a[k] = b[k];
+    b[k] = keep;
+  }
+  for (k = 0; k < f->columns; k++) {
+    double *column = sli_dense_column(f, k);
+    const double keep = column[i];
+    column[i] = column[j];
+    column[j] = keep;
+  }
+  f->index[i] = f->index[j];
+  f->index[j] = index;
+}
+
+static void sli_dense_eliminate(sli_dense_front *f, sl_int k, int size) {
+  double *u = sli_dense_column(f, k), *v = u;
+  const double inverse = u[k] == 0.0 ? 0.0 : 1.0 / u[k];
+  sl_int i, j;
+  sli_pair_steps steps;
+  memset(&steps, 0, sizeof steps);
+  f->D[k] = u[k];
+  f->E[k] = 0.0;
+  if (size == 2) {
+    v = sli_dense_column(f, k + 1);
+    f->E[k] = u[k + 1];
+    f->D[k + 1] = v[k + 1];
+    f->E[k + 1] = 0.0;
+    steps = sli_pair_eliminate(u[k], v[k + 1], u[k + 1]);
+  }
+  for (j = k + size; j < f->columns; j++) {
+    double *column = sli_dense_column(f, j);
+    double x = inverse * u[j], y;
+    if (size == 2) {
+      sli_pair_solve(&steps, u[j], v[j], &x, &y);
+      for (i = k + 2; i < f->rows; i++) {
+        column[i] -= u[i] * x + v[i] * y;
+      }
+    } else if (x != 0.0) {
+      for (i = k + 1; i < f->rows; i++) {
+        column[i] -= u[i] * x;
+      }
+    }
+  }
+  for (i = k + size; i < f->rows; i++) {
+    if (size == 2) {
+      sli_pair_solve(&steps, u[i], v[i], &u[i], &v[i]);
+    } else {
+      u[i] *= inverse;
+    }
+  }
+}
+
+static sl_int sli_dense_factor(sli_pivot_search *p, sli_dense_front *f) {
+  sl_int k = 0, c = 0, failures = 0;
+  while (k < f->columns && failures < f->columns - k) {
+    sl_int partner = -1;
+    const int size = sli_pivot_test(f, k, c, &partner);
+    failures = size == 0 ? failures + 1 : 0;
+    if (size > 0) {
+      sli_dense_swap(f, k, c);
+      if (size == 2) {
+        sli_dense_swap(f, k + 1, partner == k ? c : partner);
+      }
+      sli_dense_eliminate(f, k, size);
+      p->is_first[p->selected] = (unsigned char)(size == 2);
+      p->order[p->selected++] = f->index[k];
+      if (size == 2) {
+        p->is_first[p->selected] = 0;
+        p->order[p->selected++] = f->index[k + 1];
+      }
+      k += size;
+    }
+    c = c + 1 < f->columns ? sli_max(c + 1, k) : k;
+  }
+  return k;
+}
+
+static void sli_dense_update(const sli_dense_front *f, sl_int pivots) {
+  sl_int i, j, k, m;
+  for (j = f->columns; j < f->rows; j++) {
+    double *to = sli_dense_column(f, j);
+    for (k = 0; k < pivots; k += 4) {
+      const double *l[4];
+      double x[4];
+      for (m = 0; m < 4; m++) {
+        const sl_int c = sli_min(k + m, pivots - 1);
+        l[m] = sli_dense_column(f, c);
+        x[m] = k + m < pivots ? f->D[c] * l[m][j] : 0.0;
+        if (k + m < pivots && f->E[c] != 0.0) {
+          x[m] += f->E[c] * sli_dense_column(f, c + 1)[j];
+        } else if (k + m < pivots && c > 0 && f->E[c - 1] != 0.0) {
+          x[m] += f->E[c - 1] * sli_dense_column(f, c - 1)[j];
+        }
+      }
+      for (i = j; i < f->rows; i++) {
+        to[i] -= l[0][i] * x[0] + l[1][i] * x[1] + (l[2][i] * x[2] + l[3][i] * x[3]);
+      }
+    }
+  }
+}
+
+SLI_INLINE void sli_dense_add(const sli_dense_front *f, sl_int i, sl_int j, double value) {
+  const sl_int low = sli_min(i, j), high = sli_max(i, j);
+  sli_dense_column(f, low)[high] += value;
+  if (high < f->columns && low != high) {
+    sli_dense_column(f, high)[low] += value;
+  }
+}
+
+static sl_status sli_search_load(const sli_pivot_search *p, const sl_csc *A, sl_int s,
+                 const sli_dense_front *f, sl_stats *stats) {
+  const sl_symbolic *S = p->S;
+  sl_int tile = sli_last_tile(S, s), i, j;
+  sl_off m;
+  for (m = S->scatter_begin[s + 1] - 1; m >= S->scatter_begin[s]; m--) {
+    const sl_int from = S->scatter_from[m];
+    if (!sli_is_finite(A->x[from])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[from], sli_column_of(A, from),
+                 A->x[from]);
+    }
+    sli_scatter_map_pivots(S, s, m, &tile, &i, &j);
+    sli_dense_add(f, p->local[i], p->local[j], A->x[from]);
+  }
+  return SL_OK;
+}
+
+static void sli_search_assemble(const sli_pivot_search *p, const sli_contribution *c,
+                const sli_dense_front *f) {
+  sl_int i, j;
+  for (j = 0; j < c->count; j++) {
+    const double *column = c->values + (size_t)c->count * (size_t)j;
+    const sl_int to = p->local[c->index[j]];
+    for (i = j; i < c->count; i++) {
+      sli_dense_add(f, p->local[c->index[i]], to, column[i]);
+    }
+  }
+}
+
+static sl_status sli_search_front(sli_pivot_search *p, sl_int s, sli_dense_front *f) {
+  const sl_symbolic *S = p->S;
+  sli_block b = {NULL, 0, 0};
+  sl_int c, k, at = 0;
+  int pass;
+  f->columns = S->steps[s].width;
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    f->columns += p->contributions[c].delayed;
+  }
+  f->rows = f->columns + S->steps[s].below;
+  for (pass = 0; pass < 2; pass++) {
+    f->index = SLI_TAKE(&b, sl_int, f->rows);
+    f->D = SLI_TAKE(&b, double, f->columns);
+    f->E = SLI_TAKE(&b, double, f->columns);
+    f->values = SLI_TAKE(&b, double, (uint64_t)f->rows *(uint64_t)f->rows);
+    if (b.overflow) {            /* untested: on 32 bits only */
+      return SL_ERR_TOO_LARGE; /* untested: the same */
+    }
+    if (pass == 0 && b.used > p->front_size) {
+      sli_free(&p->allocator, p->front_block);
+      p->front_size = 0;
+      p->front_block = sli_alloc(&p->allocator, b.used);
+      if (p->front_block == NULL) {
+        return SL_ERR_MEMORY;
+      }
+      p->front_size = b.used;
+    }
+    b.base = (unsigned char *)p->front_block;
+    b.used = 0;
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    for (k = 0; k < p->contributions[c].delayed; k++) {
+      f->index[at++] = p->contributions[c].index[k];
+    }
+  }
+  for (k = 0; k < S->steps[s].width; k++) {
+    f->index[at++] = S->super_first[s] + k;
+  }
+  for (k = 0; k < S->steps[s].below; k++) {
+    f->index[at++] = S->rows[S->rows_begin[s] + k];
+  }
+  for (k = 0; k < f->rows; k++) {
+    p->local[f->index[k]] = k;
+  }
+  memset(f->values, 0, (size_t)f->rows * (size_t)f->rows * sizeof(double));
+  return SL_OK;
+}
+
+static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_front *f,
+                 sl_int pivots) {
+  sli_contribution *c = &p->contributions[s];
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int j;
+  int pass;
+  c->delayed = f->columns - pivots;
+  c->count = f->rows - pivots;
+  p->delayed += c->delayed;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    c->index = SLI_TAKE(&b, sl_int, c->count);
+    c->values = SLI_TAKE(&b, double, (uint64_t)c->count *(uint64_t)c->count);
+    status = pass == 0 ? sli_block_alloc(&b, &p->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  c->block = b.base;
+  memcpy(c->index, f->index + pivots, (size_t)c->count * sizeof(sl_int));
+  for (j = 0; j < c->count; j++) {
+    memcpy(c->values + (size_t)c->count * (size_t)j + j,
+         sli_dense_column(f, pivots + j) + pivots + j,
+         (size_t)(c->count - j) * sizeof(double));
+  }
+  return SL_OK;
+}
+
+static sl_status sli_search_supernode(sli_pivot_search *p, const sl_csc *A, sl_int s,
+                    sl_stats *stats) {
+  const sl_symbolic *S = p->S;
+  sli_dense_front f;
+  sl_status status = sli_search_front(p, s, &f);
+  sl_int c, k;
+  if (status == SL_OK) {
+    status = sli_search_load(p, A, s, &f, stats);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    sli_search_assemble(p, &p->contributions[c], &f);
+    sli_free(&p->allocator, p->contributions[c].block);
+    p->contributions[c].block = NULL;
+  }
+  k = sli_dense_factor(p, &f);
+  if (S->super_parent[s] != -1) {
+    sli_dense_update(&f, k);
+    return sli_search_keep(p, s, &f, k);
+  }
+  for (; k < f.columns; k++) {
+    p->is_first[p->selected] = 0;
+    p->order[p->selected++] = f.index[k];
+  }
+  return SL_OK;
+}
+
+static void sli_search_layout(sli_pivot_search *p, sli_block *b) {
+  p->contributions = SLI_TAKE(b, sli_contribution, p->S->n_supers);
+  p->local = SLI_TAKE(b, sl_int, p->S->n);
+  p->order = SLI_TAKE(b, sl_int, p->S->n);
+  p->is_first = SLI_TAKE(b, unsigned char, p->S->n);
+}
+
+static sl_status sli_search_run(sli_pivot_search *p, const sl_csc *A, sl_stats *stats) {
+  sl_status status = SL_OK;
+  sl_int s;
+  memset(p->contributions, 0, (size_t)p->S->n_supers * sizeof(sli_contribution));
+  for (s = 0; s < p->S->n_supers && status == SL_OK; s++) {
+    status = sli_search_supernode(p, A, s, stats);
+  }
+  for (s = 0; s < p->S->n_supers; s++) {
+    sli_free(&p->allocator, p->contributions[s].block);
+  }
+  sli_free(&p->allocator, p->front_block);
+  SLI_ASSERT(status != SL_OK || p->selected == p->S->n);
+  return status;
+}
+
+/* src/impl/pivots/pivoted.h: sl_symbolic_create_pivoted: an analysis whose order follows the values of a matrix */
+
+static sl_status sli_pivoted_analyze(sl_symbolic **out, const sli_pivot_search *p, const sl_csc *A,
+                   const sl_options *opt, sl_stats *stats) {
+  sl_options given = sli_options_with(&p->allocator);
+  const sl_symbolic_info *first = &p->S->stats.symbolic;
+  sl_int k, pairs = 0;
+  sl_stats found;
+  sl_status status;
+  for (k = 0; k < p->S->n; k++) {
+    p->local[k] = p->S->perm[p->order[k]];
+    pairs += p->is_first[k];
+  }
+  given.ordering = SL_ORDERING_GIVEN;
+  given.perm = p->local;
+  given.relaxation = opt == NULL ? SL_RELAXATION_DEFAULT : opt->relaxation;
+  given.triangle = opt == NULL ? SL_TRIANGLE_NONE : opt->triangle;
+  given.threads = opt == NULL ? given.threads : opt->threads;
+  status = sli_symbolic_create(out, A, pairs > 0 ? p->is_first : NULL, &given, &found);
+  if (status == SL_OK) {
+    sl_symbolic_info *info = &(*out)->stats.symbolic;
+    (*out)->is_pivoted = 1;
+    info->delayed = p->delayed;
+    info->seconds_order = first->seconds_order;
+    info->seconds_analyze += first->seconds_analyze;
+    if (stats != NULL) {
+      stats->symbolic = *info;
+    }
+  }
+  return status;
+}
+
+SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
+                      const sl_options *opt, sl_stats *stats) {
+  double started;
+  sli_pivot_search p;
+  sl_symbolic *S = NULL;
+  sl_stats found;
+  sli_block b = {NULL, 0, 0};
+  sl_status status;
+  int pass;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status = sl_symbolic_create(&S, A, opt, &found);
+  if (status != SL_OK) {
+    return stats == NULL ? status
+               : sli_fail_at(stats, status, found.error.row, found.error.column,
+                       found.error.value);
+  }
+  memset(&p, 0, sizeof p);
+  p.S = S;
+  p.allocator = S->allocator;
+  started = sli_seconds();
+  status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_search_layout(&p, &b);
+    status = pass == 0 ? sli_block_alloc(&b, &p.allocator) : SL_OK;
+  }
+  status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
+  S->stats.symbolic.seconds_analyze += sli_seconds() - started;
+  status = status == SL_OK ? sli_pivoted_analyze(out, &p, A, opt, stats) : status;
+  sli_free(&p.allocator, b.base);
+  sl_symbolic_free(S);
+  return status;
+}
+
+#endif
+/* float: L and fronts in single precision */
+#if defined(SL_WITH_FLOAT)
+/* src/impl/float/simd_scalar_single.h: the kernels of fronts in float in plain C: a vector is an array */
+
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLV_NAME(f) sli_single_##f##_scalar
+#define SLV_FUNCTION
+#define SLV_DECLARE(a) float a[SLI_TILE];
+#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0F)
+#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
+#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
+#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
+#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
+#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
+#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
+#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0F)
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+/* src/impl/float/simd_avx2_single.h: the kernels of fronts in float in AVX2: a vector of 8 is one register */
+
+#if defined(SLI_X86)
+
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLV_NAME(f) sli_single_##f##_avx2
+#define SLV_FUNCTION SLI_TARGET("avx2,fma")
+
+SLV_FUNCTION SLI_INLINE __m256i sli_single_expand_index(unsigned mask) {
+  int at[SLI_TILE], k, from = 0;
+  for (k = 0; k < SLI_TILE; k++) {
+    const int is_set = (int)(mask >> k & 1u);
+    at[k] = is_set ? from : -1;
+    from += is_set;
+  }
+  return _mm256_loadu_si256((const __m256i *)(const void *)at);
+}
+
+#define SLV_DECLARE(a) __m256 a;
+#define SLV_ZERO(a) a = _mm256_setzero_ps();
+#define SLV_LOAD(a, p) a = _mm256_load_ps(p);
+#define SLV_STORE(p, a) _mm256_store_ps((p), a);
+#define SLV_LOAD_PINNED(a, p) \
+  a = _mm256_load_ps(p); \
+  SLI_PIN(a);
+#define SLV_BROADCAST(b, p) b = _mm256_broadcast_ss(p);
+#define SLV_LANE(b, a, k) b = _mm256_permutevar8x32_ps(a, _mm256_set1_epi32(k));
+#define SLV_ADD(a, b) a = _mm256_add_ps(a, b);
+#define SLV_FNMA(a, b, c) a = _mm256_fnmadd_ps(b, c, a);
+#define SLV_MULTIPLY(a, b, c) a = _mm256_mul_ps(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm256_div_ps(b, c);
+#define SLV_BELOW(a, k) \
+  a = _mm256_and_ps(a, _mm256_castsi256_ps(_mm256_cmpgt_epi32( \
+               _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(k))));
+#define SLV_TILES 2
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_EXPAND(mask, lanes, count) \
+  const __m256i order_ = sli_single_expand_index(mask); \
+  const __m256 keep_ = _mm256_castsi256_ps(_mm256_cmpgt_epi32(order_, _mm256_set1_epi32(-1))); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm256_store_ps( \
+    (to), _mm256_add_ps( \
+          _mm256_load_ps(to), \
+          _mm256_and_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(from), order_), keep_)));
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+/* src/impl/float/simd_avx512_single.h: the kernels of fronts in float in AVX-512F: a register has 16 lanes */
+
+#if defined(SLI_X86) && !defined(SL_NO_AVX512)
+
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLV_NAME(f) sli_single_##f##_avx512
+#define SLV_NAME_PIVOTS(f) sli_single_##f##_avx2
+#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
+
+#define SLV_HALF(p) _mm256_castps_pd(_mm256_load_ps(p))
+#define SLV_HALF_OF(a, k) \
+  _mm256_castpd_ps(_mm512_maskz_extractf64x4_pd(0xf, _mm512_castps_pd(a), k))
+
+#define SLV_DECLARE(a) __m512 a;
+#define SLV_ZERO(a) a = _mm512_setzero_ps();
+#define SLV_LOAD(a, p) a = _mm512_castpd_ps(_mm512_maskz_broadcast_f64x4(0xff, SLV_HALF(p)));
+#define SLV_STORE(p, a) _mm256_store_ps((p), SLV_HALF_OF(a, 0));
+#define SLV_VECTOR_TILES 2
+#define SLV_LOAD_TILES(a, p, q) \
+  a = _mm512_castpd_ps( \
+    _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(SLV_HALF(p)), SLV_HALF(q), 1));
+#define SLV_STORE_TILES(p, q, a) \
+  SLV_STORE(p, a) \
+  _mm256_store_ps((q), SLV_HALF_OF(a, 1));
+#define SLV_BROADCAST(b, p) b = _mm512_set1_ps(*(p));
+#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_ps(0xffff, _mm512_set1_epi32(k), a);
+#define SLV_ADD(a, b) a = _mm512_add_ps(a, b);
+#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_ps(b, c, a);
+#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_ps(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm512_div_ps(b, c);
+#define SLV_BELOW(a, k) a = _mm512_maskz_mov_ps((__mmask16)((0xfe << (k)&0xff) * 0x101), a);
+#define SLV_TILES 4
+#define SLV_COLUMNS 8
+#define SLV_EACH_COLUMN SLI_EACH8
+#define SLV_EXPAND(mask, lanes, count) \
+  const __mmask16 expand_ = (__mmask16)(mask); \
+  const __m512i order_ = _mm512_maskz_expand_epi32( \
+    expand_, _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0)); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm256_store_ps( \
+    (to), _mm256_add_ps( \
+          _mm256_load_ps(to), \
+          SLV_HALF_OF(_mm512_maskz_permutexvar_ps( \
+                  expand_, order_, _mm512_castps256_ps512(_mm256_loadu_ps(from))), \
+                0)));
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#undef SLV_HALF
+#undef SLV_HALF_OF
+
+#endif
+
+/* src/impl/float/simd_neon_single.h: the kernels of fronts in float in NEON: a vector of 8 is two registers */
+
+#if defined(SLI_ARM)
+
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLV_NAME(f) sli_single_##f##_neon
+#define SLV_FUNCTION
+#define SLV_DECLARE(a) float32x4_t a##_0, a##_1;
+#define SLV_ZERO(a) a##_0 = a##_1 = vdupq_n_f32(0.0F);
+#define SLV_LOAD(a, p) a##_0 = vld1q_f32(p), a##_1 = vld1q_f32((p) + 4);
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_STORE(p, a) vst1q_f32((p), a##_0), vst1q_f32((p) + 4, a##_1);
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = vld1q_dup_f32(p);
+#define SLV_LANE(b, a, k) \
+  b##_0 = b##_1 = vdupq_n_f32(vgetq_lane_f32((k) < 4 ? a##_0 : a##_1, (k) % 4));
+#define SLV_ADD(a, b) a##_0 = vaddq_f32(a##_0, b##_0), a##_1 = vaddq_f32(a##_1, b##_1);
+#define SLV_FNMA(a, b, c) \
+  a##_0 = vfmsq_f32(a##_0, b##_0, c##_0), a##_1 = vfmsq_f32(a##_1, b##_1, c##_1);
+#define SLV_MULTIPLY(a, b, c) a##_0 = vmulq_f32(b##_0, c##_0), a##_1 = vmulq_f32(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c) a##_0 = vdivq_f32(b##_0, c##_0), a##_1 = vdivq_f32(b##_1, c##_1);
+#define SLV_BELOW(a, k) \
+  { \
+    static const int32_t lanes_[SLI_TILE] = {0, 1, 2, 3, 4, 5, 6, 7}; \
+    const int32x4_t k_ = vdupq_n_s32(k); \
+    a##_0 = vreinterpretq_f32_u32( \
+      vandq_u32(vreinterpretq_u32_f32(a##_0), vcgtq_s32(vld1q_s32(lanes_), k_))); \
+    a##_1 = vreinterpretq_f32_u32( \
+      vandq_u32(vreinterpretq_u32_f32(a##_1), vcgtq_s32(vld1q_s32(lanes_ + 4), k_))); \
+  }
+#define SLV_TILES 2
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+/* src/impl/float/float_kernels.h: the kernels of L and of fronts in float, for every instruction set */
+
+typedef struct sli_float_kernels {
+  sli_sweeps sweeps;
+  sli_front_kernels front;
+} sli_float_kernels;
+
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLW_NRHS 2
+#define SLW_GROUPS 32
+#define SLI_SECTION_WORDS_SCALAR
+#define SLI_SECTION_LANES_SCALAR
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_FLOAT_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#if defined(SLI_X86)
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLW_NRHS 4
+#define SLI_SECTION_WORDS_AVX2
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 8
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_FLOAT_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_AVX512)
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLW_NRHS 8
+#define SLW_GROUPS 8
+#define SLI_SECTION_WORDS_AVX512
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 16
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_FLOAT_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_ARM)
+#define SLV_SINGLE 1
+#define SLV_COMPLEX 0
+#define SLW_NRHS 4
+#define SLI_SECTION_WORDS_NEON
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
+#define SLI_SECTION_SWEEPS
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 8
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
+#define SLI_SECTION_MULTI_RHS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_FLOAT_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+SLI_INLINE const sli_float_kernels *sli_float_kernels_of(sl_isa isa) {
+  static const sli_float_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_float_kernels);
+  return tables[sli_isa_row(isa)];
+}
+
+/* src/impl/float/float_storage.h: L in float: panels that are rounded, and fronts that are computed in float */
+
+#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
+#define SLI_SINGLE_LEAST 7.888609052210118e-31
+
+SLI_INLINE float sli_single(double a) {
+  const float x = (float)a;
+  return x != 0.0F || a == 0.0 ? x : a < 0.0 ? -FLT_MIN : FLT_MIN;
+}
+
+SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl_int column,
+                    sli_failure *failure) {
+  const sl_int s = f->super, k = f->column + column;
+  const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
+  const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+  const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
+  F->D[k] = d;
+  if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
+    return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
+  }
+  if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
+    sli_record_magnitude(F, s, k, m);
+    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
+  }
+  return sli_check_pivot(F, s, k, d, m, failure);
+}
+
+SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int r, sl_int j,
+                  double l) {
+  const double d =
+    f->E != NULL && f->E[j] != 0.0 ? fmax(fabs(f->D[j]), fabs(f->E[j])) : fabs(f->D[j]);
+  if (fabs(l) > (double)FLT_MAX || d == SLI_NULL_PIVOT) {
+    return d != SLI_NULL_PIVOT;
+  }
+  if (l == 0.0 || fabs(l) >= (double)FLT_MIN || ldexp(d, -252) <= f->magnitude[r]) {
+    return 0;
+  }
+  return F->null_vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
+}
+
+static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_failure *failure) {
+  const sl_int s = f->super;
+  const sl_int w = f->width, tiles = sli_tiles(w + f->below);
+  float *to = (float *)F->values + F->S->steps[s].panel;
+  const double *from = f->panel;
+  sl_int t, j, r;
+  for (t = 0; t < tiles; t++) {
+    const sl_int columns = sli_min(w, SLI_TILE * (t + 1));
+    for (j = 0; j < columns; j++, from += SLI_TILE, to += SLI_TILE) {
+      int odd = 0;
+      for (r = 0; r < SLI_TILE; r++) {
+        const double size = fabs(from[r]);
+        odd |= (size > (double)FLT_MAX) | ((size < (double)FLT_MIN) & (size > 0.0));
+      }
+      for (r = 0; r < SLI_TILE && odd; r++) {
+        if (sli_rounding_harms(F, f, SLI_TILE * t + r, j, from[r])) {
+          return sli_fail(failure, SL_ERR_INACCURATE, s, F->S->steps[s].column + j, -1,
+                  f->D[j]);
+        }
+      }
+      for (r = 0; r < SLI_TILE; r++) {
+        to[r] = (float)from[r];
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static double sli_float_entry(const void *values, sl_off at) {
+  return (double)((const float *)values)[at];
+}
+
+static void sli_float_entry_clear(void *values, sl_off at) {
+  ((float *)values)[at] = 0.0F;
+}
+
+SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int worker);
+
+#define SLF_NAME(f) sli_single_##f
+#define SLF_VALUE float
+#define SLF_SINGLE 1
+#define SLF_HALF 0
+#define SLF_OF(f, array) (f)->single.array
+#define SLF_FRONT sli_single_front_of
+#define SLI_SECTION_FRONTS
+#define SLI_SECTION_FRONTS_UNDEF
+#include SL_HEADER
+SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+  const sli_step *step = &F->S->steps[s];
+  const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
+  sli_front f = sli_front_in_double(F, s, worker);
+  f.single.panel = (float *)F->values + step->panel;
+  f.single.update = sli_single_update_matrix(F, s, worker);
+  f.single.magnitude = (float *)(void *)f.magnitude;
+  f.single.D = f.single.magnitude + rows;
+  f.single.reciprocals = (float *)(void *)f.reciprocals;
+  f.panel = f.D = f.magnitude = f.E = f.reciprocals = NULL;
+  return f;
+}
+
+static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
+  const sli_step *step = &F->S->steps[s];
+  sli_front f = sli_single_front_of(F, s, 0);
+  f.single.magnitude = f.single.update + sli_update_size(step);
+  f.single.D = f.single.magnitude + SLI_TILE * (ptrdiff_t)sli_front_tiles(&f);
+  f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width) +
+               SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
+  return f;
+}
+
+static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
+  return &sli_float_kernels_of(kernels->isa)->sweeps;
+}
+
+static const sli_front_kernels *sli_single_front(const sli_kernels *kernels) {
+  return &sli_float_kernels_of(kernels->isa)->front;
+}
+
+static int sli_single_suits(const sl_factor *F) {
+  return F->S->n_pairs == 0;
+}
+
+static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
+                           sizeof(float),
+                           sizeof(double),
+                           0,
+                           DBL_EPSILON,
+                           sli_float_sweeps,
+                           sli_double_front,
+                           sli_double_factor,
+                           sli_double_shared,
+                           sli_double_front_clear,
+                           sli_double_front_load,
+                           sli_double_front_assemble,
+                           sli_double_front_finish,
+                           sli_panel_round,
+                           sli_float_entry,
+                           sli_float_entry_clear,
+                           NULL,
+                           NULL,
+                           NULL};
+
+static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
+                          sizeof(float),
+                          sizeof(float),
+                          0,
+                          (double)FLT_EPSILON,
+                          sli_float_sweeps,
+                          sli_single_front,
+                          sli_single_factor,
+                          sli_single_shared,
+                          sli_single_front_clear,
+                          sli_single_front_load,
+                          sli_single_front_assemble,
+                          sli_single_front_finish,
+                          NULL,
+                          sli_float_entry,
+                          sli_float_entry_clear,
+                          sli_single_suits,
+                          NULL,
+                          NULL};
+
+#endif
 /* inverse: entries of the inverse, regions */
+#if defined(SL_WITH_INVERSE)
+/* src/impl/inverse/inverse_front.h: a front of the inverse, and the contract of the kernels that compute it */
+
+typedef struct sli_inverse_front {
+  const double *panel;
+  const double *D;
+  double *front;
+  sl_int width, below;
+  sl_int first;
+} sli_inverse_front;
+
+SLI_INLINE ptrdiff_t sli_square_offset(sl_int h, sl_int t) {
+  return (ptrdiff_t)SLI_TILE * h * t;
+}
+
+#define SLI_INVERSE_GROUP 16
+#define SLI_INVERSE_COLUMNS (SLI_INVERSE_GROUP * SLI_TILE)
+#define SLI_INVERSE_ROW (SLI_INVERSE_COLUMNS * SLI_TILE)
+
+SLI_INLINE sl_int sli_inverse_last_group(const sli_inverse_front *f) {
+  return (f->width - 1) / SLI_INVERSE_COLUMNS * SLI_INVERSE_COLUMNS;
+}
+
+SLI_INLINE sl_int sli_inverse_group_columns(const sli_inverse_front *f, sl_int j0) {
+  return sli_min(SLI_INVERSE_COLUMNS, f->width - j0);
+}
+
+SLI_INLINE double *sli_inverse_weights(double *scratch) {
+  return scratch + 2 * SLI_INVERSE_GROUP * SLI_INVERSE_ROW;
+}
+SLI_INLINE ptrdiff_t sli_inverse_stride(const sli_inverse_front *f, sl_int j0) {
+  const sl_int above = (j0 + sli_inverse_group_columns(f, j0)) / SLI_TILE;
+  return SLI_TILE * SLI_TILE * (ptrdiff_t)(sli_tiles(f->width + f->below) - above);
+}
+SLI_INLINE sl_off sli_inverse_scratch(sl_int height, sl_int width) {
+  return 2 * SLI_INVERSE_GROUP * SLI_INVERSE_ROW +
+       (sl_off)SLI_TILE * SLI_TILE * sli_min(sli_tiles(width), SLI_INVERSE_GROUP) *
+         sli_tiles(height);
+}
+
+typedef void (*sli_gather_kernel)(const sli_inverse_front *f, const double *from, sl_int height,
+                  const sl_int *relative, sl_int t0, sl_int t1);
+
+typedef void (*sli_takahashi_kernel)(const sli_inverse_front *f, double *scratch);
+
+typedef enum sli_inverse_phase {
+  SLI_INVERSE_TRIANGLE = 0,
+  SLI_INVERSE_WEIGHTS,
+  SLI_INVERSE_PRODUCT,
+  SLI_INVERSE_MIRROR,
+  SLI_INVERSE_SQUARE
+} sli_inverse_phase;
+#define SLI_INVERSE_PHASES 5
+
+typedef struct sli_tile_range {
+  sl_int first, last;
+} sli_tile_range;
+
+SLI_INLINE sli_tile_range sli_inverse_tiles(const sli_inverse_front *f, sl_int j0,
+                      sli_inverse_phase phase) {
+  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
+  sli_tile_range range = {0, sli_tiles(m)};
+  if (phase != SLI_INVERSE_TRIANGLE && phase != SLI_INVERSE_SQUARE) {
+    range.last = j0 + m < h ? sli_tiles(h) : 0;
+    range.first = sli_min((j0 + m) / SLI_TILE, range.last);
+  }
+  return range;
+}
+
+typedef void (*sli_inverse_phase_kernel)(const sli_inverse_front *f, sl_int j0,
+                     sli_inverse_phase phase, sl_int t0, sl_int t1,
+                     double *scratch);
+
+/* src/impl/inverse/inverse_kernels.h: the kernels of the inverse, for every instruction set */
+
+typedef void (*sli_products_kernel)(sl_int count, const double *y, const double *z, double *sums);
+
+typedef struct sli_inverse_kernels {
+  sli_products_kernel products;
+  sli_gather_kernel gather;
+  sli_inverse_phase_kernel phase;
+  sli_takahashi_kernel takahashi;
+} sli_inverse_kernels;
+
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLW_NRHS 8
+#define SLI_SECTION_WORDS_SCALAR
+#define SLI_SECTION_LANES_SCALAR
+#define SLI_SECTION_PRODUCTS
+#define SLI_SECTION_INVERSE_FRONT
+#define SLI_SECTION_INVERSE_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#if defined(SLI_X86)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLW_NRHS 8
+#define SLI_SECTION_WORDS_AVX2
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
+#define SLI_SECTION_PRODUCTS
+#define SLI_SECTION_INVERSE_FRONT
+#define SLI_SECTION_INVERSE_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_AVX512)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLW_NRHS 8
+#define SLI_SECTION_WORDS_AVX512
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
+#define SLI_SECTION_PRODUCTS
+#define SLI_SECTION_INVERSE_FRONT
+#define SLI_SECTION_INVERSE_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_ARM)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLW_NRHS 8
+#define SLI_SECTION_WORDS_NEON
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
+#define SLI_SECTION_PRODUCTS
+#define SLI_SECTION_INVERSE_FRONT
+#define SLI_SECTION_INVERSE_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+SLI_INLINE const sli_inverse_kernels *sli_inverse_kernels_of(sl_isa isa) {
+  static const sli_inverse_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_inverse_kernels);
+  return tables[sli_isa_row(isa)];
+}
+
 /* src/impl/inverse/traversal.h: plan of a top-down traversal: its fronts, the tasks of workers, memory */
 
 typedef struct sli_traversal {
@@ -20871,6 +18682,20 @@ static sl_int sli_traversal_count_columns(const sli_traversal *t) {
 
 /* src/impl/inverse/traversal_run.h: runs a top-down traversal: computes front after front, calls a visitor */
 
+static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
+                   int is_triangle) {
+  const double share = (double)k / workers;
+  return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
+}
+
+static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
+  const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
+  sl_off k;
+  for (k = 0; k < size; k++) {
+    to[k] = sli_entry(F, first + k);
+  }
+}
+
 typedef void (*sli_visitor)(void *context, sl_int k, const sli_inverse_front *f, sl_int t0,
               sl_int t1);
 
@@ -20902,8 +18727,9 @@ static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
   const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
   sli_inverse_front f;
-  f.panel =
-    run->F->storage != SL_STORAGE_DOUBLE ? NULL : (const double *)run->F->values + step->panel;
+  f.panel = run->F->type->storage != SL_STORAGE_DOUBLE
+          ? NULL
+          : (const double *)run->F->values + step->panel;
   f.D = run->F->D + step->column;
   f.front = run->fronts + run->traversal->schedule.stack_begin[k];
   f.width = step->width;
@@ -20918,9 +18744,10 @@ static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sl
   const sl_int up = traversal->forest.parent[k];
   if (up != -1) {
     const sli_inverse_front parent = sli_traverse_front(run, up);
-    run->F->kernels->gather(
-      f, parent.front, parent.width + parent.below,
-      traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0, t1);
+    sli_inverse_kernels_of(run->F->kernels->isa)
+      ->gather(f, parent.front, parent.width + parent.below,
+           traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0,
+           t1);
   }
 }
 
@@ -20931,7 +18758,7 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
   const sl_off first = S->panel_begin[s], size = S->panel_begin[s + 1] - first;
   const sl_off row = S->rows_begin[s];
   const sl_int rows = sli_min(S->steps[s].below, SLI_PANEL_AHEAD);
-  const size_t entry = sizeof(double) / (F->storage == SL_STORAGE_DOUBLE ? 1 : 2);
+  const size_t entry = sizeof(double) / (F->type->storage == SL_STORAGE_DOUBLE ? 1 : 2);
   sl_off k;
   for (k = 0; k < rows; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
     SLI_PREFETCH(S->relative + row + k, 0);
@@ -20943,9 +18770,9 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
 
 static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
                   sl_int worker) {
-  const sl_off room = sli_traverse_scratch(run->traversal, run->F->storage);
+  const sl_off room = sli_traverse_scratch(run->traversal, run->F->type->storage);
   double *scratch = run->scratch + (ptrdiff_t)(room * worker);
-  if (run->F->storage != SL_STORAGE_DOUBLE) {
+  if (run->F->type->storage != SL_STORAGE_DOUBLE) {
     sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
     f->panel = scratch + run->traversal->scratch;
   }
@@ -20958,7 +18785,7 @@ static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_in
   if (k > 0) {
     sli_traverse_prefetch(run->F, run->traversal->supers[k - 1]);
   }
-  run->F->kernels->takahashi(f, scratch);
+  sli_inverse_kernels_of(run->F->kernels->isa)->takahashi(f, scratch);
   run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
@@ -21007,10 +18834,10 @@ static void sli_traverse_phase_range(void *data, sl_int k, sl_int worker) {
          is_square = run->phase == SLI_INVERSE_SQUARE;
   const sli_tile_range all = sli_inverse_tiles(&run->front, run->group, run->phase);
   (void)worker;
-  run->F->kernels->inverse_phase(
-    &run->front, run->group, run->phase,
-    sli_tile_range_begin(all.first, all.last, k, workers, is_square),
-    sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
+  sli_inverse_kernels_of(run->F->kernels->isa)
+    ->phase(&run->front, run->group, run->phase,
+        sli_tile_range_begin(all.first, all.last, k, workers, is_square),
+        sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
 static void sli_traverse_visit_range(void *data, sl_int k, sl_int worker) {
@@ -21102,15 +18929,9 @@ static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int 
 #define SLI_BLOCK_REQUESTS_MAX 64
 
 static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},
-                             {1.0, 1.2, 3.8, 8.6},
-                             {1.0, 1.3, 1.9, 3.3},
-                             {1.0, 1.2, 1.9, 2.1}};
-
-SLI_INLINE int sli_isa_row(sl_isa isa) {
-  return isa == SL_ISA_SCALAR ? 1
-       : isa == SL_ISA_AVX2 ? 2
-                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
-}
+                            {1.0, 1.2, 3.8, 8.6},
+                            {1.0, 1.3, 1.9, 3.3},
+                            {1.0, 1.2, 1.9, 2.1}};
 
 typedef struct sli_rhs_block {
   sl_int count;
@@ -21636,7 +19457,7 @@ static void sli_entries_plan(void *call) {
 static void sli_entries_layout_run(void *call, sli_block *b) {
   sli_entries *q = (sli_entries *)call;
   if (q->method == SL_INVERSE_SELECTED) {
-    sli_traversal_layout_run(&q->run, &q->traversal, q->F->storage, b);
+    sli_traversal_layout_run(&q->run, &q->traversal, q->F->type->storage, b);
   }
 }
 
@@ -21797,7 +19618,7 @@ static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_f
     const double *y = f->y + (ptrdiff_t)m.in_a * f->lanes;
     const double *x = z + (ptrdiff_t)m.in_b * g->lanes;
     if (f->lanes == SLI_LANES_MAX && g->lanes == SLI_LANES_MAX) {
-      F->kernels->products(m.count, y, x, sums);
+      sli_inverse_kernels_of(F->kernels->isa)->products(m.count, y, x, sums);
       continue;
     }
     for (k = 0; k < m.count; k++, y += f->lanes, x += g->lanes) {
@@ -22077,7 +19898,7 @@ static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) 
   memset(r, 0, sizeof *r);
   r->S = F->S;
   r->workers = sli_traversal_workers(F->S, &F->threads);
-  r->storage = F->storage;
+  r->storage = F->type->storage;
   r->all = sli_traversal_of(F->S, F->S->n_supers, 1);
   return sli_work_stages(W, &stage, 1, r);
 }
@@ -22266,7 +20087,7 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
   memset(&draft, 0, sizeof draft);
   draft.allocator = sli_allocator(opt);
   draft.analysis = S->identity;
-  draft.storage = F->storage;
+  draft.storage = F->type->storage;
   draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
   for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
     seeds = SLI_TAKE(&b, uint64_t, count);
@@ -22308,7 +20129,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
 
 static void sli_selected_layout_run(void *context, sli_block *b) {
   sli_traversal_run *run = (sli_traversal_run *)context;
-  sli_traversal_layout_run(run, run->traversal, run->F->storage, b);
+  sli_traversal_layout_run(run, run->traversal, run->F->type->storage, b);
 }
 
 static const sli_stage sli_selected_stage = {sli_selected_layout_run, NULL};
@@ -22328,7 +20149,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   if (status == SL_OK) {
     sli_traverse(&run);
     Z->numbers = sli_numbers_of(F);
-    Z->storage = F->storage;
+    Z->storage = F->type->storage;
     Z->seconds = sli_seconds() - started;
   }
   sli_free(&own.allocator, own.block);
@@ -22509,6 +20330,106 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z) {
     v.Z = Z->Z;
   }
   return v;
+}
+
+/* src/impl/inverse/region_types.h: the region object, and the product with its cached inverse */
+
+struct sl_region {
+  sli_ending ending;
+  sl_allocator allocator;
+  const sl_symbolic *S;
+  sli_hash analysis;
+  sli_hash identity;
+  sli_numbers numbers;
+  sli_region_extent extent;
+  sl_int *roots, *rows;
+  sl_int *requested;
+  sl_int *relative;
+  sl_off *begin;
+  double *Z;
+  int is_copied;
+  int is_mapped;
+  int is_immutable;
+  double seconds;
+  size_t bytes;
+};
+
+#define SLI_REGION_COLUMNS 8
+
+SLI_INLINE sl_int sli_region_chunks(sl_int rows) {
+  return rows / SLI_REGION_COLUMNS + (rows % SLI_REGION_COLUMNS != 0);
+}
+
+SLI_INLINE sli_step sli_region_step(const sl_region *R, sl_int first) {
+  sli_step step;
+  step.panel = R->begin[first / SLI_REGION_COLUMNS];
+  step.column = 0;
+  step.base = first;
+  step.width = sli_min(SLI_REGION_COLUMNS, R->extent.n_rows - first);
+  step.below = R->extent.n_rows - first;
+  step.first_tile = 0;
+  step.up = -1;
+  return step;
+}
+
+static sl_off sli_region_entries(sl_int rows) {
+  sl_off size = 0;
+  sl_int first;
+  for (first = 0; first < rows; first += SLI_REGION_COLUMNS) {
+    size += sli_panel_size(sli_min(SLI_REGION_COLUMNS, rows - first), rows - first);
+  }
+  return size;
+}
+
+static void sli_region_layout(sl_region *R, sli_block *b) {
+  const sl_int rows = R->extent.n_rows;
+  (void)sli_take(b, 1, sizeof(sl_region));
+  R->roots = SLI_TAKE(b, sl_int, R->extent.n_roots);
+  R->rows = SLI_TAKE(b, sl_int, rows);
+  R->requested = SLI_TAKE(b, sl_int, rows);
+  R->relative = SLI_TAKE(b, sl_int, rows);
+  R->begin = SLI_TAKE(b, sl_off, (uint64_t)sli_region_chunks(rows) + 1);
+  R->Z = R->is_mapped ? R->Z : SLI_TAKE(b, double, sli_region_entries(rows));
+  R->bytes = b->used;
+}
+
+SLI_INLINE int sli_region_fits(const sl_region *R, const sl_factor *F) {
+  return sli_numbers_are_of(&R->numbers, F);
+}
+
+SLI_INLINE uint64_t sli_region_vectors(const sl_region *R, sl_int lanes) {
+  return 3 * (uint64_t)R->extent.n_rows * (uint64_t)lanes;
+}
+
+SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
+  return sli_sweep_scratch(SLI_REGION_COLUMNS + R->extent.n_rows, SLI_REGION_COLUMNS, lanes);
+}
+
+static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
+               const sli_kernels *kernels, int kind, const double *u, double *x,
+               double *vectors, double *scratch) {
+  static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  const sli_sweeps *sweeps = &kernels->sweeps;
+  const sl_int n = R->extent.n_rows;
+  const size_t size = (size_t)n << kind;
+  sl_int first;
+  if (n == 0) {
+    return;
+  }
+  memcpy(vectors, u, size * sizeof(double));
+  memset(vectors + size, 0, size * sizeof(double));
+  memcpy(vectors + 2 * size, u, size * sizeof(double));
+  for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
+    const sli_step step = sli_region_step(R, first);
+    if (boundary->b[first / SLI_REGION_COLUMNS]) {
+      sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
+    }
+    if (boundary->x[first / SLI_REGION_COLUMNS]) {
+      sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
+                   scratch);
+    }
+  }
+  memcpy(x, vectors + size, size * sizeof(double));
 }
 
 /* src/impl/inverse/region_choose.h: chooses the subtrees and the boundary of a region for the cheapest solves */
@@ -22738,12 +20659,129 @@ static sl_status sli_choice_sort(sli_choice *c, const sl_int *set, sl_stats *sta
   return status;
 }
 
+/* src/impl/inverse/region_ending.h: solves that end at the boundary of a region: sets, chunks, the product with Z */
+
+SLI_INLINE const sl_region *sli_region_of(const sli_ending *e) {
+  return (const sl_region *)(const void *)e;
+}
+
+static int sli_region_belongs(const sli_ending *e, const sl_symbolic *S) {
+  const sl_region *R = sli_region_of(e);
+  return R->S == S && sli_hash_equals(R->analysis, S->identity);
+}
+
+static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
+               const sli_region_extent *extent) {
+  sl_int k;
+  for (k = 0; set->rows != NULL && k < set->count; k++) {
+    const sl_int column = sli_key(set->seeds[k]);
+    if (sli_extent_find(S, extent, S->super_of[column]) == -1 &&
+      sli_extent_boundary(extent, column) == -1) {
+      return 0;
+    }
+  }
+  return set->rows != NULL;
+}
+
+static void sli_set_partition(const sl_symbolic *S, sli_set *set, const sli_region_extent *extent) {
+  sl_int k, inside = 0, rest = 0;
+  for (k = 0; k < set->count; k++) {
+    if (sli_extent_find(S, extent, S->super_of[sli_key(set->seeds[k])]) != -1) {
+      set->seeds[inside++] = set->seeds[k];
+    } else {
+      set->scratch[rest++] = set->seeds[k];
+    }
+  }
+  for (k = 0; k < rest; k++) {
+    set->seeds[inside + k] = set->scratch[k];
+  }
+  set->inside = inside;
+  set->extent = extent;
+}
+
+static int sli_region_place(const sli_ending *e, sli_set *b, sli_set *x) {
+  const sl_region *R = sli_region_of(e);
+  if (!sli_set_is_within(R->S, b, &R->extent) || !sli_set_is_within(R->S, x, &R->extent)) {
+    return 0;
+  }
+  sli_set_partition(R->S, b, &R->extent);
+  sli_set_partition(R->S, x, &R->extent);
+  b->n_marks = x->n_marks = sli_region_chunks(R->extent.n_rows);
+  return 1;
+}
+
+static void sli_set_mark(sli_set *set, const sli_reach *R) {
+  const sl_int n = set->extent->n_rows, base = R->columns - n;
+  const sl_int *rows = R->rows;
+  sl_int k, i;
+  memset(set->marks, 0, (size_t)sli_region_chunks(n));
+  for (k = set->inside; k < set->count; k++) {
+    set->marks[(set->index[sli_value(set->seeds[k])] - base) / SLI_REGION_COLUMNS] = 1;
+  }
+  for (k = 0; k < R->count; k++) {
+    for (i = 0; R->steps[k].up == -1 && i < R->steps[k].below; i++) {
+      set->marks[(rows[i] - base) / SLI_REGION_COLUMNS] = 1;
+    }
+    rows += R->steps[k].below;
+  }
+}
+
+static sl_off sli_boundary_entries(const sl_region *R, const sli_set *b, const sli_set *x) {
+  sl_off sum = 0;
+  sl_int k;
+  for (k = 0; k < sli_region_chunks(R->extent.n_rows); k++) {
+    sum += b->marks[k] || x->marks[k] ? R->begin[k + 1] - R->begin[k] : 0;
+  }
+  return sum;
+}
+
+static void sli_region_finish(const sli_ending *e, sli_query *q, sli_set *b, sli_set *x) {
+  const sl_region *R = sli_region_of(e);
+  sli_set_mark(b, &q->forward);
+  sli_set_mark(x, &q->backward);
+  q->used.identity = R->identity;
+  q->used.b = b->marks;
+  q->used.x = x->marks;
+  q->used.entries = sli_boundary_entries(R, b, x);
+}
+
+static int sli_region_holds(const sli_query *q, const sl_factor *F) {
+  const sl_region *R = sli_region_of(q->ending);
+  return sli_hash_equals(q->used.identity, R->identity) && sli_region_fits(R, F);
+}
+
+static uint64_t sli_region_vectors_of(const sli_ending *e, sl_int lanes) {
+  return sli_region_vectors(sli_region_of(e), lanes);
+}
+
+static size_t sli_region_scratch_of(const sli_ending *e, sl_int lanes) {
+  return sli_region_scratch(sli_region_of(e), lanes);
+}
+
+static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,
+               const sli_vectors *v) {
+  const ptrdiff_t n = q->ending->rows;
+  sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind,
+           v->y + ((q->forward.columns - n) << kind),
+           v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
+}
+
+static const sli_ending_calls sli_region_calls = {
+  sli_region_belongs,    sli_region_place,      sli_region_finish, sli_region_holds,
+  sli_region_vectors_of, sli_region_scratch_of, sli_region_cross};
+
+SLI_INLINE void sli_region_begin(sl_region *R) {
+  R->ending.calls = &sli_region_calls;
+  R->ending.rows = R->extent.n_rows;
+}
+
 /* src/impl/inverse/region.h: regions: creation, and their part of the inverse by sweeps or a selected inverse */
 
 static void sli_region_index(sl_region *R) {
   const sl_symbolic *S = R->S;
   const sl_int n = R->extent.n_rows;
   sl_int k;
+  sli_region_begin(R);
   R->extent.roots = R->roots;
   R->extent.rows = R->rows;
   R->analysis = S->identity;
@@ -22985,7 +21023,456 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R) {
   return v;
 }
 
+#endif
 /* change: a factor that follows changes of its matrix */
+#if defined(SL_WITH_CHANGE)
+/* src/impl/change/change_kernels.h: the kernels of rank-k changes, for every instruction set */
+
+typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
+
+typedef struct sli_ranks {
+  double U[SLI_TILE][SLI_TILE];
+  double alpha[SLI_TILE];
+  double e[SLI_TILE], magnitude[SLI_TILE];
+  sl_int ranks, lanes;
+} sli_ranks;
+
+typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
+                   const double *w, double *c);
+
+typedef struct sli_rank_one {
+  double *panel;
+  const double *D;
+  sl_int width, below, first_tile;
+  int is_trial;
+  double sum;
+  double *w;
+  double *b;
+  double *e;
+} sli_rank_one;
+typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
+
+typedef struct sli_change_kernels {
+  sli_change_kernel change[SLI_NRHS_KINDS - 1];
+  sli_ranks_kernel ranks;
+  sli_rank_one_kernel panel;
+} sli_change_kernels;
+
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLI_SECTION_WORDS_SCALAR
+#define SLI_SECTION_CHANGE
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#if defined(SLI_X86)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLI_SECTION_WORDS_AVX2
+#include SL_HEADER
+#define SLI_SECTION_CHANGE
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_AVX512)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLI_SECTION_WORDS_AVX512
+#include SL_HEADER
+#define SLI_SECTION_CHANGE
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_ARM)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLI_SECTION_WORDS_NEON
+#include SL_HEADER
+#define SLI_SECTION_CHANGE
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+SLI_INLINE const sli_change_kernels *sli_change_kernels_of(sl_isa isa) {
+  static const sli_change_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_change_kernels);
+  return tables[sli_isa_row(isa)];
+}
+
+/* src/impl/change/gather.h: adds the updates of descendants, computed from their panels, to a front */
+
+typedef struct sli_left_work {
+  sl_int *local;
+  sl_int *relative;
+  double *buffer;
+} sli_left_work;
+
+static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+              sl_int d, sl_int first, sl_int last, double *update) {
+  const sl_symbolic *S = F->S;
+  const sl_int *rows = S->rows + S->rows_begin[d];
+  sli_front from = sli_front_of(F, d, 0);
+  const sl_int w = from.width, tiles = sli_front_tiles(&from);
+  const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
+  sl_int t, r;
+  from.update = update;
+  for (t = c0; t < tiles; t++) {
+    memset(from.update + sli_triangle_offset(t - c0), 0,
+         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
+  }
+  F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
+  for (r = first; r < from.below; r++) {
+    p->relative[r - first] = p->local[rows[r]];
+  }
+  F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
+                 from.below - first);
+}
+
+static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
+                sl_int d, sl_int first, sl_int last) {
+  const sli_front from = sli_front_of(F, d, 0);
+  const sl_int w = from.width;
+  sl_int r, j;
+  for (r = first; r < last; r++) {
+    const double *l = from.panel + sli_panel_at(w, w + r, 0);
+    double *magnitude = f->magnitude + p->relative[r - first];
+    for (j = 0; j < w; j++, l += SLI_TILE) {
+      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
+        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
+        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
+      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
+        *magnitude += fabs(*l * *l * from.D[j]);
+      }
+    }
+  }
+}
+
+/* src/impl/change/kept.h: supernodes whose numbers are those of another factor: copies them, and computes what the */
+
+typedef struct sli_kept {
+  sli_copied copied;
+  const sl_factor *F;
+  const sl_int *columns;
+  int is_subset;
+  int has_one_sign;
+  sl_int *local;
+  sl_int *relative;
+  double *update;
+  sl_off update_room;
+} sli_kept;
+
+static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
+  const sl_symbolic *S = G->S;
+  const uint64_t workers = (uint64_t)G->schedule.workers;
+  sl_status status = SL_OK;
+  sl_int s;
+  int pass;
+  p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_step *step = &S->steps[s];
+    const sl_off size =
+      sli_triangle_offset(sli_update_tiles(step->width, step->below)) + SLI_TILE;
+    p->update_room = p->copied.from[s] != -1 && size > p->update_room ? size : p->update_room;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    p->local = SLI_TAKE(b, sl_int, workers * (uint64_t)S->n);
+    p->relative = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
+    p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
+    status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
+  }
+  return status;
+}
+
+static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int *keep,
+              sl_int count) {
+  const sl_int tiles = sli_tiles(w + count);
+  sl_int t, j, r;
+  for (t = w / SLI_TILE; t < tiles; t++) {
+    const double *at[SLI_TILE];
+    double *tile = to + sli_tile_offset(w, t);
+    for (r = 0; r < SLI_TILE; r++) {
+      const sl_int local = SLI_TILE * t + r, row = local < w           ? local
+                             : local < w + count ? keep[local - w]
+                                       : -1;
+      at[r] = row == -1 ? NULL : from + sli_panel_at(w, row, 0);
+    }
+    for (j = 0; j < w; j++) {
+      for (r = 0; r < SLI_TILE; r++) {
+        tile[j * SLI_TILE + r] = at[r] == NULL ? 0.0 : at[r][j * SLI_TILE];
+      }
+    }
+  }
+}
+
+static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
+  const sli_kept *p = (const sli_kept *)(const void *)G->copied;
+  const sl_factor *F = p->F;
+  const sl_int there = p->copied.from[s];
+  const sli_step *step = &F->S->steps[there], *own = &G->S->steps[s];
+  const sl_int w = step->width, *rows = F->S->rows + F->S->rows_begin[there];
+  const double *from = (const double *)F->values + step->panel;
+  double *panel = (double *)G->values + own->panel;
+  int is_whole = own->below == step->below;
+  const sl_int searched = is_whole && p->is_subset ? 0 : own->below;
+  sl_int k, m;
+  for (k = 0, m = 0; k < searched; k++, m++) {
+    const sl_int row = p->columns[G->S->rows[G->S->rows_begin[s] + k]];
+    if (m >= step->below || rows[m] != row) {
+      m = sli_lower_bound(rows, step->below, row);
+    }
+    keep[k] = w + m;
+    is_whole &= m == k;
+  }
+  if (is_whole) {
+    memcpy(panel, from, (size_t)sli_panel_size(w, own->below) * sizeof(double));
+  } else {
+    memcpy(panel, from, (size_t)sli_tile_offset(w, w / SLI_TILE) * sizeof(double));
+    sli_kept_rows(panel, from, w, keep, own->below);
+  }
+  memcpy(G->D + own->column, F->D + step->column, (size_t)w * sizeof(double));
+  if (F->rule.shifts != NULL) {
+    memcpy(G->rule.shifts + own->column, F->rule.shifts + step->column,
+         (size_t)w * sizeof(double));
+  }
+  G->extents[s] = F->extents[there];
+  if (G->extents[s].pivot != -1) {
+    G->extents[s].pivot += own->column - step->column;
+  }
+}
+
+static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
+                sl_int s, int has_one_sign) {
+  sl_int k;
+  sli_front_update(&G->kernels->front, f, p->buffer);
+  for (k = 0; k < f->below && !has_one_sign; k++) {
+    p->relative[k] = f->width + k;
+  }
+  if (!has_one_sign) {
+    sli_left_magnitudes(G, p, f, s, 0, f->below);
+  }
+}
+
+static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
+              int has_one_sign, double *update) {
+  const sl_symbolic *S = G->S;
+  const sli_front f = sli_front_of(G, s, worker);
+  const sl_int *rows = S->rows + S->rows_begin[s];
+  const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
+  sl_int k, d;
+  for (k = 0; k < f.below; k++) {
+    p->local[rows[k]] = f.width + k;
+  }
+  for (k = 0; k < SLI_TILE * tiles; k++) {
+    f.magnitude[k] = 0.0;
+  }
+  memset(f.update, 0,
+       (size_t)sli_triangle_offset(sli_update_tiles(f.width, f.below)) * sizeof(double));
+  sli_kept_update_own(G, p, &f, s, has_one_sign);
+  for (d = s - 1; d >= S->first_descendant[s];) {
+    const sl_int below = S->steps[d].below;
+    const sl_int first =
+      sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
+    if (first < below) {
+      sli_left_update(G, p, &f, d, first, below, update);
+      if (!has_one_sign) {
+        sli_left_magnitudes(G, p, &f, d, first, below);
+      }
+      d--;
+    } else {
+      d = S->first_descendant[d] - 1;
+    }
+  }
+  for (k = f.width; k < f.width + f.below && has_one_sign; k++) {
+    const sl_int tile = k / SLI_TILE - whole, column = k - SLI_TILE * whole;
+    f.magnitude[k] =
+      fabs(f.update[sli_triangle_offset(tile) + (sl_off)column * SLI_TILE + k % SLI_TILE]);
+  }
+  sli_double_front_hand_over(&f);
+}
+
+static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
+  const sli_kept *p = (const sli_kept *)(const void *)G->copied;
+  const sl_int up = G->S->super_parent[s];
+  sli_left_work work;
+  work.local = p->local + (ptrdiff_t)worker * G->S->n;
+  work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
+  work.buffer = G->buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
+  sli_kept_copy(G, s, work.relative);
+  if (up != -1 && p->copied.from[up] == -1) {
+    sli_kept_update(G, &work, s, worker, p->has_one_sign,
+            p->update + (ptrdiff_t)(p->update_room * worker));
+  }
+}
+
+/* src/impl/change/leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
+
+static int sli_nulls_remain(const sl_factor *F) {
+  sl_int m, k;
+  for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
+    if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+      return 0;
+    }
+  }
+  for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
+    if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
+  p->local = SLI_TAKE(b, sl_int, S->n);
+  p->relative = SLI_TAKE(b, sl_int, S->tallest);
+}
+
+static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                 sl_int s, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sli_front f = sli_front_of(F, s, 0);
+  const sl_int *rows = S->rows + S->rows_begin[s];
+  const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+  sl_int k, d;
+  sl_status status;
+  for (k = 0; k < f.width; k++) {
+    p->local[start + k] = k;
+  }
+  for (k = 0; k < f.below; k++) {
+    p->local[rows[k]] = f.width + k;
+  }
+  memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
+  status = sli_double_front_load(F, from, &f, failure);
+  if (status != SL_OK) {
+    return status;
+  }
+  for (d = s - 1; d >= S->first_descendant[s];) {
+    const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
+    const sl_int first = sli_lower_bound(of, below, start);
+    const sl_int last = first + sli_lower_bound(of + first, below - first, end);
+    if (first < last) {
+      sli_left_update(F, p, &f, d, first, last, F->stack);
+      sli_left_magnitudes(F, p, &f, d, first, last);
+      d--;
+    } else {
+      d = S->first_descendant[d] - 1;
+    }
+  }
+  sli_front_eliminate(&F->kernels->front, &f, F->buffer);
+  return sli_double_front_check(F, &f, failure);
+}
+
+static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                   const uint64_t *seeds, sl_int count, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_status status = SL_OK;
+  sl_int k = 0, s, next;
+  while (k < count && status == SL_OK) {
+    s = S->super_of[sli_key(seeds[k])];
+    next = sli_next_seed(S, seeds, count, &k);
+    for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
+      status = sli_left_factor(F, p, from, s, failure);
+    }
+  }
+  return status;
+}
+
+static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
+                sl_int count, uint64_t *seeds, uint64_t *scratch) {
+  sl_int k, p, total = 0;
+  for (k = 0; k < count; k++) {
+    const sl_int j = S->iperm[columns[k]];
+    sl_int last = INT32_MAX;
+    for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
+      const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
+      if (seed != last) {
+        seeds[total++] = sli_keyed(seed, 0);
+        last = seed;
+      }
+    }
+  }
+  sli_sort(seeds, total, scratch);
+  return total;
+}
+
+static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                   const uint64_t *seeds, sl_int count, double started,
+                   sl_stats *stats) {
+  sli_failure failure;
+  memset(&failure, 0, sizeof failure);
+  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    (void)sli_null_vectors_check(F, from, &failure);
+  }
+  if (failure.status == SL_OK && !sli_nulls_remain(F)) {
+    return sli_factor_numbers(F, from, started, stats);
+  }
+  if (failure.status == SL_OK) {
+    (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
+  }
+  if (failure.status == SL_OK && sli_null_is_suspected(F)) {
+    return sli_factor_numbers(F, from, started, stats);
+  }
+  return sli_factor_done(F, from, &failure, started, stats);
+}
+
+static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                       sl_int count, const uint64_t *given, sl_int n_given,
+                       sl_stats *stats) {
+  const double started = sli_seconds();
+  const sli_source from = sli_source_matrix(A);
+  sli_left_work work;
+  sli_block b = {NULL, 0, 0};
+  uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
+  sl_status status;
+  sl_int k;
+  int pass;
+  sli_stats_clear_error(stats);
+  if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+  if (status != SL_OK) {
+    return status;
+  }
+  for (k = 0; k < count; k++) {
+    if (columns[k] < 0 || columns[k] >= F->S->n) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
+    }
+    entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
+  }
+  if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
+    entries >= (uint64_t)sli_nnz(A)) {
+    return sl_factor_refactor(F, A, stats);
+  }
+  status = sli_factor_prepare(F);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    seeds = SLI_TAKE(&b, uint64_t, entries);
+    scratch = SLI_TAKE(&b, uint64_t, entries);
+    sli_left_work_layout(&work, &b, F->S);
+    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  work.buffer = F->buffer;
+  sli_factor_begin(F);
+  for (k = 0; k < count; k++) {
+    const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
+    F->identity = sli_hash_ints(F->identity, &columns[k], 1);
+    F->identity = sli_hash_words(F->identity, A->x + p, q - p);
+  }
+  count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
+  status =
+    sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started, stats);
+  F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+  sli_free(&F->allocator, b.base);
+  return status;
+}
+
+SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                      sl_int count, sl_stats *stats) {
+  return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
+}
+
 /* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
 
 typedef struct sli_update {
@@ -23097,8 +21584,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     return SL_ERR_NOT_FINITE;
   }
   if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-    (fabs(e) < fabs(d) &&
-     (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
+    (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
     return SL_ERR_PIVOT;
   }
   if (!u->is_trial) {
@@ -23153,7 +21639,8 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
 static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
                    const double *w, double *c) {
   sl_factor *F = u->F;
-  const sl_int done = F->kernels->change_ranks(u->state, l, columns, F->D + k, w, c);
+  const sl_int done =
+    sli_change_kernels_of(F->kernels->isa)->ranks(u->state, l, columns, F->D + k, w, c);
   return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
 }
 
@@ -23172,7 +21659,7 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
     }
   }
   if (status == SL_OK) {
-    u->F->kernels->change[u->kind - 1](l, columns, at, w);
+    sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
     for (r = 0; r < columns; r++) {
       for (j = r; j < columns; j++) {
         l[SLI_TILE * j + r] = 0.0;
@@ -23185,10 +21672,11 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
               sl_int to) {
   const sl_int entered = step->first_tile;
-  u->F->kernels->change[u->kind - 1](
-    (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
-    to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-    u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+  sli_change_kernels_of(u->F->kernels->isa)
+    ->change[u->kind - 1](
+      (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
+      to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+      u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 static void sli_update_move(const sli_update *u, const sli_step *step, const sl_int *rows,
@@ -23461,7 +21949,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
     one.width = step->width;
     one.below = step->below;
     one.w = w;
-    F->kernels->change_panel(&one);
+    sli_change_kernels_of(F->kernels->isa)->panel(&one);
     entered = SLI_TILE * one.first_tile;
     k = step->column + entered;
     status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);
@@ -23525,7 +22013,7 @@ typedef struct sli_rank {
 #define SLI_RANK_LOGGED (1 << 19)
 
 static int sli_rank_is_suited(const sl_factor *F) {
-  return F->E == NULL && F->n_nulls == 0 && F->storage == SL_STORAGE_DOUBLE;
+  return F->E == NULL && F->n_nulls == 0 && F->type->storage == SL_STORAGE_DOUBLE;
 }
 
 static sl_status sli_rank_check(const sl_factor *F) {
@@ -24113,7 +22601,7 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
   const sl_symbolic *S = F->S;
   const int can_reach =
-    F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE;
+    F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE;
   c->flops_refactor = S->stats.symbolic.flops;
   c->refactor = sli_way_refactor(F);
   c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
@@ -25189,7 +23677,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
   sl_status status;
   opt.isa = F->kernels->isa;
   opt.method = F->method;
-  opt.storage = F->storage;
+  opt.storage = F->type->storage;
   opt.threads = F->threads;
   opt.null_pivots = F->null_pivots;
   opt.null_tolerance = F->rule.null_tolerance;
@@ -25207,7 +23695,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
 }
 
 static int sli_held_is_local(const sl_factor *F, int is_new) {
-  return F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE &&
+  return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
        (F->null_pivots == SL_NULL_PIVOT_REFUSE || !is_new);
 }
 
@@ -25661,7 +24149,7 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
 
 static int sli_pins_can_hold(const sl_factor *F) {
   return F->null_vectors == 1 && F->rule.regularization == 0.0 &&
-       F->storage != SL_STORAGE_COMPLEX;
+       F->type->storage != SL_STORAGE_COMPLEX;
 }
 
 static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
@@ -26263,7 +24751,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
     return SL_ERR_STATE;
   }
-  if (q->region != NULL) {
+  if (q->ending != NULL) {
     return SL_ERR_UNSUPPORTED;
   }
   if (nrhs == 0 || q->nx == 0) {
@@ -26289,6 +24777,31 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
 }
 
 /* src/impl/change/subset.h: a set of rows of A as a sorted list of columns of L, and a map from columns to ranks */
+
+static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
+  const sl_off begin = S->rows_begin[s];
+  const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+  sl_int c;
+  sl_off at;
+  for (c = 0; c < width; c++) {
+    local[first + c] = c;
+  }
+  for (at = begin; at < S->rows_begin[s + 1]; at++) {
+    local[S->rows[at]] = width + (sl_int)(at - begin);
+  }
+  for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+    for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
+      S->relative[at] = local[S->rows[at]];
+    }
+  }
+}
+
+static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    sli_fill_relative_of(S, s, local);
+  }
+}
 
 #define SLI_SUBSET_BITS 64
 #define SLI_SUBSET_WORDS 2
@@ -27106,7 +25619,8 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
   if (status == SL_OK && r->n_kept > 0) {
     sli_restrict_keep(G, r, from, columns);
     kept.F = F;
-    kept.from = from;
+    kept.copied.from = from;
+    kept.copied.copy = sli_kept_run;
     kept.columns = columns;
     kept.is_subset = 1;
     status = sli_kept_room(&kept, G, &room);
@@ -27115,12 +25629,12 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     memset(&failure, 0, sizeof failure);
     sli_factor_begin(G);
     G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-    G->kept = r->n_kept > 0 ? &kept : NULL;
+    G->copied = r->n_kept > 0 ? &kept.copied : NULL;
     G->marks = NULL;
     if (sli_restrict_check(F, r, &failure) == SL_OK) {
       (void)sli_factor_eliminate(G, &source, &failure);
     }
-    G->kept = NULL;
+    G->copied = NULL;
     status = sli_factor_done(G, &source, &failure, started, stats);
   }
   sli_free(&G->allocator, room.base);
@@ -27151,10 +25665,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
   sl_factor *G = NULL;
   sl_status status;
   opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
-  opt.storage = F->storage;
-  if (F->storage == SL_STORAGE_COMPLEX &&
-    (!sli_are_pairs(r->rows, r->R.count) || /* untested: the order keeps pairs together */
-     !sli_rows_are_paired(S))) {            /* untested: the same */
+  opt.storage = F->type->storage;
+  if (F->type->keeps != NULL && !F->type->keeps(r->rows, r->R.count, S)) {
     opt.storage = SL_STORAGE_DOUBLE;
   }
   status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
@@ -27204,8 +25716,8 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
   found.symbolic.triangle = F->S->stats.symbolic.triangle;
   status = sli_restriction_list(r, a, stats);
   if (status == SL_OK) {
-    status = r->n_kept > 0 ? sli_joint_make(S, r, a, &found)
-                 : sli_restriction_make(S, r, a, &found);
+    status =
+      r->n_kept > 0 ? sli_joint_make(S, r, a, &found) : sli_restriction_make(S, r, a, &found);
   }
   sli_restriction_done(r, a);
   if (status == SL_OK) {
@@ -27257,7 +25769,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   r.S = F->S;
   r.A = A;
   r.may_keep =
-    F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
+    F->type->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
   r.rows = rows;
   r.R.count = count;
   status = sli_restriction_begin(&r, &a, stats);
@@ -28771,7 +27283,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
     r->columns[k] = r->row_columns[T->perm[k]];
   }
   r->kept.F = r->F;
-  r->kept.from = r->from;
+  r->kept.copied.from = r->from;
+  r->kept.copied.copy = sli_kept_run;
   r->kept.columns = r->columns;
   return status;
 }
@@ -28871,10 +27384,10 @@ static int sli_reuse_choose(sli_reuse *r) {
     }
   }
   info->computed = T->n - info->kept;
-  seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits +
-        SLI_REUSE_SUPER * supers + SLI_REUSE_ENTRY * (double)info->entries;
-  return seconds < SLI_REUSE_SHARE * (SLI_REUSE_FLOP * r->flops_anew +
-                    SLI_REUSE_FRONT * (double)T->n_supers);
+  seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits + SLI_REUSE_SUPER * supers +
+        SLI_REUSE_ENTRY * (double)info->entries;
+  return seconds < SLI_REUSE_SHARE *
+             (SLI_REUSE_FLOP * r->flops_anew + SLI_REUSE_FRONT * (double)T->n_supers);
 }
 
 static void sli_reuse_drop(sli_reuse *r, sl_int s) {
@@ -28927,9 +27440,9 @@ static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure
   }
   sli_factor_identify(r->G, from);
   r->G->identity = sli_hash_words(r->G->identity, &r->F->identity, 2);
-  r->G->kept = &r->kept;
+  r->G->copied = &r->kept.copied;
   (void)sli_multifrontal(r->G, from, failure);
-  r->G->kept = NULL;
+  r->G->copied = NULL;
   return SL_OK;
 }
 
@@ -29008,7 +27521,841 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   return status;
 }
 
+#endif
+/* io: files that are written and mapped */
+#if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
+/* src/impl/io/output_file.h: a file that takes the place of an old one only once it is complete */
+
+#define SLI_TEMPORARY_NAMES 100
+#define SLI_TEMPORARY_SUFFIX 16
+
+#if defined(SLI_FSYNC) && defined(__linux__) && defined(__O_TMPFILE)
+#define SLI_UNNAMED_FILES 1
+#define SLI_FILE_NAME_MAX 32
+#define SLI_HERE (-100)
+#define SLI_FOLLOW 0x400
+#endif
+
+typedef struct sli_output {
+  FILE *file;
+  const char *path;
+  char *temporary;
+  int is_unnamed;
+} sli_output;
+
+#if defined(SLI_POSIX)
+static int sli_is_replaceable(const char *path, int *exists) {
+  struct stat found;
+  FILE *probe;
+  *exists = 0;
+  if (sli_is_link(path) || strncmp(path, "/dev/", 5) == 0) {
+    return 0;
+  }
+  if (stat(path, &found) != 0) {
+    return errno == ENOENT;
+  }
+  if (!S_ISREG(found.st_mode)) {
+    return 0;
+  }
+  *exists = 1;
+  probe = fopen(path, "ab");
+  if (probe != NULL) {
+    fclose(probe);
+  }
+  return probe != NULL;
+}
+
+static int sli_take_attributes(const char *name, const char *old_name) {
+  struct stat made, old;
+  int can = stat(name, &made) == 0 && stat(old_name, &old) == 0; /* untested: one vanished */
+  can = can && made.st_dev == old.st_dev;                        /* untested: a mount point */
+  can = can && made.st_uid == old.st_uid && made.st_gid == old.st_gid; /* untested: a group */
+  return can && ((made.st_mode & 0777) == (old.st_mode & 0777) ||
+           chmod(name, old.st_mode & 0777) == 0); /* untested: an owner may */
+}
+#else
+static int sli_is_replaceable(const char *path, int *exists) {
+  FILE *probe;
+  long length = 0;
+  *exists = 0;
+#if defined(SLI_WINDOWS)
+  if (sli_is_link(path)) {
+    return 0;
+  }
+#endif
+  probe = fopen(path, "r+b");
+  if (probe != NULL) {
+    length = fseek(probe, 0, SEEK_END) == 0 ? ftell(probe) : 0;
+    fclose(probe);
+    return length != 0;
+  }
+  probe = fopen(path, "rb");
+  if (probe != NULL) {
+    fclose(probe);
+  }
+  return probe == NULL;
+}
+#endif
+
+static FILE *sli_create_new(const char *name) {
+#if defined(SLI_POSIX)
+  return fopen(name, "wbx");
+#else
+  FILE *old = fopen(name, "rb");
+  if (old != NULL) {
+    fclose(old);
+    return NULL;
+  }
+  return fopen(name, "wb");
+#endif
+}
+
+#if defined(SLI_UNNAMED_FILES)
+static int sli_create_unnamed(sli_output *o, int exists) {
+  const char *slash = strrchr(o->path, '/');
+  const size_t length = slash == NULL ? 0 : (size_t)(slash - o->path) + 1;
+  char name[SLI_FILE_NAME_MAX];
+  int file;
+  memcpy(o->temporary, o->path, length);
+  memcpy(o->temporary + length, ".", 2);
+  file = open(o->temporary, __O_TMPFILE | O_WRONLY, 0666);
+  if (file < 0) {
+    return 0;
+  }
+  snprintf(name, sizeof name, "/proc/self/fd/%d", file);
+  o->file = !exists || sli_take_attributes(name, o->path) ? sli_fdopen(file, "wb") : NULL;
+  if (o->file == NULL) {
+    close(file);
+  }
+  return o->file != NULL;
+}
+
+static int sli_name_unnamed(sli_output *o) {
+  const size_t length = strlen(o->path);
+  char name[SLI_FILE_NAME_MAX];
+  int k, is_named = 0;
+  snprintf(name, sizeof name, "/proc/self/fd/%d", sli_fileno(o->file));
+  memcpy(o->temporary, o->path, length);
+  for (k = 0; k < SLI_TEMPORARY_NAMES && !is_named; k++) {
+    snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
+    is_named = sli_linkat(SLI_HERE, name, SLI_HERE, o->temporary, SLI_FOLLOW) == 0;
+  }
+  return is_named;
+}
+#endif
+
+static int sli_create_beside(sli_output *o, int exists) {
+  const size_t length = strlen(o->path);
+  int k;
+#if defined(SLI_UNNAMED_FILES)
+  o->is_unnamed = sli_create_unnamed(o, exists);
+#endif
+  memcpy(o->temporary, o->path, length);
+  for (k = 0; k < SLI_TEMPORARY_NAMES && o->file == NULL; k++) {
+    snprintf(o->temporary + length, SLI_TEMPORARY_SUFFIX, ".tmp%02d", k);
+    o->file = sli_create_new(o->temporary);
+  }
+  if (o->file == NULL) {
+    return errno != EACCES && errno != EPERM && errno != EROFS && errno != ENAMETOOLONG;
+  }
+#if defined(SLI_POSIX)
+  if (exists && !o->is_unnamed &&
+    !sli_take_attributes(o->temporary, o->path)) { /* untested: a mount point */
+    fclose(o->file);
+    o->file = NULL;
+    remove(o->temporary);
+    return 0;
+  }
+#else
+  (void)exists;
+#endif
+  return 1;
+}
+
+static sl_status sli_output_open(sli_output *o, const char *path, const sl_allocator *a) {
+  int exists, could_replace;
+  o->path = path;
+  o->temporary = NULL;
+  o->file = NULL;
+  o->is_unnamed = 0;
+  if (sli_is_replaceable(path, &exists)) {
+    o->temporary = (char *)sli_alloc(a, strlen(path) + SLI_TEMPORARY_SUFFIX);
+    if (o->temporary == NULL) {
+      return SL_ERR_MEMORY;
+    }
+    could_replace = sli_create_beside(o, exists);
+    if (o->file != NULL) {
+      return SL_OK;
+    }
+    sli_free(a, o->temporary);
+    o->temporary = NULL;
+    if (could_replace) {
+      return SL_ERR_IO;
+    }
+  }
+  o->file = fopen(path, "wb");
+  return o->file != NULL ? SL_OK : SL_ERR_IO;
+}
+
+static int sli_replace(const sli_output *o, int *is_only_copy) {
+  *is_only_copy = 0;
+#if defined(SLI_WINDOWS)
+  if (MoveFileExA(o->temporary, o->path, 1) != 0) {
+    return 1;
+  }
+#endif
+  if (rename(o->temporary, o->path) == 0) {
+    return 1;
+  }
+#if !defined(SLI_POSIX)
+  *is_only_copy = remove(o->path) == 0;
+  if (*is_only_copy && rename(o->temporary, o->path) == 0) {
+    return 1;
+  }
+#endif
+  return 0;
+}
+
+static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) {
+  int ok = fflush(o->file) == 0 && complete, has_name = 1, is_only_copy = 0;
+#if defined(SLI_UNNAMED_FILES)
+  has_name = !o->is_unnamed || (ok && sli_name_unnamed(o));
+  ok = ok && has_name;
+#endif
+  ok = fclose(o->file) == 0 && ok; /* untested: it has been flushed */
+  if (o->temporary != NULL) {
+    ok = ok && sli_replace(o, &is_only_copy);
+    if (!ok && has_name && !is_only_copy) { /* untested: without POSIX */
+      remove(o->temporary);
+    }
+    sli_free(a, o->temporary);
+  }
+  return ok;
+}
+
+/* src/impl/io/file_map.h: files mapped into memory, read-only, and the size of a file */
+
+typedef struct sli_mapping {
+  const void *bytes;
+  size_t size;
+} sli_mapping;
+
+static sl_status sli_map(const char *path, sli_mapping *out) {
+  sl_status status = SL_ERR_IO;
+  out->bytes = NULL;
+  out->size = 0;
+#if defined(SLI_MMAP)
+  {
+    const int file = open(path, O_RDONLY);
+    struct stat found;
+    void *bytes;
+    if (file < 0) {
+      return SL_ERR_IO;
+    }
+    if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
+      const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
+      status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
+    }
+    if (status == SL_OK) {
+      bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
+      if (bytes == MAP_FAILED) {
+        status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
+      } else {
+        out->bytes = bytes;
+        out->size = (size_t)found.st_size;
+      }
+    }
+    close(file);
+  }
+#elif defined(SLI_MAP_VIEW)
+  {
+    void *const file = CreateFileA(path, 0x80000000u, 1 | 4, NULL, 3, 0x80, NULL);
+    void *section;
+    int64_t size = 0;
+    if ((intptr_t)file == -1) {
+      return SL_ERR_IO;
+    }
+    if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
+      status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+    }
+    section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
+    if (section != NULL) {
+      out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
+      CloseHandle(section);
+    }
+    if (status == SL_OK && out->bytes == NULL) {
+      status = SL_ERR_IO;
+    } else if (status == SL_OK) {
+      out->size = (size_t)size;
+    }
+    CloseHandle(file);
+  }
+#else
+  (void)path;
+  status = SL_ERR_UNSUPPORTED;
+#endif
+  return status;
+}
+
+static void sli_unmap(const void *bytes, size_t size) {
+  if (bytes != NULL) {
+#if defined(SLI_MMAP)
+    munmap((void *)(uintptr_t)bytes, size);
+#elif defined(SLI_MAP_VIEW)
+    UnmapViewOfFile(bytes);
+    (void)size;
+#endif
+  }
+}
+
+static uint64_t sli_file_size(FILE *file) {
+#if defined(_WIN32)
+  const int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : 0;
+#else
+  const int64_t size = fseek(file, 0, SEEK_END) == 0 ? (int64_t)ftell(file) : 0;
+#endif
+  rewind(file);
+  return size > 0 ? (uint64_t)size : 0;
+}
+
+static int sli_flush(FILE *file) {
+  if (fflush(file) != 0) {
+    return 0;
+  }
+#if defined(SLI_FSYNC)
+  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
+#elif defined(_WIN32)
+  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file));
+#else
+  return 1;
+#endif
+}
+
+#endif
+/* files: Matrix Market files, 64-bit indices */
+#if defined(SL_WITH_FILES)
+/* src/impl/files/csc64.h: matrices with 64-bit indices, converted to 32 bits */
+
+static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
+  sl_status status;
+  int64_t j;
+  status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+  if (status != SL_OK || A->n_cols == 0) {
+    return status;
+  }
+  if (A->p[0] != 0) {
+    return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+  }
+  for (j = 0; j < A->n_cols; j++) {
+    if (A->p[j + 1] < A->p[j]) {
+      return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0);
+    }
+  }
+  if (A->p[A->n_cols] > INT32_MAX) {
+    return SL_ERR_TOO_LARGE;
+  }
+  return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats) {
+  sl_int j, p;
+  M->p[0] = 0;
+  for (j = 0; j < M->n_cols; j++) {
+    M->p[j + 1] = (sl_int)A->p[j + 1];
+    for (p = M->p[j]; p < M->p[j + 1]; p++) {
+      const int64_t i = A->i[p];
+      if (i < 0 || i >= A->n_rows) {
+        const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
+        return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0);
+      }
+      M->i[p] = (sl_int)i;
+    }
+  }
+  if (A->x != NULL && M->p[M->n_cols] > 0) {
+    memcpy(M->x, A->x, (size_t)M->p[M->n_cols] * sizeof(double));
+  }
+  return SL_OK;
+}
+
+SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const sl_options *opt,
+                    sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  sl_matrix *M = NULL;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status =
+    sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
+  if (status == SL_OK) {
+    const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
+    status =
+      sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz, A->x != NULL, &a);
+  }
+  if (status == SL_OK) {
+    status = sli_csc64_copy(A, M, stats);
+  }
+  if (status != SL_OK) {
+    sl_matrix_free(M);
+    return status;
+  }
+  *out = M;
+  return SL_OK;
+}
+
+/* src/impl/files/text_reader.h: lines, words and numbers of a text, in any locale */
+
+#define SLI_TOKEN_MAX 63
+#define SLI_POINT_MAX 16
+#define SLI_LINE_MAX 65536
+
+typedef struct sli_reader {
+  const char *at, *end;
+  FILE *file;
+  char *buffer;
+  int failed;
+  sl_off line;
+  char point[SLI_POINT_MAX + 1];
+} sli_reader;
+
+static int sli_reader_fill(sli_reader *r) {
+  const size_t kept = (size_t)(r->end - r->at);
+  size_t got;
+  if (r->file == NULL || kept == SLI_LINE_MAX) {
+    return 0;
+  }
+  if (kept > 0) {
+    memmove(r->buffer, r->at, kept);
+  }
+  got = fread(r->buffer + kept, 1, SLI_LINE_MAX - kept, r->file);
+  r->at = r->buffer;
+  r->end = r->buffer + kept + got;
+  if (got < SLI_LINE_MAX - kept) {
+    r->failed |= ferror(r->file) != 0;
+    r->file = NULL;
+  }
+  return got > 0;
+}
+
+static void sli_skip_line(sli_reader *r) {
+  do {
+    while (r->at < r->end && *r->at != '\n') {
+      r->at++;
+    }
+  } while (r->at == r->end && sli_reader_fill(r));
+  r->at += r->at < r->end;
+}
+
+static int sli_skip_blanks(sli_reader *r) {
+  do {
+    while (r->at < r->end && (*r->at == ' ' || *r->at == '\t' || *r->at == '\r')) {
+      r->at++;
+    }
+  } while (r->at == r->end && sli_reader_fill(r));
+  return r->at < r->end;
+}
+
+static int sli_next_line(sli_reader *r, const char **start, const char **stop, int comments) {
+  while (r->at < r->end || sli_reader_fill(r)) {
+    ptrdiff_t length = 0;
+    r->line++;
+    if (!sli_skip_blanks(r)) {
+      break;
+    }
+    if (*r->at == '%' && !comments) {
+      sli_skip_line(r);
+      continue;
+    }
+    do {
+      while (length < r->end - r->at && r->at[length] != '\n') {
+        length++;
+      }
+    } while (length == r->end - r->at && sli_reader_fill(r));
+    if (length >= SLI_LINE_MAX) {
+      r->failed = 1;
+      break;
+    }
+    *start = r->at;
+    *stop = r->at + length;
+    r->at += length + (length < r->end - r->at);
+    if (length > 0) {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+static int sli_token(const char **at, const char *stop, char *token) {
+  const char *s = *at;
+  int length = 0;
+  while (s < stop && (*s == ' ' || *s == '\t' || *s == '\r')) {
+    s++;
+  }
+  while (s < stop && *s != ' ' && *s != '\t' && *s != '\r') {
+    if (length == SLI_TOKEN_MAX || *s == '\0') {
+      return 0;
+    }
+    token[length++] = *s++;
+  }
+  token[length] = '\0';
+  *at = s;
+  return length > 0;
+}
+
+static int sli_token_int(const char **at, const char *stop, sl_off low, sl_off high, sl_off *out) {
+  char token[SLI_TOKEN_MAX + 1];
+  sl_off value = 0;
+  int k = 0;
+  if (!sli_token(at, stop, token)) {
+    return 0;
+  }
+  k += token[0] == '+';
+  if (token[k] == '\0') {
+    return 0;
+  }
+  for (; token[k] != '\0'; k++) {
+    if (token[k] < '0' || token[k] > '9' || value > (INT64_MAX - 9) / 10) {
+      return 0;
+    }
+    value = 10 * value + (token[k] - '0');
+  }
+  *out = value;
+  return value >= low && value <= high;
+}
+
+SLI_INLINE int sli_is_numeric(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
+       c == '-' || c == '(' || c == ')' || c == '_';
+}
+
+static void sli_find_point(char *point) {
+  char half[SLI_POINT_MAX + 3];
+  const int length = snprintf(half, sizeof half, "%.1f", 0.5);
+  if (length < 3 || length >= (int)sizeof half) { /* untested: no locale is like this */
+    memcpy(half, "0.5", 4);                     /* untested: the same */
+  }
+  half[strlen(half) - 1] = '\0';
+  memcpy(point, half + 1, strlen(half));
+}
+
+static int sli_token_double(const sli_reader *r, const char **at, const char *stop, double *out) {
+  char token[SLI_TOKEN_MAX + 1], number[SLI_TOKEN_MAX + SLI_POINT_MAX + 1], *to = number, *rest;
+  const char *c;
+  int n_points = 0;
+  if (!sli_token(at, stop, token)) {
+    return 0;
+  }
+  for (c = token; *c != '\0'; c++) {
+    if (*c == '.' && n_points++ == 0) {
+      memcpy(to, r->point, strlen(r->point));
+      to += strlen(r->point);
+    } else if (sli_is_numeric(*c)) {
+      *to++ = *c;
+    } else {
+      return 0;
+    }
+  }
+  *to = '\0';
+  *out = strtod(number, &rest);
+  return rest != number && *rest == '\0';
+}
+
+SLI_NOINLINE static int sli_token_is(const char *token, const char *word) {
+  for (; *token != '\0' && *word != '\0'; token++, word++) {
+    const char c = *token >= 'A' && *token <= 'Z' ? (char)(*token - 'A' + 'a') : *token;
+    if (c != *word) {
+      return 0;
+    }
+  }
+  return *token == *word;
+}
+
+static int sli_token_in(const char *token, const char *const *words) {
+  while (*words != NULL && !sli_token_is(token, *words)) {
+    words++;
+  }
+  return *words != NULL;
+}
+
+static int sli_line_ends(const char *s, const char *e) {
+  while (s < e && (*s == ' ' || *s == '\t' || *s == '\r')) {
+    s++;
+  }
+  return s == e;
+}
+
+/* src/impl/files/matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+
+#define SLI_ENTRIES_FIRST 65536
+
+static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
+  static const char *const sli_formats[] = {"coordinate", "array", NULL};
+  static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
+  static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
+                         "hermitian", NULL};
+  char token[5][SLI_TOKEN_MAX + 1];
+  const char *s, *e;
+  int k;
+  if (!sli_next_line(r, &s, &e, 1)) {
+    return SL_ERR_IO;
+  }
+  for (k = 0; k < 5; k++) {
+    if (!sli_token(&s, e, token[k])) {
+      return SL_ERR_IO;
+    }
+  }
+  if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
+    !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
+    !sli_token_in(token[4], sli_symmetries)) {
+    return SL_ERR_IO;
+  }
+  *has_values = !sli_token_is(token[3], "pattern");
+  *symmetric = sli_token_is(token[4], "symmetric");
+  return sli_token_is(token[2], "coordinate") && !sli_token_is(token[3], "complex") &&
+           (*symmetric || sli_token_is(token[4], "general"))
+         ? SL_OK
+         : SL_ERR_UNSUPPORTED;
+}
+
+typedef struct sli_triplets {
+  void *block;
+  sl_int *i, *j;
+  double *x;
+  sl_off count, room;
+} sli_triplets;
+
+static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
+                   const sl_allocator *a) {
+  sli_block b = {NULL, 0, 0};
+  sli_triplets larger = *t;
+  sl_status status = SL_OK;
+  int pass;
+  larger.room = room;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    larger.i = SLI_TAKE(&b, sl_int, room);
+    larger.j = SLI_TAKE(&b, sl_int, room);
+    larger.x = has_values ? SLI_TAKE(&b, double, room) : NULL;
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  if (t->count > 0) {
+    memcpy(larger.i, t->i, (size_t)t->count * sizeof *t->i);
+    memcpy(larger.j, t->j, (size_t)t->count * sizeof *t->j);
+    if (has_values) {
+      memcpy(larger.x, t->x, (size_t)t->count * sizeof *t->x);
+    }
+  }
+  sli_free(a, t->block);
+  larger.block = b.base;
+  *t = larger;
+  return SL_OK;
+}
+
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
+                  sli_triplets *t, const sl_allocator *a) {
+  const char *s, *e;
+  sl_off row, column;
+  sl_status status;
+  for (; t->count < size[2]; t->count++) {
+    if (t->count == t->room) {
+      const sl_off more = 2 * t->room < size[2] ? 2 * t->room : size[2];
+      status = sli_triplets_grow(t, more, has_values, a);
+      if (status != SL_OK) {
+        return status;
+      }
+    }
+    if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
+      !sli_token_int(&s, e, 1, size[1], &column) ||
+      (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
+      return SL_ERR_IO;
+    }
+    t->i[t->count] = (sl_int)(symmetric && row < column ? column : row) - 1;
+    t->j[t->count] = (sl_int)(symmetric && row < column ? row : column) - 1;
+  }
+  return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+}
+
+static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
+  const char *s, *e;
+  sl_off size[3] = {0, 0, 0}, room;
+  sli_triplets t;
+  int has_values, symmetric, k;
+  sl_status status = sli_read_banner(r, &has_values, &symmetric);
+  if (status != SL_OK) {
+    return status;
+  }
+  if (!sli_next_line(r, &s, &e, 0)) {
+    return SL_ERR_IO;
+  }
+  for (k = 0; k < 3; k++) {
+    if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
+      return SL_ERR_IO;
+    }
+    if (size[k] > SLI_ROWS_MAX) {
+      return SL_ERR_TOO_LARGE;
+    }
+  }
+  if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
+    (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
+    return SL_ERR_IO;
+  }
+  memset(&t, 0, sizeof t);
+  room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
+  status = sli_triplets_grow(&t, room, has_values, a);
+  status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
+  if (status == SL_OK) {
+    status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], t.i, t.j,
+                   t.x, a);
+  }
+  sli_free(a, t.block);
+  return status;
+}
+
+static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_allocator *a,
+                 sl_stats *stats) {
+  const int saved = errno;
+  sl_status status;
+  sli_find_point(r->point);
+  status = sli_parse(out, r, a);
+  if (status != SL_OK && stats != NULL) {
+    stats->error.line = r->line > 0 ? r->line : 1;
+  }
+  errno = saved;
+  return status;
+}
+
+SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                 const sl_options *opt, sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  sli_reader r;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (text == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+    return SL_ERR_ARGUMENT;
+  }
+  memset(&r, 0, sizeof r);
+  r.at = text;
+  r.end = text + length;
+  return sli_read_matrix(out, &r, &a, stats);
+}
+
+SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
+                sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  const int saved = errno;
+  sli_reader r;
+  FILE *file;
+  sl_status status = SL_ERR_MEMORY;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+    return SL_ERR_ARGUMENT;
+  }
+  file = fopen(path, "rb");
+  if (file == NULL) {
+    errno = saved;
+    return SL_ERR_IO;
+  }
+  memset(&r, 0, sizeof r);
+  r.file = file;
+  r.buffer = (char *)sli_alloc(&a, SLI_LINE_MAX);
+  if (r.buffer != NULL) {
+    r.at = r.end = r.buffer;
+    status = sli_read_matrix(out, &r, &a, stats);
+  }
+  sli_free(&a, r.buffer);
+  fclose(file);
+  errno = saved;
+  return status;
+}
+
+static void sli_set_point(char *number) {
+  const char *from = number;
+  char *to = number;
+  while (*from != '\0') {
+    if (sli_is_numeric(*from)) {
+      *to++ = *from++;
+      continue;
+    }
+    *to++ = '.';
+    while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
+      from++;
+    }
+  }
+  *to = '\0';
+}
+
+static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
+  char number[40];
+  if (value == NULL) {
+    return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
+  }
+  snprintf(number, sizeof number, "%.17g", *value);
+  sli_set_point(number);
+  return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
+}
+
+static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
+  sl_int j, p;
+  sl_off count = 0;
+  int ok;
+  for (j = 0; j < A->n_cols; j++) {
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      count += sli_is_read(triangle, A->i[p], j);
+    }
+  }
+  ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
+         A->x != NULL ? "real" : "pattern",
+         reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
+         (long)A->n_cols, (long)count) > 0;
+  for (j = 0; j < A->n_cols && ok; j++) {
+    for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
+      const sl_int i = A->i[p];
+      if (sli_is_read(triangle, i, j)) {
+        const int flip = reading == SL_AS_SYMMETRIC && i < j;
+        ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
+                   A->x != NULL ? A->x + p : NULL);
+      }
+    }
+  }
+  return ok;
+}
+
+SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
+  const int saved = errno;
+  sl_triangle triangle = SL_TRIANGLE_NONE;
+  sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
+                          : sl_csc_check(A, NULL);
+  const sl_allocator a = sli_allocator(NULL);
+  sli_output output;
+  if (status != SL_OK) {
+    return status;
+  }
+  if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_output_open(&output, path, &a);
+  if (status == SL_OK) {
+    const int complete = sli_write(output.file, A, reading, triangle);
+    status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+  }
+  errno = saved;
+  return status;
+}
+
+#endif
 /* save: factors in files */
+#if defined(SL_WITH_SAVE)
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
 #define SLI_READ_VERSION 2
@@ -29108,7 +28455,7 @@ SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
 }
 
 SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
-              uint64_t count, uint64_t used) {
+                     uint64_t count, uint64_t used) {
   const uint32_t k = f->header.sections++;
   f->table[k].id = id;
   f->table[k].word = word;
@@ -29248,7 +28595,7 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
 }
 
 SLI_NOINLINE static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
-                 int has_factor) {
+                      int has_factor) {
   f->header.sections = 0;
   sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
           sizeof f->analysis / 8);
@@ -29422,7 +28769,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->S = S;
   F->analysis = S->identity;
   F->method = (sl_method)g->method;
-  F->storage = (sl_storage)g->storage;
+  F->type = sli_storage_type_of((sl_storage)g->storage);
   F->null_pivots = (sl_null_pivots)g->null_pivots;
   F->checks = (int)g->checks;
   F->is_centered = (int)g->is_centered;
@@ -29432,7 +28779,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->consistency = g->consistency;
   F->growth_limit = g->growth_limit;
   F->error_limit = g->error_limit;
-  F->rule.epsilon = sli_epsilon(F->storage);
+  F->rule.epsilon = F->type->epsilon;
   F->rule.null_tolerance = g->null_tolerance;
   F->rule.regularization = g->regularization;
   F->rule.replaces = skips || g->regularization != 0.0;
@@ -29849,7 +29196,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.identity[0] = F->identity.a;
   g.identity[1] = F->identity.b;
   g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
-  g.storage = F->storage;
+  g.storage = F->type->storage;
   return g;
 }
 
@@ -29956,8 +29303,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   const sl_factor *F = set->factor;
-  const sl_status status = F != NULL && sli_is_complex(F) ? SL_ERR_UNSUPPORTED
-                                       : sli_save_check(set);
+  const sl_status status = F != NULL && F->type->half ? SL_ERR_UNSUPPORTED : sli_save_check(set);
   sl_factor none;
   int fits = 1;
   memset(f, 0, sizeof *f);
@@ -29969,7 +29315,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
   f->header.order_mark = SLI_ORDER_MARK;
   f->header.read_version = SLI_READ_VERSION_DOUBLE;
   f->header.write_version = SLI_WRITE_VERSION_PLAIN;
-  if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
+  if (F != NULL && F->type->storage != SL_STORAGE_DOUBLE) {
     f->header.read_version = SLI_READ_VERSION;
     f->header.write_version = SLI_WRITE_VERSION;
   }
@@ -29990,7 +29336,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     sli_saved_add_selected(f, set->selected);
   }
   fits = fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX; /* untested: 2^62 bytes */
-  return fits ? SL_OK : SL_ERR_TOO_LARGE; /* untested: the same */
+  return fits ? SL_OK : SL_ERR_TOO_LARGE;                           /* untested: the same */
 }
 
 static void sli_save_write(sli_saved *f, sli_sink *to) {
@@ -30241,7 +29587,8 @@ static sl_status sli_read_front(sli_reading *r) {
       return status != SL_OK ? status : SL_ERR_IO;
     }
   }
-  if ((r->F.storage != SL_STORAGE_DOUBLE) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
+  if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
+    (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
     return SL_ERR_IO;
   }
   memset(&expected, 0, sizeof expected);
@@ -30337,10 +29684,10 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   status = sli_factor_use(F, r->opt);
   sli_factor_layout(F, &b, (int)g->has_mass);
   m.first = r->saved.first_number;
-  m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage != SL_STORAGE_DOUBLE);
+  m.last = m.first + SLI_FACTOR_SECTIONS + (F->type->storage != SL_STORAGE_DOUBLE);
   m.head = sizeof *F;
   m.bytes = b.used;
-  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) { /* untested: on 32 bits only */
+  if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) {    /* untested: on 32 bits only */
     status = status == SL_OK ? SL_ERR_TOO_LARGE : status; /* untested: the same */
   }
   status = status == SL_OK ? sli_read_image(r, &m) : status;
@@ -30766,9 +30113,11 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
   if (status == SL_OK) {
     status = sli_read_memory(r, map.bytes, map.size, set, wanted);
     if (status == SL_OK) {
-      set->symbolic->mapping = map;
+      set->symbolic->backing.release = sli_unmap;
+      set->symbolic->backing.bytes = map.bytes;
+      set->symbolic->backing.size = map.size;
     } else {
-      sli_unmap(&map);
+      sli_unmap(map.bytes, map.size);
     }
   }
   return status;
@@ -30889,7 +30238,309 @@ SL_API sl_status sl_map_set_file(sl_saved_set *set, const char *path, sl_load_ch
   return sli_read_set(&from, set, checks, opt);
 }
 
-/* batch: many solves, factors and diagonals by one call */
+#endif
+/* batch: many solves and factorizations by one call, sums of matrices */
+#if defined(SL_WITH_BATCH)
+/* src/impl/batch/matrix_sum.h: weighted sums of symmetric matrices with any stored triangles */
+
+typedef struct sli_summands {
+  sl_int count;
+  sl_int *row, *column;
+  double *x;
+} sli_summands;
+
+static sl_status sli_sum_check(const double *coefficients, const sl_csc *terms, sl_int count,
+                 sl_off *entries, sl_stats *stats) {
+  sl_int t;
+  *entries = 0;
+  for (t = 0; t < count; t++) {
+    const sl_csc *A = &terms[t];
+    const sl_status status = sl_csc_check(A, stats);
+    if (status != SL_OK) {
+      return status;
+    }
+    if (A->n_rows != A->n_cols || A->n_cols != terms[0].n_cols ||
+      (coefficients != NULL && sli_nnz(A) > 0 && A->x == NULL)) {
+      return SL_ERR_ARGUMENT;
+    }
+    *entries += sli_nnz(A);
+  }
+  return *entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
+}
+
+static void sli_sum_append(sli_summands *all, const sl_csc *A, sl_triangle triangle, double c) {
+  sl_int j, p;
+  for (j = 0; j < A->n_cols; j++) {
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      if (sli_is_read(triangle, A->i[p], j)) {
+        all->row[all->count] = sli_max(A->i[p], j);
+        all->column[all->count] = sli_min(A->i[p], j);
+        if (all->x != NULL) {
+          all->x[all->count] = c * A->x[p];
+        }
+        all->count++;
+      }
+    }
+  }
+}
+
+SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, const sl_csc *terms,
+                 sl_int count, const sl_options *opt, sl_stats *stats) {
+  const sl_allocator a = sli_allocator(opt);
+  sli_block b = {NULL, 0, 0};
+  sli_summands all = {0, NULL, NULL, NULL};
+  sl_off entries;
+  sl_status status;
+  sl_int t;
+  int pass;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (terms == NULL || count < 1 || !sli_options_are_valid(opt, SLI_READS_TRIANGLE)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_sum_check(coefficients, terms, count, &entries, stats);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    all.row = SLI_TAKE(&b, sl_int, entries);
+    all.column = SLI_TAKE(&b, sl_int, entries);
+    all.x = coefficients != NULL ? SLI_TAKE(&b, double, entries) : NULL;
+    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+  }
+  for (t = 0; t < count && status == SL_OK; t++) {
+    sl_triangle triangle = SL_TRIANGLE_NONE;
+    status = sli_csc_triangle(&terms[t], sli_triangle_scan(&terms[t]), &triangle, opt, stats);
+    if (status == SL_OK) {
+      sli_sum_append(&all, &terms[t], triangle, coefficients != NULL ? coefficients[t] : 0.0);
+    }
+  }
+  if (status == SL_OK) {
+    const sl_int n = terms[0].n_cols;
+    status = sli_from_triplets(out, n, n, all.count, all.row, all.column, all.x, &a);
+  }
+  sli_free(&a, b.base);
+  return status;
+}
+
+/* src/impl/batch/scatter.h: scatters a matrix into a value array in the order of the scatter map */
+
+typedef struct sli_scatter_work {
+  sl_int *begin;
+  sl_int *from;
+  sl_int *to;
+  sl_int *index;
+  sl_int *head;
+  sl_int *next;
+  sl_int *row;
+} sli_scatter_work;
+
+static void sli_scatter_layout(sli_scatter_work *w, sli_block *b, const sl_symbolic *S,
+                 sl_int entries) {
+  sl_off most = 0;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_off here = S->scatter_begin[s + 1] - S->scatter_begin[s];
+    most = here > most ? here : most;
+  }
+  w->begin = SLI_TAKE(b, sl_int, (size_t)S->n + 1);
+  w->from = SLI_TAKE(b, sl_int, entries);
+  w->to = SLI_TAKE(b, sl_int, entries);
+  w->index = SLI_TAKE(b, sl_int, S->n);
+  w->head = SLI_TAKE(b, sl_int, S->widest);
+  w->next = SLI_TAKE(b, sl_int, most);
+  w->row = SLI_TAKE(b, sl_int, most);
+}
+
+static void sli_scatter_sort(const sl_symbolic *S, sli_scatter_work *w, const sl_csc *K,
+               sl_triangle triangle) {
+  const sl_int *iperm = S->iperm;
+  sl_int j, p, total = 0;
+  memset(w->begin, 0, ((size_t)S->n + 1) * sizeof(sl_int));
+  for (j = 0; j < S->n; j++) {
+    for (p = K->p[j]; p < K->p[j + 1]; p++) {
+      w->begin[sli_min(iperm[K->i[p]], iperm[j])] += sli_is_read(triangle, K->i[p], j);
+    }
+  }
+  for (j = 0; j <= S->n; j++) {
+    const sl_int here = w->begin[j];
+    w->begin[j] = total;
+    total += here;
+  }
+  for (j = 0; j < S->n; j++) {
+    for (p = K->p[j]; p < K->p[j + 1]; p++) {
+      if (sli_is_read(triangle, K->i[p], j)) {
+        const sl_int at = w->begin[sli_min(iperm[K->i[p]], iperm[j])]++;
+        w->from[at] = p;
+        w->to[at] = sli_max(iperm[K->i[p]], iperm[j]);
+      }
+    }
+  }
+  memmove(w->begin + 1, w->begin, (size_t)S->n * sizeof(sl_int));
+  w->begin[0] = 0;
+}
+
+static void sli_scatter_list(const sl_symbolic *S, sli_scatter_work *w, sl_int s) {
+  const sl_off start = S->scatter_begin[s];
+  sl_int k, j, m, tile = sli_last_tile(S, s);
+  for (j = 0; j < S->steps[s].width; j++) {
+    w->head[j] = -1;
+  }
+  for (m = (sl_int)(S->scatter_begin[s + 1] - start) - 1; m >= 0; m--) {
+    sli_scatter_map_pivots(S, s, start + m, &tile, &k, &j);
+    j -= S->super_first[s];
+    w->row[m] = k;
+    w->next[m] = w->head[j];
+    w->head[j] = m;
+  }
+}
+
+static sl_int sli_scatter_find(sli_scatter_work *w, sl_int j, sl_int head, sl_int start,
+                 sl_int missing) {
+  sl_int m, q;
+  for (m = head; m != -1; m = w->next[m]) {
+    w->index[w->row[m]] = start + m;
+  }
+  for (q = w->begin[j]; q < w->begin[j + 1]; q++) {
+    w->to[q] = w->index[w->to[q]];
+    missing = w->to[q] == -1 ? sli_min(missing, w->from[q]) : missing;
+  }
+  for (m = head; m != -1; m = w->next[m]) {
+    w->index[w->row[m]] = -1;
+  }
+  return missing;
+}
+
+static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
+  sl_int s, j, missing = INT32_MAX;
+  for (j = 0; j < S->n; j++) {
+    w->index[j] = -1;
+  }
+  for (s = 0; s < S->n_supers; s++) {
+    const sl_int first = S->super_first[s], last = S->super_first[s + 1];
+    if (w->begin[first] < w->begin[last]) {
+      sli_scatter_list(S, w, s);
+      for (j = first; j < last; j++) {
+        if (w->begin[j] < w->begin[j + 1]) {
+          missing = sli_scatter_find(w, j, w->head[j - first],
+                         (sl_int)S->scatter_begin[s], missing);
+        }
+      }
+    }
+  }
+  return missing;
+}
+
+SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
+  return S == NULL ? 0 : (sl_int)S->scatter_begin[S->n_supers];
+}
+
+SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const sl_csc *K,
+                   sl_stats *stats) {
+  sl_options opt;
+  sli_scatter_work w;
+  sli_block b = {NULL, 0, 0};
+  sl_triangle triangle = SL_TRIANGLE_NONE;
+  sl_int q, missing;
+  int pass;
+  sl_status status = sl_csc_check(K, stats);
+  if (S == NULL || status != SL_OK) {
+    return S == NULL ? SL_ERR_ARGUMENT : status;
+  }
+  if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
+    (sl_symbolic_entries(S) > 0 && values == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (K->n_cols != S->n) {
+    return SL_ERR_PATTERN;
+  }
+  memset(&w, 0, sizeof w);
+  opt = sli_options_with(&S->allocator);
+  status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    sli_scatter_layout(&w, &b, S, sli_nnz(K));
+    status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_scatter_sort(S, &w, K, triangle);
+  missing = sli_scatter_find_all(S, &w);
+  if (missing == INT32_MAX) {
+    for (q = 0; q < sl_symbolic_entries(S); q++) {
+      values[q] = 0.0;
+    }
+    for (q = 0; q < w.begin[S->n]; q++) {
+      values[w.to[q]] += K->x[w.from[q]];
+    }
+  } else {
+    status = sli_fail_at(stats, SL_ERR_PATTERN, K->i[missing], sli_column_of(K, missing),
+               K->x[missing]);
+  }
+  sli_free(&S->allocator, b.base);
+  return status;
+}
+
+/* src/impl/batch/combination.h: factorization of a weighted sum of value arrays in the order of the scatter map */
+
+static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
+                   const double *const *values, sl_int terms, sli_source *from) {
+  sl_int t;
+  if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
+    return SL_ERR_ARGUMENT;
+  }
+  for (t = 0; t < terms; t++) {
+    if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
+      return SL_ERR_ARGUMENT;
+    }
+  }
+  from->A = NULL;
+  from->values = values;
+  from->coefficients = coefficients;
+  from->terms = terms;
+  return SL_OK;
+}
+
+SL_API sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
+                        const double *coefficients,
+                        const double *const *values, sl_int terms,
+                        const sl_options *opt, sl_stats *stats) {
+  sli_source from;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  if (S == NULL || !sli_factor_options_are_valid(opt)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_source_of_sum(S, coefficients, values, terms, &from);
+  return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
+}
+
+SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coefficients,
+                        const double *const *values, sl_int terms,
+                        sl_stats *stats) {
+  const double started = sli_seconds();
+  sli_source from;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (F == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!sli_factor_may_change(F)) {
+    return SL_ERR_STATE;
+  }
+  status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
+  status = status == SL_OK ? sli_factor_prepare(F) : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_factor_begin(F);
+  return sli_factor_numbers(F, &from, started, stats);
+}
+
 /* src/impl/batch/batch_solve.h: many independent solves, shared among workers by the entries of L they read */
 
 typedef struct sli_solve_batch {
@@ -30915,8 +30566,7 @@ static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
 }
 
 SLI_INLINE double sli_query_weight(const sli_query *q) {
-  return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
-       (double)q->boundary.entries;
+  return 1.0 + (double)q->forward.entries + (double)q->backward.entries + (double)q->used.entries;
 }
 
 static sl_int sli_blocks_before(double point, double before, double weight, sl_int nrhs) {
@@ -31300,6 +30950,9 @@ SL_API sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
   return status;
 }
 
+#endif
+/* batch: diagonals of many inverses */
+#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
 /* src/impl/batch/batch_diagonal.h: diagonals of the inverses of several factors; a worker takes whole factors */
 
 typedef struct sli_diagonal_batch {
@@ -31439,7 +31092,242 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
   return status == SL_OK && n_rows > 0 ? sli_diagonal_batch_run(&d, threads) : status;
 }
 
+#endif
 /* complex: complex Hermitian systems over real factors */
+#if defined(SL_WITH_COMPLEX)
+/* src/impl/complex/complex_kernels.h: the kernels of complex matrices, for every instruction set */
+
+typedef struct sli_complex_kernels {
+  sli_sweeps sweeps;
+  sli_front_kernels front;
+} sli_complex_kernels;
+
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 1
+#define SLW_NRHS 2
+#define SLW_GROUPS 32
+#define SLI_SECTION_WORDS_SCALAR
+#define SLI_SECTION_LANES_SCALAR
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_COMPLEX_SMALL
+#define SLI_SECTION_COMPLEX_ROWS
+#define SLI_SECTION_COMPLEX_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#if defined(SLI_X86)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 1
+#define SLW_NRHS 4
+#define SLW_GROUPS 32
+#define SLI_SECTION_WORDS_AVX2
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 2
+#define SLW_GROUPS 2
+#define SLI_SECTION_LANES_AVX2
+#include SL_HEADER
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_COMPLEX_SMALL
+#define SLI_SECTION_COMPLEX_ROWS
+#define SLI_SECTION_COMPLEX_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_AVX512)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 1
+#define SLW_NRHS 8
+#define SLW_GROUPS 8
+#define SLI_SECTION_WORDS_AVX512
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 16
+#define SLW_GROUPS 32
+#define SLI_SECTION_LANES_AVX512
+#include SL_HEADER
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_COMPLEX_SMALL
+#define SLI_SECTION_COMPLEX_ROWS
+#define SLI_SECTION_COMPLEX_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+#if defined(SLI_ARM)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 1
+#define SLW_NRHS 4
+#define SLW_GROUPS 32
+#define SLI_SECTION_WORDS_NEON
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
+#define SLI_SECTION_FRONT
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_LANES_UNDEF
+#include SL_HEADER
+#define SLW_NRHS 2
+#define SLW_GROUPS 2
+#define SLI_SECTION_LANES_NEON
+#include SL_HEADER
+#define SLI_SECTION_COPY_ROWS
+#include SL_HEADER
+#define SLI_SECTION_COMPLEX_GROUPS
+#define SLI_SECTION_MULTI_RHS_TILES
+#define SLI_SECTION_COMPLEX_SMALL
+#define SLI_SECTION_COMPLEX_ROWS
+#define SLI_SECTION_COMPLEX_SET
+#define SLI_SECTION_LANES_UNDEF
+#define SLI_SECTION_WORDS_UNDEF
+#include SL_HEADER
+#endif
+
+SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
+  static const sli_complex_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_complex_kernels);
+  return tables[sli_isa_row(isa)];
+}
+
+/* src/impl/complex/complex_storage.h: L of a complex matrix: every other column of its real factor, in double */
+
+static double sli_complex_entry(const void *values, sl_off at) {
+  const double *l = (const double *)values + at / (2 * SLI_TILE) * SLI_TILE;
+  const sl_off lane = at % SLI_TILE;
+  return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
+}
+
+static int sli_are_pairs(const sl_int *rows, sl_int count) {
+  sl_int k;
+  for (k = 0; k + 1 < count; k += 2) {
+    if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
+      return 0;
+    }
+  }
+  return k == count;
+}
+
+static int sli_rows_are_paired(const sl_symbolic *S) {
+  sl_int s, is_paired = sli_are_pairs(S->perm, S->n);
+  for (s = 0; s < S->n_supers && is_paired; s++) {
+    const sli_step *step = &S->steps[s];
+    is_paired = step->column % 2 == 0 && sli_are_pairs(S->rows + S->rows_begin[s], step->below);
+  }
+  return is_paired;
+}
+
+static int sli_matrix_is_complex(const sl_csc *A) {
+  sl_int j, p, q;
+  for (j = 0; j + 1 < A->n_cols; j += 2) {
+    const sl_int middle = A->p[j + 1], end = A->p[j + 2];
+    for (p = A->p[j], q = middle; p < middle || q < end;) {
+      const sl_int row = p < middle ? A->i[p] : A->i[q];
+      if (row / 2 != j / 2) {
+        if (row % 2 != 0 || p + 1 >= middle || q + 1 >= end || A->i[p + 1] != row + 1 ||
+          A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
+          A->x[q] != -A->x[p + 1]) {
+          return 0;
+        }
+        p += 2;
+        q += 2;
+      } else {
+        const sl_int p_zero = p + 1 < middle && A->i[p + 1] == j + 1;
+        const sl_int q_zero = q < end && A->i[q] == j;
+        if (row != j || p >= middle || (p_zero && A->x[p + 1] != 0.0) ||
+          (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
+          A->x[q + q_zero] != A->x[p]) {
+          return 0;
+        }
+        p += 1 + p_zero;
+        q += 1 + q_zero;
+      }
+    }
+  }
+  return 1;
+}
+
+static int sli_complex_suits(const sl_factor *F) {
+  return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+}
+
+static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
+  return sli_are_pairs(rows, count) && /* untested: the order keeps pairs together */
+       sli_rows_are_paired(S);       /* untested: the same */
+}
+
+static int sli_complex_accepts(const sli_source *from) {
+  return from->A != NULL && sli_matrix_is_complex(from->A);
+}
+
+SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker);
+
+#define SLF_NAME(f) sli_complex_##f
+#define SLF_VALUE double
+#define SLF_SINGLE 0
+#define SLF_HALF 1
+#define SLF_OF(f, array) (f)->array
+#define SLF_FRONT sli_complex_front_of
+#define SLI_SECTION_FRONTS
+#define SLI_SECTION_FRONTS_UNDEF
+#include SL_HEADER
+SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+  sli_front f = sli_front_in_double(F, s, worker);
+  f.update = sli_complex_update_matrix(F, s, worker);
+  return f;
+}
+
+static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
+  sli_front f = sli_complex_front_of(F, s, 0);
+  sli_front_share(F, &f, group);
+  return f;
+}
+
+static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
+  return &sli_complex_kernels_of(kernels->isa)->sweeps;
+}
+
+static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
+  return &sli_complex_kernels_of(kernels->isa)->front;
+}
+
+static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
+                           sizeof(double),
+                           sizeof(double),
+                           1,
+                           DBL_EPSILON,
+                           sli_complex_sweeps,
+                           sli_complex_front,
+                           sli_complex_factor,
+                           sli_complex_shared,
+                           sli_complex_front_clear,
+                           sli_complex_front_load,
+                           sli_complex_front_assemble,
+                           sli_complex_front_finish,
+                           NULL,
+                           sli_complex_entry,
+                           NULL,
+                           sli_complex_suits,
+                           sli_complex_accepts,
+                           sli_complex_keeps};
+
 /* src/impl/complex/hermitian.h: complex Hermitian matrices as real symmetric ones of twice the size */
 
 static sl_status sli_hermitian_check(const sl_hermitian *H, sl_stats *stats) {
@@ -31769,6 +31657,34 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
   return status;
 }
 
+#endif
+/* packs: the tables through which the core calls packs */
+/* src/impl/packs/storage_types.h: the storages of L that are compiled in */
+
+#if defined(SL_WITH_FLOAT)
+#endif
+#if defined(SL_WITH_COMPLEX)
+#endif
+
+static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
+  switch (storage) {
+  case SL_STORAGE_DOUBLE:
+    return &sli_storage_double;
+#if defined(SL_WITH_FLOAT)
+  case SL_STORAGE_FLOAT:
+    return &sli_storage_float;
+  case SL_STORAGE_FLOAT_FRONTS:
+    return &sli_storage_single;
+#endif
+#if defined(SL_WITH_COMPLEX)
+  case SL_STORAGE_COMPLEX:
+    return &sli_storage_complex;
+#endif
+  default:
+    return NULL;
+  }
+}
+
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
 #undef SLI_METIS
@@ -31867,8 +31783,9 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 #undef SLI_WIDE_1
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
-#undef SLV_SINGLE
-#undef SLV_COMPLEX
+#undef SLI_LOOP
+#undef SLI_ISAS
+#undef SLI_ISA_TABLES
 #undef SLV_PARTS
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS
@@ -32072,6 +31989,746 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 
 /* templates: the header includes them from itself, once for each instruction set */
 
+#ifdef SLI_SECTION_WORDS_SCALAR
+#undef SLI_SECTION_WORDS_SCALAR
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_scalar.inl.h: the vocabulary SLV_ in plain C: a vector is an array */
+
+#define SLV_NAME(f) sli_##f##_scalar
+#define SLV_ISA SL_ISA_SCALAR
+#define SLV_FUNCTION
+#define SLV_FNMA1(a, b, c) ((c) - (a) * (b))
+#define SLV_DECLARE(a) double a[SLI_TILE];
+#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
+#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_TURN_ALL(a, b, re, im) \
+  { \
+    sl_int i_; \
+    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
+      const double re_ = b[i_]; \
+      a[i_] = re b[i_ + 1]; \
+      a[i_ + 1] = im re_; \
+    } \
+  }
+#define SLV_TURN(a, b) SLV_TURN_ALL(a, b, -, +)
+#define SLV_TURN_BACK(a, b) SLV_TURN_ALL(a, b, +, -)
+#define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
+#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
+#define SLV_AXPY(a, l, p) \
+  { \
+    const double s_ = *(p); \
+    SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * s_) \
+  }
+#define SLV_DOT(a, l, v) SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * v[i_])
+#define SLV_LOAD_PART(a, p, count, rest) \
+  { \
+    double part_[SLI_TILE]; \
+    SLI_LOOP(SLI_TILE, part_[i_] = (rest)) \
+    SLI_LOOP(count, part_[i_] = (p)[i_]) \
+    memcpy(a, part_, sizeof part_); \
+  }
+#define SLV_FIRST(a, count) \
+  { \
+    double part_[SLI_TILE]; \
+    SLI_LOOP(SLI_TILE, part_[i_] = 0.0) \
+    SLI_LOOP(count, part_[i_] = a[i_]) \
+    memcpy(a, part_, sizeof part_); \
+  }
+#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
+#define SLV_GATHER(a, x, at) SLI_LOOP(SLI_TILE, a[i_] = (x)[at(i_)])
+#define SLV_SUM_DECLARE(a) double a;
+#define SLV_SUM_ZERO(a) a = 0.0;
+#define SLV_SUM_LOAD(a, p) a = *(p);
+#define SLV_SUM_STORE(p, a) *(p) = a;
+#define SLV_SUM_DOT(a, l, v) \
+  a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) + \
+     (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
+#define SLV_SUMS(r, a) \
+  r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3; \
+  r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
+#define SLV_TRANSPOSE(to, from) \
+  { \
+    int i_, k_; \
+    for (i_ = 0; i_ < SLI_TILE; i_++) { \
+      for (k_ = 0; k_ < SLI_TILE; k_++) { \
+        (to)[SLI_TILE * i_ + k_] = (from)[SLI_TILE * k_ + i_]; \
+      } \
+    } \
+  }
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
+#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
+#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
+#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
+#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0)
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLV_STREAM(p, a) SLV_STORE(p, a)
+#define SLV_STREAM_END
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_4(f) SLV_NAME(f##4)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#define SLV_NAME_SMALL SLV_NAME
+#define SLV_OWN_SMALL
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#ifdef SLI_SECTION_CHANGE
+#undef SLI_SECTION_CHANGE
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/change/change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
+
+#define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
+#define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
+#define SLI_STORE(r, unused) SLV_STORE(w + SLI_TILE * (r), w##r)
+#define SLI_CARRY(r, unused)  \
+  SLV_BROADCAST(s, c + (r)) \
+  SLV_FNMA(w##r, a, s)
+#define SLI_CHANGE(r, ranks)  \
+  SLV_BROADCAST(s, c + (ranks) + (r)) \
+  SLV_FNMA(a, w##r, s)
+#define SLI_CHANGE_KERNEL(name, ranks, each) \
+  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
+                      double *w) { \
+    sl_int j; \
+    SLV_DECLARE(a) \
+    SLV_DECLARE(s) \
+    each(SLI_DECLARE, 0) \
+      each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
+      SLV_LOAD_PINNED(a, l) \
+      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
+      each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
+    } \
+    each(SLI_STORE, 0) \
+  }
+#define SLI_EACH2(op, k) op(0, k) op(1, k)
+
+SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
+SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
+SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
+#undef SLI_CARRY
+#undef SLI_CHANGE
+
+SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
+                          const double *d, const double *w, double *c) {
+  SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double b[SLI_TILE]);
+  const sl_int ranks = u->ranks, lanes = u->lanes;
+  sl_int i, j, r;
+  SLV_DECLARE(a)
+  SLV_DECLARE(x)
+  SLV_DECLARE(s)
+  SLV_DECLARE(t)
+  SLV_DECLARE(p)
+  if (lanes < SLI_TILE) {
+    memset(f, 0, sizeof f);
+  }
+  memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
+  for (j = 0; j < columns && l != NULL; j++) {
+    SLV_LOAD_PINNED(a, l + SLI_TILE * j)
+    for (r = 0; r < ranks; r++) {
+      SLV_LOAD(x, f + SLI_TILE * r)
+      SLV_BROADCAST(s, f + SLI_TILE * r + j)
+      SLV_FNMA(x, a, s)
+      SLV_STORE(f + SLI_TILE * r, x)
+    }
+  }
+  SLV_TRANSPOSE(y, f)
+  for (r = ranks - 1; r > 0; r--) {
+    SLV_LOAD(x, f + SLI_TILE * r)
+    for (i = 0; i < r; i++) {
+      const double entry = -u->U[r][i];
+      SLV_BROADCAST(s, &entry)
+      SLV_LOAD(a, f + SLI_TILE * i)
+      SLV_FNMA(x, a, s)
+    }
+    SLV_STORE(f + SLI_TILE * r, x)
+  }
+  for (j = 0; j < columns; j++) {
+    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+    SLV_ZERO(s)
+    SLV_ZERO(t)
+    for (r = 0; r < ranks; r++) {
+      const double before = e, g = f[SLI_TILE * r + j];
+      const double beta = -u->alpha[r] * g, q = g * inverse;
+      if (g == 0.0) {
+        continue;
+      }
+      e -= beta * g;
+      magnitude += fabs(beta * g);
+      if (!(fabs(e) > 0.0)) {
+        break;
+      }
+      inverse = 1.0 / e;
+      u->alpha[r] *= before * inverse;
+      SLV_BROADCAST(p, &q)
+      SLV_LOAD_PINNED(a, f + SLI_TILE * r)
+      SLV_LOAD(x, f + SLI_TILE * r)
+      SLV_FNMA(x, s, p)
+      SLV_STORE(f + SLI_TILE * r, x)
+      SLV_BELOW(a, j)
+      SLV_LOAD(x, u->U[r])
+      SLV_FNMA(x, t, p)
+      SLV_BROADCAST(p, &beta)
+      SLV_FNMA(s, a, p)
+      SLV_LOAD_PINNED(a, u->U[r])
+      SLV_FNMA(t, a, p)
+      SLV_STORE(u->U[r], x)
+    }
+    u->e[j] = e;
+    u->magnitude[j] = magnitude;
+    if (!(fabs(e) > 0.0)) {
+      return j + 1;
+    }
+    inverse = -inverse;
+    SLV_BROADCAST(p, &inverse)
+    SLV_MULTIPLY(x, t, p)
+    if (lanes == SLI_TILE) {
+      SLV_LOAD(a, y + SLI_TILE * j)
+      SLV_STORE(c, a)
+      SLV_STORE(c + SLI_TILE, x)
+    } else {
+      SLV_STORE(b, x)
+      memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
+      memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
+    }
+    c += 2 * lanes;
+  }
+  return columns;
+}
+
+#define SLI_POINT(t, unused) double *const l##t = tiles[t];
+#define SLI_CHANGE(t, unused) \
+  SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
+  SLV_FNMA(w##t, a, s) \
+  if (!is_trial) { \
+    SLV_FNMA(a, w##t, r) \
+    SLV_STORE(l##t + SLI_TILE * j, a) \
+  }
+#define SLI_TILES_KERNEL(name, each) \
+  SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
+                        ptrdiff_t last, const double *y, const double *b, \
+                        double *w, int is_trial) { \
+    ptrdiff_t j; \
+    SLV_DECLARE(a) \
+    SLV_DECLARE(s) \
+    SLV_DECLARE(r) \
+    each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
+      SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
+        each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
+  }
+#define SLI_EACH1(op, k) op(0, k)
+SLI_TILES_KERNEL(change_tile, SLI_EACH1)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
+#undef SLI_EACH1
+#undef SLI_POINT
+#undef SLI_CHANGE
+#undef SLI_TILES_KERNEL
+
+#define SLI_BEFORE(k) (k)
+#define SLI_AFTER(k) ((k) + 1)
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
+                           double *e, double *b, double *w, double *sum,
+                           int is_trial) {
+  SLI_ALIGNED(double z[SLI_TILE]);
+  double g[SLI_TILE + 1];
+  sl_int k;
+  SLV_DECLARE(x)
+  SLV_DECLARE(y)
+  SLV_DECLARE(q)
+  SLV_DECLARE(s)
+  SLV_LOAD(x, w)
+  if (columns == SLI_TILE) {
+    SLV_SWEEP(tile_forward)(l, w);
+  } else {
+    SLV_LOAD(y, w)
+    for (k = 0; k < columns; k++) {
+      SLV_AXPY(y, l + SLI_TILE * k, w + k)
+      SLV_STORE(w, y)
+    }
+  }
+  SLV_LOAD_PART(y, w, columns, 0.0)
+  SLV_LOAD_PART(s, d, columns, 1.0)
+  SLV_DIVIDE(q, y, s)
+  SLV_MULTIPLY(y, y, q)
+  SLV_STORE(z, y)
+  g[0] = *sum;
+  SLI_UNROLL
+  for (k = 0; k < SLI_TILE; k++) {
+    g[k + 1] = g[k] - z[k];
+  }
+  *sum = g[SLI_TILE];
+  SLV_GATHER(y, g, SLI_AFTER)
+  SLV_DIVIDE(q, q, y)
+  SLV_STORE(b, q)
+  SLV_GATHER(q, g, SLI_BEFORE)
+  SLV_DIVIDE(y, y, q)
+  SLV_MULTIPLY(s, s, y)
+  SLV_STORE(e, s)
+  for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
+    SLV_LOAD_PINNED(y, l)
+    SLV_BROADCAST(s, w + k)
+    SLV_FNMA(x, y, s)
+    SLV_BROADCAST(s, b + k)
+    SLV_FNMA(y, x, s)
+    SLV_BELOW(y, k)
+    SLV_STORE(l, y)
+  }
+}
+
+#undef SLI_BEFORE
+#undef SLI_AFTER
+
+SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
+  const sl_int width = u->width, first = SLI_TILE * u->first_tile;
+  const sl_int tiles = sli_tiles(width + u->below);
+  double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[4];
+  double *const w = u->w, *const b = u->b;
+  sl_int t0 = u->first_tile, count, t, k;
+  for (; t0 < tiles; t0 += count) {
+    const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
+    count = sli_min(tiles - t0, 4);
+    for (t = 0; t < count; t++) {
+      at[t] = l;
+      l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
+    }
+    if (count == 4) {
+      SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
+    } else {
+      for (t = 0; t < count; t++) {
+        SLV_NAME(change_tile)
+        (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+      }
+    }
+    for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
+      const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
+      SLV_NAME(change_pivots)
+      (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
+      for (k = t + 1; k < count; k++) {
+        SLV_NAME(change_tile)
+        (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+      }
+    }
+  }
+}
+#undef SLI_CHANGE_KERNEL
+#undef SLI_EACH2
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+
+static const sli_change_kernels SLV_NAME(change_kernels) = {
+  {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+  SLV_NAME(change_ranks),
+  SLV_NAME(change_panel)};
+#endif
+
+#ifdef SLI_SECTION_LANES_SCALAR
+#undef SLI_SECTION_LANES_SCALAR
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_scalar.inl.h: the vocabulary SLW_ in plain C, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 2
+#define SLW_NAME(f) sli_##f##2_scalar
+#else
+#define SLW_NAME(f) sli_##f##8_scalar
+#endif
+#define SLW_ROWS 4
+#define SLW_DECLARE(a) double a[SLW_NRHS];
+#define SLW_ZERO(a) memset(a, 0, sizeof a);
+#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
+#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const double s_ = (s); \
+    SLI_LOOP(SLW_NRHS, a[i_] -= s_ * b[i_]) \
+  }
+#define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
+#define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+
+#ifdef SLI_SECTION_PRODUCTS
+#undef SLI_SECTION_PRODUCTS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/inverse/products.inl.h: sums of products of 8 by 8 right-hand sides, for blocks of the inverse */
+
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+#define SLI_APPLY(r, l) SLW_FNMA(a##r, (l)[r], b)
+
+SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
+                      double *sums) {
+  enum { distance = SLW_NRHS };
+  sl_int row, k;
+  for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
+    const double *l = y + row, *p = z;
+    double *s = sums + row * SLW_NRHS;
+    SLW_EACH(SLI_DECLARE, 0)
+    SLW_DECLARE(b)
+    SLW_EACH(SLI_LOAD, s)
+    for (k = 0; k < count; k++, l += SLW_NRHS, p += SLW_NRHS) {
+      SLW_LOAD(b, p)
+      SLW_EACH(SLI_APPLY, l)
+    }
+    SLW_EACH(SLI_STORE, s)
+  }
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_APPLY
+#endif
+
+#ifdef SLI_SECTION_INVERSE_FRONT
+#undef SLI_SECTION_INVERSE_FRONT
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/inverse/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
+
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
+                         sl_int length, SLV_VALUE *C, sl_int columns) {
+  SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
+}
+#if SLV_TILES == 2
+SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
+                         const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
+                         SLV_VALUE *C1, sl_int columns) {
+  SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
+}
+#endif
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
+                       double *C, sl_int columns) {
+  sl_int k;
+  for (k = 0; k < columns; k += SLV_COLUMNS) {
+    SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
+  }
+}
+
+#define SLI_STORE(k, p) \
+  if (SLI_IS_IN(k, columns)) { \
+    SLV_STORE((p) + SLI_TILE * (k), a) \
+  }
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
+  SLV_DECLARE(a)
+  SLV_ZERO(a)
+  SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_STORE
+
+#define SLI_OFFSET(k) offset[k]
+
+SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const double *from,
+                      sl_int height, const sl_int *relative, sl_int t0,
+                      sl_int t1) {
+  const sl_int w = f->width, u = f->below;
+  sl_int t, i;
+  for (t = sli_max(t0, w / SLI_TILE); t < t1; t++) {
+    double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
+    ptrdiff_t offset[SLI_TILE];
+    for (i = 0; i < SLI_TILE; i++) {
+      const sl_int local = relative[sli_clamp(SLI_TILE * t + i - w, u - 1)];
+      offset[i] = sli_square_offset(height, local / SLI_TILE) + local % SLI_TILE;
+    }
+    for (i = 0; i < u; i++) {
+      const double *x = from + SLI_TILE * (ptrdiff_t)relative[i];
+      SLV_DECLARE(a)
+      SLV_GATHER(a, x, SLI_OFFSET)
+      SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
+    }
+  }
+}
+
+#undef SLI_OFFSET
+
+#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
+#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
+#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
+#define SLI_BEFORE(j, k) \
+  if ((j) < (k)) { \
+    SLV_BROADCAST(b, l + SLI_TILE * (j) + (k)) \
+    SLV_FNMA(a##k, a##j, b) \
+  }
+#define SLI_SOLVE(k, unused) \
+  if (SLI_IS_IN(k, columns)) { \
+    SLI_EACH8_AGAIN(SLI_BEFORE, k) \
+  }
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x, sl_int columns) {
+  SLV_DECLARE(b)
+  SLI_EACH8(SLI_DECLARE, 0)
+  SLI_EACH8(SLI_LOAD, x)
+  SLI_EACH8(SLI_SOLVE, 0)
+  SLI_EACH8(SLI_STORE, x)
+}
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_BEFORE
+#undef SLI_SOLVE
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
+                            sl_int c0, sl_int c1, double *scratch) {
+  const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
+         tile_size = SLI_TILE * SLI_TILE;
+  double *N = scratch + SLI_INVERSE_ROW * (ptrdiff_t)c0,
+       *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW;
+  sl_int c, t, k;
+  for (c = c0; c < c1; c++, N += SLI_INVERSE_ROW, P += SLI_INVERSE_ROW) {
+    for (t = c; t < tiles; t++) {
+      const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
+      const double *l =
+        f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+      double *x = N + tile_size * (ptrdiff_t)t;
+      SLV_NAME(clear)(x, SLI_TILE);
+      for (k = 0; k < columns && t == c; k++) {
+        x[SLI_TILE * k + k] = -1.0;
+      }
+      if (t > c) {
+        SLV_NAME(block)
+        (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
+         columns);
+      }
+      SLV_NAME(solve_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
+    }
+    for (k = SLI_TILE * c; k < m; k++) {
+      const double minus = -f->D[j0 + k];
+      SLV_DECLARE(a)
+      SLV_DECLARE(b)
+      SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
+      SLV_BROADCAST(b, &minus)
+      SLV_DIVIDE(a, a, b)
+      SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
+    }
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f, sl_int j0,
+                           sl_int t0, sl_int t1, double *scratch) {
+  const sl_int m = sli_inverse_group_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
+  const ptrdiff_t stride = sli_inverse_stride(f, j0);
+  const double *N = scratch;
+  double *W = sli_inverse_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
+  sl_int c, t;
+  for (c = 0; c < sli_tiles(m); c++, N += SLI_INVERSE_ROW, W += stride) {
+    const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
+    for (t = t0; t < t1; t++) {
+      double *to = W + tile_size * (ptrdiff_t)(t - t0);
+      SLV_NAME(clear)(to, SLI_TILE);
+      SLV_NAME(block)
+      (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
+       m - SLI_TILE * c, to, SLI_TILE);
+    }
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
+                           sl_int t0, sl_int t1, double *scratch) {
+  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
+  const ptrdiff_t stride = sli_inverse_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
+  const double *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
+  sl_int t, c, s;
+  for (t = t0; t < t1; t++) {
+    double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
+    for (c = 0; c < sli_tiles(m); c++) {
+      SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
+    }
+  }
+  for (s = first; s < h; s += SLI_CHUNK_COLUMNS) {
+    const sl_int length = sli_min(SLI_CHUNK_COLUMNS, h - s);
+    const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
+    for (t = t0; t < t1; t++) {
+      double *row = f->front + sli_square_offset(h, t);
+      const double *A = row + SLI_TILE * (ptrdiff_t)s;
+      double *C = row + SLI_TILE * (ptrdiff_t)j0;
+#if SLV_TILES == 2
+      if (t + 1 < t1) {
+        const ptrdiff_t next = sli_square_offset(h, 1);
+        for (c = 0; c < sli_tiles(m); c++) {
+          const ptrdiff_t at = tile_size * c;
+          SLV_NAME(block2)
+          (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
+        }
+        t++;
+        continue;
+      }
+#endif
+      for (c = 0; c < sli_tiles(m); c++) {
+        SLV_NAME(block)
+        (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
+      }
+    }
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
+                       sl_int first, sl_int last) {
+  sl_int k, i;
+  SLV_DECLARE(a)
+  for (k = first; k < last; k++) {
+    if (lanes == SLI_TILE) {
+      SLV_LOAD(a, from + SLI_TILE * k)
+      SLV_STORE(to + SLI_TILE * k, a)
+      continue;
+    }
+    for (i = 0; i < lanes; i++) {
+      to[SLI_TILE * k + i] = from[SLI_TILE * k + i];
+    }
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
+                        double *to, sl_int columns) {
+  if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
+    SLV_TRANSPOSE(to, from)
+  } else {
+    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+    SLV_TRANSPOSE(x, from)
+    SLV_NAME(merge)(to, x, columns, first, last);
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
+                          sl_int t0, sl_int t1) {
+  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
+  const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
+  sl_int t, c;
+  for (c = 0; c < sli_tiles(m); c++) {
+    const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+    double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+    for (t = t0; t < t1; t++) {
+      SLV_NAME(mirror)
+      (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
+       sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
+       to + tile_size * t, columns);
+    }
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, sl_int j0,
+                          sl_int t0, sl_int t1, double *scratch) {
+  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
+  const sl_int tile_size = SLI_TILE * SLI_TILE;
+  const ptrdiff_t stride = sli_inverse_stride(f, j0);
+  const double *N = scratch, *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW,
+         *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
+  SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
+  sl_int c, t;
+  for (t = t0; t < t1; t++) {
+    const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
+    double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
+    for (c = 0; c <= t; c++) {
+      const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
+      double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
+      SLV_NAME(clear)(x, SLI_TILE);
+      SLV_NAME(block)
+      (N + SLI_INVERSE_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
+       P + SLI_INVERSE_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
+       columns);
+      if (first < h) {
+        SLV_NAME(block)
+        (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
+      }
+      SLV_NAME(merge)
+      (row + tile_size * (ptrdiff_t)c, x, f->below == 0 ? SLI_TILE : rows, 0, columns);
+      if (c < t) {
+        SLV_NAME(mirror)
+        (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
+         SLI_TILE);
+      }
+    }
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(inverse_phase)(const sli_inverse_front *f, sl_int j0,
+                         sli_inverse_phase phase, sl_int t0, sl_int t1,
+                         double *scratch) {
+  switch (phase) {
+  case SLI_INVERSE_TRIANGLE:
+    SLV_NAME(group_triangle)(f, j0, t0, t1, scratch);
+    break;
+  case SLI_INVERSE_WEIGHTS:
+    SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
+    break;
+  case SLI_INVERSE_PRODUCT:
+    SLV_NAME(group_product)(f, j0, t0, t1, scratch);
+    break;
+  case SLI_INVERSE_MIRROR:
+    SLV_NAME(group_mirror)(f, j0, t0, t1);
+    break;
+  default:
+    SLV_NAME(group_square)(f, j0, t0, t1, scratch);
+  }
+}
+
+SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double *scratch) {
+  sl_int j0;
+  for (j0 = sli_inverse_last_group(f); j0 + SLI_INVERSE_COLUMNS > f->first;
+     j0 -= SLI_INVERSE_COLUMNS) {
+    const sli_tile_range group = sli_inverse_tiles(f, j0, SLI_INVERSE_TRIANGLE);
+    const sli_tile_range below = sli_inverse_tiles(f, j0, SLI_INVERSE_WEIGHTS);
+    SLV_NAME(group_triangle)(f, j0, group.first, group.last, scratch);
+    if (below.first < below.last) {
+      SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
+      SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
+      SLV_NAME(group_mirror)(f, j0, below.first, below.last);
+    }
+    SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
+  }
+}
+#endif
+
+#ifdef SLI_SECTION_INVERSE_SET
+#undef SLI_SECTION_INVERSE_SET
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/inverse/inverse_set.inl.h: the table of the kernels of the inverse, for one instruction set */
+
+static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
+  SLV_NAME(products8), SLV_NAME(gather), SLV_NAME(inverse_phase), SLV_NAME(takahashi)};
+#endif
+
 #ifdef SLI_SECTION_FRONT
 #undef SLI_SECTION_FRONT
 #if SL_VERSION_MAJOR != 0 || \
@@ -32083,11 +32740,6 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 
 /* src/impl/kernels/product.inl.h: C -= A D B' on tiles, the inner loop of the factorization */
 
-#if !defined(SLV_LOAD_TILES)
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#endif
 #if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
 #else
@@ -32201,20 +32853,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 #undef SLI_LOAD_ROWS
-
-#if SLV_VECTOR_TILES == 1 && !SLV_COMPLEX
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
-                         sl_int length, SLV_VALUE *C, sl_int columns) {
-  SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
-}
-#if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
-                         const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
-                         SLV_VALUE *C1, sl_int columns) {
-  SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
-}
-#endif
-#endif
 
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,
                        SLV_VALUE *B) {
@@ -32401,11 +33039,6 @@ SLV_FUNCTION static void SLV_FRONT(product)(const SLV_VALUE *panel, sl_int w, co
     SLV_STORE(update + SLI_TILE * (k), a##k) \
   }
 
-#if !defined(SLV_NAME_PIVOTS)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#endif
-
 #if defined(SLV_OWN_PIVOTS)
 SLV_FUNCTION static void SLV_FRONT(tile_pivots)(const sli_front *f, sl_int c,
                         SLV_VALUE *reciprocals) {
@@ -32584,14 +33217,97 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
     }
   }
 }
-
-#if SLV_COMPLEX
-#undef SLV_COMPLEX
-#define SLV_COMPLEX 0
-#else
-#undef SLV_COMPLEX
-#define SLV_COMPLEX 1
 #endif
+
+#ifdef SLI_SECTION_COMPLEX_GROUPS
+#undef SLI_SECTION_COMPLEX_GROUPS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/complex/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
+
+#define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
+#define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
+#define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
+#define SLI_PARTS 2
+#define SLI_KERNEL(f) SLW_NAME(complex_group_##f)
+#define SLI_TABLE(f) SLV_NAME(complex_##f)
+
+#if SLW_ROWS == 8
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
+#else
+#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
+#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
+#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
+#endif
+
+#define SLI_PREPARE const double one = 1.0;
+#define SLI_NEGATE(n, c) \
+  SLW_ZERO(n) \
+  SLW_FNMA(n, one, c)
+#define SLI_SUBTRACT(r, s, l, b, c, n) \
+  SLW_FNMA(a##r, (l)[r], b) \
+  SLW_FNMA(a##s, (l)[r], c) \
+  SLW_FNMA(a##r, (l)[s], n) \
+  SLW_FNMA(a##s, (l)[s], b)
+#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
+#define SLI_APPLY_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_DECLARE(n) \
+  SLW_LOAD(b, xj) \
+  SLW_LOAD(c, xj + stride) \
+  SLI_NEGATE(n, c) \
+  SLI_PAIRS(SLI_APPLY, l)
+#define SLI_GATHER(r, s, l) \
+  SLW_FNMA(b, (l)[r], a##r) \
+  SLW_FNMA(c, (l)[r], a##s) \
+  SLW_FNMA(e, (l)[s], a##s) \
+  SLW_FNMA(n, (l)[s], a##r)
+#define SLI_GATHER_COLUMN \
+  SLW_DECLARE(b) \
+  SLW_DECLARE(c) \
+  SLW_DECLARE(e) \
+  SLW_DECLARE(n) \
+  SLW_LOAD(b, xj) \
+  SLW_LOAD(c, xj + stride) \
+  SLW_ZERO(e) \
+  SLW_ZERO(n) \
+  SLI_PAIRS(SLI_GATHER, l) \
+  SLW_ADD(b, e) \
+  SLW_FNMA(c, one, n) \
+  SLW_STORE(xj, b) \
+  SLW_STORE(xj + stride, c)
+#define SLI_BELOW(r, s, k, m) \
+  if ((r) > (k)) { \
+    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
+  }
+#define SLI_COLUMN(k, m, unused) \
+  if (SLI_IS_IN(k, inner)) { \
+    SLI_NEGATE(n, a##m) \
+    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
+  }
+#define SLI_TRIANGLE \
+  SLW_DECLARE(n) \
+  SLI_PAIRS(SLI_COLUMN, 0)
+#define SLI_BEFORE(i, j, k, m) \
+  if ((i) < (k) && SLI_IS_IN(i, inner)) { \
+    const double *at = l + SLI_TILE / 2 * (i); \
+    SLW_FNMA(a##i, at[k], a##k) \
+    SLW_FNMA(a##i, at[m], a##m) \
+    SLW_FNMA(a##j, at[k], a##m) \
+    SLW_FNMA(a##j, at[m], n) \
+  }
+#define SLI_ROW(k, m, unused) \
+  SLI_NEGATE(n, a##k) \
+  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
+#define SLI_TRIANGLE_UP \
+  SLW_DECLARE(n) \
+  SLI_PAIRS_DOWN(SLI_ROW, 0)
 #endif
 
 #ifdef SLI_SECTION_COPY_ROWS
@@ -32846,10 +33562,6 @@ SLV_FUNCTION static void SLV_SWEEP(backward2)(sl_int count, const sli_step *s,
 #undef SLI_PAIR_TILE
 #undef SLI_PAIR_DOT
 /* end of two_rhs.inl.h */
-#endif
-#if !defined(SLV_NAME_SMALL)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
 #endif
 #if defined(SLV_OWN_SMALL)
 /* src/impl/kernels/small_supernode.inl.h: one right-hand side through a supernode of at most 8 columns */
@@ -33294,106 +34006,11 @@ SLV_FUNCTION static void SLV_SWEEP(backward)(sl_int count, const sli_step *s,
      SL_VERSION_PATCH != 0
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
-/* src/impl/kernels/multi_rhs.inl.h: sweeps for 2 or more right-hand sides, vectorized over right-hand sides */
-
-#if SLW_ROWS == 8
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#else
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#endif
+/* src/impl/kernels/multi_rhs.inl.h: what row tiles of L do to several right-hand sides of a real matrix */
 
 #define SLI_DECLARE(r, k) SLW_DECLARE(a##r)
 #define SLI_LOAD(r, p) SLW_LOAD(a##r, (p) + (r)*distance)
 #define SLI_STORE(r, p) SLW_STORE((p) + (r)*distance, a##r)
-
-#if defined(SLW_COMPLEX)
-/* src/impl/kernels/complex_groups.inl.h: what row tiles of L do to 2 or more right-hand sides of a complex matrix */
-
-#define SLI_PARTS 2
-#define SLI_KERNEL(f) SLW_NAME(complex_group_##f)
-#define SLI_TABLE(f) SLV_NAME(complex_##f)
-
-#if SLW_ROWS == 8
-#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l) op(4, 5, l) op(6, 7, l)
-#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m) op(4, 5, k, m) op(6, 7, k, m)
-#define SLI_PAIRS_DOWN(op, l) op(6, 7, l) op(4, 5, l) op(2, 3, l) op(0, 1, l)
-#else
-#define SLI_PAIRS(op, l) op(0, 1, l) op(2, 3, l)
-#define SLI_PAIRS_AGAIN(op, k, m) op(0, 1, k, m) op(2, 3, k, m)
-#define SLI_PAIRS_DOWN(op, l) op(2, 3, l) op(0, 1, l)
-#endif
-
-#define SLI_PREPARE const double one = 1.0;
-#define SLI_NEGATE(n, c) \
-  SLW_ZERO(n) \
-  SLW_FNMA(n, one, c)
-#define SLI_SUBTRACT(r, s, l, b, c, n) \
-  SLW_FNMA(a##r, (l)[r], b) \
-  SLW_FNMA(a##s, (l)[r], c) \
-  SLW_FNMA(a##r, (l)[s], n) \
-  SLW_FNMA(a##s, (l)[s], b)
-#define SLI_APPLY(r, s, l) SLI_SUBTRACT(r, s, l, b, c, n)
-#define SLI_APPLY_COLUMN \
-  SLW_DECLARE(b) \
-  SLW_DECLARE(c) \
-  SLW_DECLARE(n) \
-  SLW_LOAD(b, xj) \
-  SLW_LOAD(c, xj + stride) \
-  SLI_NEGATE(n, c) \
-  SLI_PAIRS(SLI_APPLY, l)
-#define SLI_GATHER(r, s, l) \
-  SLW_FNMA(b, (l)[r], a##r) \
-  SLW_FNMA(c, (l)[r], a##s) \
-  SLW_FNMA(e, (l)[s], a##s) \
-  SLW_FNMA(n, (l)[s], a##r)
-#define SLI_GATHER_COLUMN \
-  SLW_DECLARE(b) \
-  SLW_DECLARE(c) \
-  SLW_DECLARE(e) \
-  SLW_DECLARE(n) \
-  SLW_LOAD(b, xj) \
-  SLW_LOAD(c, xj + stride) \
-  SLW_ZERO(e) \
-  SLW_ZERO(n) \
-  SLI_PAIRS(SLI_GATHER, l) \
-  SLW_ADD(b, e) \
-  SLW_FNMA(c, one, n) \
-  SLW_STORE(xj, b) \
-  SLW_STORE(xj + stride, c)
-#define SLI_BELOW(r, s, k, m) \
-  if ((r) > (k)) { \
-    SLI_SUBTRACT(r, s, l + SLI_TILE / 2 * (k), a##k, a##m, n) \
-  }
-#define SLI_COLUMN(k, m, unused) \
-  if (SLI_IS_IN(k, inner)) { \
-    SLI_NEGATE(n, a##m) \
-    SLI_PAIRS_AGAIN(SLI_BELOW, k, m) \
-  }
-#define SLI_TRIANGLE \
-  SLW_DECLARE(n) \
-  SLI_PAIRS(SLI_COLUMN, 0)
-#define SLI_BEFORE(i, j, k, m) \
-  if ((i) < (k) && SLI_IS_IN(i, inner)) { \
-    const double *at = l + SLI_TILE / 2 * (i); \
-    SLW_FNMA(a##i, at[k], a##k) \
-    SLW_FNMA(a##i, at[m], a##m) \
-    SLW_FNMA(a##j, at[k], a##m) \
-    SLW_FNMA(a##j, at[m], n) \
-  }
-#define SLI_ROW(k, m, unused) \
-  SLI_NEGATE(n, a##k) \
-  SLI_PAIRS_AGAIN(SLI_BEFORE, k, m)
-#define SLI_TRIANGLE_UP \
-  SLW_DECLARE(n) \
-  SLI_PAIRS_DOWN(SLI_ROW, 0)
-/* end of complex_groups.inl.h */
-#else
 
 #define SLI_PARTS 1
 #if defined(SLW_GROUPS)
@@ -33624,6 +34241,13 @@ SLV_FUNCTION SLI_INLINE void SLW_SWEEP(backward_small)(sl_int w, sl_int stride, 
 #endif
 #endif
 
+#ifdef SLI_SECTION_MULTI_RHS_TILES
+#undef SLI_SECTION_MULTI_RHS_TILES
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
 /* src/impl/kernels/multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
 #define SLI_LOAD_BELOW(r, p) SLW_LOAD(a##r, (p) + (ptrdiff_t)below_rows[r] * stride)
@@ -33825,27 +34449,6 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT
-/* end of multi_rhs_tiles.inl.h */
-
-#if SLW_NRHS == 8 && !SLV_SINGLE && !defined(SLW_COMPLEX)
-SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const double *z,
-                      double *sums) {
-  enum { distance = SLW_NRHS };
-  sl_int row, k;
-  for (row = 0; row < SLW_NRHS; row += SLW_ROWS) {
-    const double *l = y + row, *p = z;
-    double *s = sums + row * SLW_NRHS;
-    SLW_EACH(SLI_DECLARE, 0)
-    SLW_DECLARE(b)
-    SLW_EACH(SLI_LOAD, s)
-    for (k = 0; k < count; k++, l += SLW_NRHS, p += SLW_NRHS) {
-      SLW_LOAD(b, p)
-      SLW_EACH(SLI_APPLY, l)
-    }
-    SLW_EACH(SLI_STORE, s)
-  }
-}
-#endif
 
 #undef SLI_DECLARE
 #undef SLI_LOAD
@@ -33875,35 +34478,16 @@ SLV_FUNCTION static void SLW_NAME(products)(sl_int count, const double *y, const
 #undef SLI_BEFORE
 #undef SLW_ENTRIES
 #undef SLW_SET_ENTRIES
-#undef SLW_EACH
-#undef SLW_EACH_AGAIN
-#undef SLW_HIGH
-#undef SLW_LOW
-
-#if SLV_SINGLE || defined(SLW_COMPLEX)
-#undef SLV_SINGLE
-#define SLV_SINGLE 0
-#undef SLW_COMPLEX
-#undef SLW_NAME
-#undef SLW_NRHS
-#undef SLW_HALF
-#undef SLW_GROUPS
-#else
-#undef SLV_SINGLE
-#define SLV_SINGLE 1
-#endif
 #endif
 
-#ifdef SLI_SECTION_KERNEL_SET
-#undef SLI_SECTION_KERNEL_SET
+#ifdef SLI_SECTION_COMPLEX_SMALL
+#undef SLI_SECTION_COMPLEX_SMALL
 #if SL_VERSION_MAJOR != 0 || \
      SL_VERSION_MINOR != 1 || \
      SL_VERSION_PATCH != 0
 #error "sparse_local.h: SL_HEADER names another version of the header"
 #endif
-/* src/impl/kernels/kernel_set.inl.h: all kernels of one instruction set except its real sweeps, and their table */
-
-/* src/impl/kernels/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
+/* src/impl/complex/complex_small.inl.h: one right-hand side through a supernode of 1 to 4 complex columns */
 
 #define SLI_XT(j, k) \
   { \
@@ -33990,11 +34574,9 @@ SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_forward)(const sl_int
 #define SLI_ROW_AT_PART(k) rows[at + sli_min(k, count - 1)]
 #define SLI_ROW_AT_OWN(k) rows[sli_clamp((k)-w, at - 1)]
 
-SLV_FUNCTION SLI_ALWAYS_INLINE void SLV_NAME(complex_small_backward)(const sl_int w, sl_int below,
-                                   const sl_int *rows,
-                                   const double *l,
-                                   const double *d, double *xs,
-                                   const double *x) {
+SLV_FUNCTION SLI_ALWAYS_INLINE void
+SLV_NAME(complex_small_backward)(const sl_int w, sl_int below, const sl_int *rows, const double *l,
+                 const double *d, double *xs, const double *x) {
   const sl_int count = (w + below) % SLI_TILE;
   sl_int row = w + below - count, at = below, k;
   double r[SLI_TILE];
@@ -34092,8 +34674,16 @@ SLV_NAME(complex_backward_small)(const sli_step *s, const sli_step *begin, const
 #undef SLI_EACH_WIDTH
 #undef SLI_FORWARD
 #undef SLI_BACKWARD
-/* end of complex_small.inl.h */
-/* src/impl/kernels/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
+#endif
+
+#ifdef SLI_SECTION_COMPLEX_ROWS
+#undef SLI_SECTION_COMPLEX_ROWS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/complex/complex_rows.inl.h: sweeps over L of a complex Hermitian matrix, of which every other column is */
 
 #define SLI_HALF (SLI_TILE / 2)
 #if defined(SLV_PAIR)
@@ -34307,292 +34897,53 @@ SLV_FUNCTION static void SLV_NAME(complex_backward)(sl_int count, const sli_step
 #undef SLI_UNIT_TRIANGLE
 #undef SLI_XT
 #undef SLI_SMALL
-/* end of complex_rows.inl.h */
-/* src/impl/kernels/inverse_front.inl.h: gathers a front of the inverse from its parent and completes it */
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(block)(const double *A, const double *B, sl_int length,
-                       double *C, sl_int columns) {
-  sl_int k;
-  for (k = 0; k < columns; k += SLV_COLUMNS) {
-    SLV_NAME(block1)(A, B + k, length, C + SLI_TILE * (ptrdiff_t)k, columns - k);
-  }
-}
-
-#define SLI_STORE(k, p) \
-  if (SLI_IS_IN(k, columns)) { \
-    SLV_STORE((p) + SLI_TILE * (k), a) \
-  }
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(clear)(double *x, sl_int columns) {
-  SLV_DECLARE(a)
-  SLV_ZERO(a)
-  SLI_EACH8(SLI_STORE, x)
-}
-
-#undef SLI_STORE
-
-#define SLI_OFFSET(k) offset[k]
-
-SLV_FUNCTION static void SLV_NAME(gather)(const sli_inverse_front *f, const double *from,
-                      sl_int height, const sl_int *relative, sl_int t0,
-                      sl_int t1) {
-  const sl_int w = f->width, u = f->below;
-  sl_int t, i;
-  for (t = sli_max(t0, w / SLI_TILE); t < t1; t++) {
-    double *to = f->front + sli_square_offset(w + u, t) + SLI_TILE * (ptrdiff_t)w;
-    ptrdiff_t offset[SLI_TILE];
-    for (i = 0; i < SLI_TILE; i++) {
-      const sl_int local = relative[sli_clamp(SLI_TILE * t + i - w, u - 1)];
-      offset[i] = sli_square_offset(height, local / SLI_TILE) + local % SLI_TILE;
-    }
-    for (i = 0; i < u; i++) {
-      const double *x = from + SLI_TILE * (ptrdiff_t)relative[i];
-      SLV_DECLARE(a)
-      SLV_GATHER(a, x, SLI_OFFSET)
-      SLV_STORE(to + SLI_TILE * (ptrdiff_t)i, a)
-    }
-  }
-}
-
-#undef SLI_OFFSET
-
-#define SLI_DECLARE(k, unused) SLV_DECLARE(a##k)
-#define SLI_LOAD(k, p) SLV_LOAD(a##k, (p) + SLI_TILE * (k))
-#define SLI_STORE(k, p) SLV_STORE((p) + SLI_TILE * (k), a##k)
-#define SLI_BEFORE(j, k) \
-  if ((j) < (k)) { \
-    SLV_BROADCAST(b, l + SLI_TILE * (j) + (k)) \
-    SLV_FNMA(a##k, a##j, b) \
-  }
-#define SLI_SOLVE(k, unused) \
-  if (SLI_IS_IN(k, columns)) { \
-    SLI_EACH8_AGAIN(SLI_BEFORE, k) \
-  }
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(solve_triangle)(const double *l, double *x, sl_int columns) {
-  SLV_DECLARE(b)
-  SLI_EACH8(SLI_DECLARE, 0)
-  SLI_EACH8(SLI_LOAD, x)
-  SLI_EACH8(SLI_SOLVE, 0)
-  SLI_EACH8(SLI_STORE, x)
-}
-
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-#undef SLI_BEFORE
-#undef SLI_SOLVE
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_triangle)(const sli_inverse_front *f, sl_int j0,
-                            sl_int c0, sl_int c1, double *scratch) {
-  const sl_int m = sli_inverse_group_columns(f, j0), tiles = sli_tiles(m),
-         tile_size = SLI_TILE * SLI_TILE;
-  double *N = scratch + SLI_INVERSE_ROW * (ptrdiff_t)c0,
-       *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW;
-  sl_int c, t, k;
-  for (c = c0; c < c1; c++, N += SLI_INVERSE_ROW, P += SLI_INVERSE_ROW) {
-    for (t = c; t < tiles; t++) {
-      const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * t);
-      const double *l =
-        f->panel + sli_tile_offset(f->width, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
-      double *x = N + tile_size * (ptrdiff_t)t;
-      SLV_NAME(clear)(x, SLI_TILE);
-      for (k = 0; k < columns && t == c; k++) {
-        x[SLI_TILE * k + k] = -1.0;
-      }
-      if (t > c) {
-        SLV_NAME(block)
-        (N + tile_size * (ptrdiff_t)c, l + tile_size * (ptrdiff_t)c, SLI_TILE * (t - c), x,
-         columns);
-      }
-      SLV_NAME(solve_triangle)(l + tile_size * (ptrdiff_t)t, x, columns);
-    }
-    for (k = SLI_TILE * c; k < m; k++) {
-      const double minus = -f->D[j0 + k];
-      SLV_DECLARE(a)
-      SLV_DECLARE(b)
-      SLV_LOAD(a, N + SLI_TILE * (ptrdiff_t)k)
-      SLV_BROADCAST(b, &minus)
-      SLV_DIVIDE(a, a, b)
-      SLV_STORE(P + SLI_TILE * (ptrdiff_t)k, a)
-    }
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_weights)(const sli_inverse_front *f, sl_int j0,
-                           sl_int t0, sl_int t1, double *scratch) {
-  const sl_int m = sli_inverse_group_columns(f, j0), tile_size = SLI_TILE * SLI_TILE;
-  const ptrdiff_t stride = sli_inverse_stride(f, j0);
-  const double *N = scratch;
-  double *W = sli_inverse_weights(scratch) + tile_size * (ptrdiff_t)(t0 - (j0 + m) / SLI_TILE);
-  sl_int c, t;
-  for (c = 0; c < sli_tiles(m); c++, N += SLI_INVERSE_ROW, W += stride) {
-    const ptrdiff_t first = SLI_TILE * (ptrdiff_t)(SLI_TILE * c);
-    for (t = t0; t < t1; t++) {
-      double *to = W + tile_size * (ptrdiff_t)(t - t0);
-      SLV_NAME(clear)(to, SLI_TILE);
-      SLV_NAME(block)
-      (N + first, f->panel + sli_tile_offset(f->width, t) + SLI_TILE * (ptrdiff_t)j0 + first,
-       m - SLI_TILE * c, to, SLI_TILE);
-    }
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_product)(const sli_inverse_front *f, sl_int j0,
-                           sl_int t0, sl_int t1, double *scratch) {
-  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
-  const ptrdiff_t stride = sli_inverse_stride(f, j0), tile_size = SLI_TILE * SLI_TILE;
-  const double *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
-  sl_int t, c, s;
-  for (t = t0; t < t1; t++) {
-    double *row = f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0;
-    for (c = 0; c < sli_tiles(m); c++) {
-      SLV_NAME(clear)(row + tile_size * c, m - SLI_TILE * c);
-    }
-  }
-  for (s = first; s < h; s += SLI_CHUNK_COLUMNS) {
-    const sl_int length = sli_min(SLI_CHUNK_COLUMNS, h - s);
-    const double *B = W + SLI_TILE * (ptrdiff_t)(s - first);
-    for (t = t0; t < t1; t++) {
-      double *row = f->front + sli_square_offset(h, t);
-      const double *A = row + SLI_TILE * (ptrdiff_t)s;
-      double *C = row + SLI_TILE * (ptrdiff_t)j0;
-#if SLV_TILES == 2
-      if (t + 1 < t1) {
-        const ptrdiff_t next = sli_square_offset(h, 1);
-        for (c = 0; c < sli_tiles(m); c++) {
-          const ptrdiff_t at = tile_size * c;
-          SLV_NAME(block2)
-          (A, A + next, B + c * stride, length, C + at, C + next + at, m - SLI_TILE * c);
-        }
-        t++;
-        continue;
-      }
 #endif
-      for (c = 0; c < sli_tiles(m); c++) {
-        SLV_NAME(block)
-        (A, B + c * stride, length, C + tile_size * c, sli_min(SLI_TILE, m - SLI_TILE * c));
-      }
-    }
-  }
-}
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(merge)(double *to, const double *from, sl_int lanes,
-                       sl_int first, sl_int last) {
-  sl_int k, i;
-  SLV_DECLARE(a)
-  for (k = first; k < last; k++) {
-    if (lanes == SLI_TILE) {
-      SLV_LOAD(a, from + SLI_TILE * k)
-      SLV_STORE(to + SLI_TILE * k, a)
-      continue;
-    }
-    for (i = 0; i < lanes; i++) {
-      to[SLI_TILE * k + i] = from[SLI_TILE * k + i];
-    }
-  }
-}
+#ifdef SLI_SECTION_COMPLEX_SET
+#undef SLI_SECTION_COMPLEX_SET
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/complex/complex_set.inl.h: the table of the kernels of complex matrices, for one instruction set */
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(mirror)(const double *from, sl_int first, sl_int last,
-                        double *to, sl_int columns) {
-  if (columns == SLI_TILE && first == 0 && last == SLI_TILE) {
-    SLV_TRANSPOSE(to, from)
-  } else {
-    SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-    SLV_TRANSPOSE(x, from)
-    SLV_NAME(merge)(to, x, columns, first, last);
-  }
-}
+static const sli_complex_kernels SLV_NAME(complex_kernels) = {
+  {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
+    SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32)},
+   {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
+    SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32)}},
+  {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
+   SLV_NAME(complex_assemble)}};
+#endif
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_mirror)(const sli_inverse_front *f, sl_int j0,
-                          sl_int t0, sl_int t1) {
-  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below;
-  const ptrdiff_t tile_size = SLI_TILE * SLI_TILE;
-  sl_int t, c;
-  for (c = 0; c < sli_tiles(m); c++) {
-    const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
-    double *to = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-    for (t = t0; t < t1; t++) {
-      SLV_NAME(mirror)
-      (f->front + sli_square_offset(h, t) + SLI_TILE * (ptrdiff_t)j0 + tile_size * c,
-       sli_max(j0 + m - SLI_TILE * t, 0), sli_min(SLI_TILE, h - SLI_TILE * t),
-       to + tile_size * t, columns);
-    }
-  }
-}
+#ifdef SLI_SECTION_FLOAT_SET
+#undef SLI_SECTION_FLOAT_SET
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/float/float_set.inl.h: the table of the kernels of L in float, for one instruction set */
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(group_square)(const sli_inverse_front *f, sl_int j0,
-                          sl_int t0, sl_int t1, double *scratch) {
-  const sl_int m = sli_inverse_group_columns(f, j0), h = f->width + f->below, first = j0 + m;
-  const sl_int tile_size = SLI_TILE * SLI_TILE;
-  const ptrdiff_t stride = sli_inverse_stride(f, j0);
-  const double *N = scratch, *P = N + SLI_INVERSE_GROUP * SLI_INVERSE_ROW,
-         *W = sli_inverse_weights(scratch) + SLI_TILE * (ptrdiff_t)(first % SLI_TILE);
-  SLI_ALIGNED(double x[SLI_TILE * SLI_TILE]);
-  sl_int c, t;
-  for (t = t0; t < t1; t++) {
-    const sl_int rows = sli_min(SLI_TILE, m - SLI_TILE * t);
-    double *row = f->front + sli_square_offset(h, j0 / SLI_TILE + t) + SLI_TILE * (ptrdiff_t)j0;
-    for (c = 0; c <= t; c++) {
-      const sl_int columns = sli_min(SLI_TILE, m - SLI_TILE * c);
-      double *column = f->front + sli_square_offset(h, j0 / SLI_TILE + c);
-      SLV_NAME(clear)(x, SLI_TILE);
-      SLV_NAME(block)
-      (N + SLI_INVERSE_ROW * (ptrdiff_t)t + tile_size * (ptrdiff_t)t,
-       P + SLI_INVERSE_ROW * (ptrdiff_t)c + tile_size * (ptrdiff_t)t, m - SLI_TILE * t, x,
-       columns);
-      if (first < h) {
-        SLV_NAME(block)
-        (W + t * stride, column + SLI_TILE * (ptrdiff_t)first, h - first, x, columns);
-      }
-      SLV_NAME(merge)
-      (row + tile_size * (ptrdiff_t)c, x, f->below == 0 ? SLI_TILE : rows, 0, columns);
-      if (c < t) {
-        SLV_NAME(mirror)
-        (x, 0, rows, column + SLI_TILE * (ptrdiff_t)j0 + tile_size * (ptrdiff_t)t,
-         SLI_TILE);
-      }
-    }
-  }
-}
+static const sli_float_kernels SLV_NAME(float_kernels) = {
+  {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
+    SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
+   {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
+    SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
+  {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
+   SLV_NAME(single_assemble)}};
+#endif
 
-SLV_FUNCTION static void SLV_NAME(inverse_phase)(const sli_inverse_front *f, sl_int j0,
-                         sli_inverse_phase phase, sl_int t0, sl_int t1,
-                         double *scratch) {
-  switch (phase) {
-  case SLI_INVERSE_TRIANGLE:
-    SLV_NAME(group_triangle)(f, j0, t0, t1, scratch);
-    break;
-  case SLI_INVERSE_WEIGHTS:
-    SLV_NAME(group_weights)(f, j0, t0, t1, scratch);
-    break;
-  case SLI_INVERSE_PRODUCT:
-    SLV_NAME(group_product)(f, j0, t0, t1, scratch);
-    break;
-  case SLI_INVERSE_MIRROR:
-    SLV_NAME(group_mirror)(f, j0, t0, t1);
-    break;
-  default:
-    SLV_NAME(group_square)(f, j0, t0, t1, scratch);
-  }
-}
+#ifdef SLI_SECTION_KERNEL_SET
+#undef SLI_SECTION_KERNEL_SET
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/kernel_set.inl.h: the other kernels of one instruction set, and its table */
 
-SLV_FUNCTION static void SLV_NAME(takahashi)(const sli_inverse_front *f, double *scratch) {
-  sl_int j0;
-  for (j0 = sli_inverse_last_group(f); j0 + SLI_INVERSE_COLUMNS > f->first;
-     j0 -= SLI_INVERSE_COLUMNS) {
-    const sli_tile_range group = sli_inverse_tiles(f, j0, SLI_INVERSE_TRIANGLE);
-    const sli_tile_range below = sli_inverse_tiles(f, j0, SLI_INVERSE_WEIGHTS);
-    SLV_NAME(group_triangle)(f, j0, group.first, group.last, scratch);
-    if (below.first < below.last) {
-      SLV_NAME(group_weights)(f, j0, below.first, below.last, scratch);
-      SLV_NAME(group_product)(f, j0, below.first, below.last, scratch);
-      SLV_NAME(group_mirror)(f, j0, below.first, below.last);
-    }
-    SLV_NAME(group_square)(f, j0, group.first, group.last, scratch);
-  }
-}
-/* end of inverse_front.inl.h */
 /* src/impl/kernels/row.inl.h: one row of L in the up-looking factorization */
 
 SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const sl_int *rows,
@@ -34625,255 +34976,7 @@ SLV_FUNCTION static void SLV_NAME(row)(double *panel, sl_int w, sl_int q, const 
   *magnitude = size;
 }
 /* end of row.inl.h */
-/* src/impl/kernels/change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
-
-#define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
-#define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
-#define SLI_STORE(r, unused) SLV_STORE(w + SLI_TILE * (r), w##r)
-#define SLI_CARRY(r, unused)  \
-  SLV_BROADCAST(s, c + (r)) \
-  SLV_FNMA(w##r, a, s)
-#define SLI_CHANGE(r, ranks)  \
-  SLV_BROADCAST(s, c + (ranks) + (r)) \
-  SLV_FNMA(a, w##r, s)
-#define SLI_CHANGE_KERNEL(name, ranks, each) \
-  SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
-                      double *w) { \
-    sl_int j; \
-    SLV_DECLARE(a) \
-    SLV_DECLARE(s) \
-    each(SLI_DECLARE, 0) \
-      each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
-      SLV_LOAD_PINNED(a, l) \
-      SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
-      each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
-    } \
-    each(SLI_STORE, 0) \
-  }
-#define SLI_EACH2(op, k) op(0, k) op(1, k)
-
-SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
-SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
-SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
-#undef SLI_CARRY
-#undef SLI_CHANGE
-
-SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
-                          const double *d, const double *w, double *c) {
-  SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
-  SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
-  SLI_ALIGNED(double b[SLI_TILE]);
-  const sl_int ranks = u->ranks, lanes = u->lanes;
-  sl_int i, j, r;
-  SLV_DECLARE(a)
-  SLV_DECLARE(x)
-  SLV_DECLARE(s)
-  SLV_DECLARE(t)
-  SLV_DECLARE(p)
-  if (lanes < SLI_TILE) {
-    memset(f, 0, sizeof f);
-  }
-  memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
-  for (j = 0; j < columns && l != NULL; j++) {
-    SLV_LOAD_PINNED(a, l + SLI_TILE * j)
-    for (r = 0; r < ranks; r++) {
-      SLV_LOAD(x, f + SLI_TILE * r)
-      SLV_BROADCAST(s, f + SLI_TILE * r + j)
-      SLV_FNMA(x, a, s)
-      SLV_STORE(f + SLI_TILE * r, x)
-    }
-  }
-  SLV_TRANSPOSE(y, f)
-  for (r = ranks - 1; r > 0; r--) {
-    SLV_LOAD(x, f + SLI_TILE * r)
-    for (i = 0; i < r; i++) {
-      const double entry = -u->U[r][i];
-      SLV_BROADCAST(s, &entry)
-      SLV_LOAD(a, f + SLI_TILE * i)
-      SLV_FNMA(x, a, s)
-    }
-    SLV_STORE(f + SLI_TILE * r, x)
-  }
-  for (j = 0; j < columns; j++) {
-    double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
-    SLV_ZERO(s)
-    SLV_ZERO(t)
-    for (r = 0; r < ranks; r++) {
-      const double before = e, g = f[SLI_TILE * r + j];
-      const double beta = -u->alpha[r] * g, q = g * inverse;
-      if (g == 0.0) {
-        continue;
-      }
-      e -= beta * g;
-      magnitude += fabs(beta * g);
-      if (!(fabs(e) > 0.0)) {
-        break;
-      }
-      inverse = 1.0 / e;
-      u->alpha[r] *= before * inverse;
-      SLV_BROADCAST(p, &q)
-      SLV_LOAD_PINNED(a, f + SLI_TILE * r)
-      SLV_LOAD(x, f + SLI_TILE * r)
-      SLV_FNMA(x, s, p)
-      SLV_STORE(f + SLI_TILE * r, x)
-      SLV_BELOW(a, j)
-      SLV_LOAD(x, u->U[r])
-      SLV_FNMA(x, t, p)
-      SLV_BROADCAST(p, &beta)
-      SLV_FNMA(s, a, p)
-      SLV_LOAD_PINNED(a, u->U[r])
-      SLV_FNMA(t, a, p)
-      SLV_STORE(u->U[r], x)
-    }
-    u->e[j] = e;
-    u->magnitude[j] = magnitude;
-    if (!(fabs(e) > 0.0)) {
-      return j + 1;
-    }
-    inverse = -inverse;
-    SLV_BROADCAST(p, &inverse)
-    SLV_MULTIPLY(x, t, p)
-    if (lanes == SLI_TILE) {
-      SLV_LOAD(a, y + SLI_TILE * j)
-      SLV_STORE(c, a)
-      SLV_STORE(c + SLI_TILE, x)
-    } else {
-      SLV_STORE(b, x)
-      memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
-      memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
-    }
-    c += 2 * lanes;
-  }
-  return columns;
-}
-
-#define SLI_POINT(t, unused) double *const l##t = tiles[t];
-#define SLI_CHANGE(t, unused) \
-  SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
-  SLV_FNMA(w##t, a, s) \
-  if (!is_trial) { \
-    SLV_FNMA(a, w##t, r) \
-    SLV_STORE(l##t + SLI_TILE * j, a) \
-  }
-#define SLI_TILES_KERNEL(name, each) \
-  SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
-                        ptrdiff_t last, const double *y, const double *b, \
-                        double *w, int is_trial) { \
-    ptrdiff_t j; \
-    SLV_DECLARE(a) \
-    SLV_DECLARE(s) \
-    SLV_DECLARE(r) \
-    each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
-      SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
-        each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
-  }
-#define SLI_EACH1(op, k) op(0, k)
-SLI_TILES_KERNEL(change_tile, SLI_EACH1)
-SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
-#undef SLI_EACH1
-#undef SLI_POINT
-#undef SLI_CHANGE
-#undef SLI_TILES_KERNEL
-
-#define SLI_BEFORE(k) (k)
-#define SLI_AFTER(k) ((k) + 1)
-
-SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
-                           double *e, double *b, double *w, double *sum,
-                           int is_trial) {
-  SLI_ALIGNED(double z[SLI_TILE]);
-  double g[SLI_TILE + 1];
-  sl_int k;
-  SLV_DECLARE(x)
-  SLV_DECLARE(y)
-  SLV_DECLARE(q)
-  SLV_DECLARE(s)
-  SLV_LOAD(x, w)
-  if (columns == SLI_TILE) {
-    SLV_SWEEP(tile_forward)(l, w);
-  } else {
-    SLV_LOAD(y, w)
-    for (k = 0; k < columns; k++) {
-      SLV_AXPY(y, l + SLI_TILE * k, w + k)
-      SLV_STORE(w, y)
-    }
-  }
-  SLV_LOAD_PART(y, w, columns, 0.0)
-  SLV_LOAD_PART(s, d, columns, 1.0)
-  SLV_DIVIDE(q, y, s)
-  SLV_MULTIPLY(y, y, q)
-  SLV_STORE(z, y)
-  g[0] = *sum;
-  SLI_UNROLL
-  for (k = 0; k < SLI_TILE; k++) {
-    g[k + 1] = g[k] - z[k];
-  }
-  *sum = g[SLI_TILE];
-  SLV_GATHER(y, g, SLI_AFTER)
-  SLV_DIVIDE(q, q, y)
-  SLV_STORE(b, q)
-  SLV_GATHER(q, g, SLI_BEFORE)
-  SLV_DIVIDE(y, y, q)
-  SLV_MULTIPLY(s, s, y)
-  SLV_STORE(e, s)
-  for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
-    SLV_LOAD_PINNED(y, l)
-    SLV_BROADCAST(s, w + k)
-    SLV_FNMA(x, y, s)
-    SLV_BROADCAST(s, b + k)
-    SLV_FNMA(y, x, s)
-    SLV_BELOW(y, k)
-    SLV_STORE(l, y)
-  }
-}
-
-#undef SLI_BEFORE
-#undef SLI_AFTER
-
-SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
-  const sl_int width = u->width, first = SLI_TILE * u->first_tile;
-  const sl_int tiles = sli_tiles(width + u->below);
-  double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[4];
-  double *const w = u->w, *const b = u->b;
-  sl_int t0 = u->first_tile, count, t, k;
-  for (; t0 < tiles; t0 += count) {
-    const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
-    count = sli_min(tiles - t0, 4);
-    for (t = 0; t < count; t++) {
-      at[t] = l;
-      l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
-    }
-    if (count == 4) {
-      SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
-    } else {
-      for (t = 0; t < count; t++) {
-        SLV_NAME(change_tile)
-        (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
-      }
-    }
-    for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
-      const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
-      SLV_NAME(change_pivots)
-      (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
-      for (k = t + 1; k < count; k++) {
-        SLV_NAME(change_tile)
-        (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
-      }
-    }
-  }
-}
-#undef SLI_CHANGE_KERNEL
-#undef SLI_EACH2
-#undef SLI_DECLARE
-#undef SLI_LOAD
-#undef SLI_STORE
-/* end of change.inl.h */
 /* src/impl/kernels/interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
-
-#if !defined(SLV_STREAM)
-#define SLV_STREAM(p, a) SLV_STORE(p, a)
-#define SLV_STREAM_END
-#endif
 
 #define SLI_ROWS_BEFORE 32
 #define SLI_BYTES_BEFORE 512
@@ -34956,43 +35059,16 @@ SLV_FUNCTION static void SLV_NAME(separate)(double *M, size_t ldm, const double 
 #undef SLI_INTERLEAVE_PREFETCH
 /* end of interleave.inl.h */
 
-#if !defined(SLV_NAME_4)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#endif
-
-#if !defined(SLV_NAME_2)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#endif
-
 static const sli_kernels SLV_NAME(kernels) = {
   SLV_ISA,
-  {{{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
-     SLV_NAME(forward16), SLV_NAME(forward32)},
-    {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
-     SLV_NAME(backward16), SLV_NAME(backward32)}},
-   {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
-     SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
-    {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
-     SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
-   {{SLV_NAME(complex_forward), SLV_NAME_2(complex_forward), SLV_NAME_4(complex_forward),
-     SLV_NAME(complex_forward8), SLV_NAME(complex_forward16), SLV_NAME(complex_forward32)},
-    {SLV_NAME(complex_backward), SLV_NAME_2(complex_backward), SLV_NAME_4(complex_backward),
-     SLV_NAME(complex_backward8), SLV_NAME(complex_backward16), SLV_NAME(complex_backward32)}}},
+  {{SLV_NAME(forward), SLV_NAME(forward2), SLV_NAME_4(forward), SLV_NAME(forward8),
+    SLV_NAME(forward16), SLV_NAME(forward32)},
+   {SLV_NAME(backward), SLV_NAME(backward2), SLV_NAME_4(backward), SLV_NAME(backward8),
+    SLV_NAME(backward16), SLV_NAME(backward32)}},
+  {SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
   SLV_NAME(row),
-  {{SLV_NAME(pivots), SLV_NAME(rows), SLV_NAME(update), SLV_NAME(assemble)},
-   {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
-    SLV_NAME(single_assemble)},
-   {SLV_NAME(complex_pivots), SLV_NAME(complex_rows), SLV_NAME(complex_update),
-    SLV_NAME(complex_assemble)}},
-  SLV_NAME(products8),
   SLV_NAME(interleave),
-  SLV_NAME(separate),
-  SLV_NAME(gather),
-  SLV_NAME(inverse_phase),
-  SLV_NAME(takahashi),
-  {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
-  SLV_NAME(change_ranks),
-  SLV_NAME(change_panel)};
+  SLV_NAME(separate)};
 #endif
 
 #ifdef SLI_SECTION_LANES_UNDEF
@@ -35004,6 +35080,14 @@ static const sli_kernels SLV_NAME(kernels) = {
 #endif
 /* src/impl/kernels/lanes_undef.inl.h: undefines the SIMD vocabulary of one number of right-hand sides */
 
+#undef SLW_NAME
+#undef SLW_NRHS
+#undef SLW_HALF
+#undef SLW_GROUPS
+#undef SLW_EACH
+#undef SLW_EACH_AGAIN
+#undef SLW_HIGH
+#undef SLW_LOW
 #undef SLW_ROWS
 #undef SLW_DECLARE
 #undef SLW_ZERO
@@ -35024,9 +35108,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 /* src/impl/kernels/words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
 
 #undef SLV_SINGLE
-#define SLV_SINGLE 0
 #undef SLV_COMPLEX
-#define SLV_COMPLEX 0
 
 #undef SLV_NAME
 #undef SLV_NAME_4
@@ -35093,6 +35175,836 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SUMS
 #undef SLV_SUM_LOAD
 #undef SLV_SUM_STORE
+#undef SLW_TAKES_FLOATS
+#undef SLV_SPREAD_0
+#undef SLV_SPREAD_1
+#undef SLV_SPREAD
+#endif
+
+#ifdef SLI_SECTION_WORDS_AVX2
+#undef SLI_SECTION_WORDS_AVX2
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
+
+#define SLV_NAME(f) sli_##f##_avx2
+#define SLV_ISA SL_ISA_AVX2
+#define SLV_FUNCTION SLI_TARGET("avx2,fma")
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
+#define SLV_DECLARE(a) __m256d a##_0, a##_1;
+#define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
+#define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
+#define SLV_STREAM(p, a) _mm256_stream_pd((p), a##_0), _mm256_stream_pd((p) + 4, a##_1);
+#define SLV_STREAM_END _mm_sfence();
+#define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLV_READ_0(l) _mm256_load_pd(l)
+#define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+  { \
+    _mm256_store_pd((v), _mm256_cvtps_pd(_mm_load_ps(l))); \
+    if ((rows) > 4) { \
+      _mm256_store_pd((v) + 4, _mm256_cvtps_pd(_mm_load_ps((l) + 4))); \
+    } \
+  }
+#define SLV_AXPY(a, l, p) \
+  { \
+    const __m256d s_ = _mm256_broadcast_sd(p); \
+    a##_0 = _mm256_fnmadd_pd(SLV_READ(l), s_, a##_0); \
+    a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), s_, a##_1); \
+  }
+#define SLV_DOT(a, l, v) \
+  a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
+  a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
+#define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLV_TURN(a, b) \
+  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_0, 5)), \
+  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_1, 5));
+#define SLV_TURN_BACK(a, b) \
+  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_0), 5), \
+  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_1), 5);
+#define SLV_FNMA(a, b, c) \
+  a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_LOAD_PART(a, p, count, rest) \
+  a##_0 = sli_load_part((p), (count), (rest)), a##_1 = sli_load_part((p) + 4, (count)-4, (rest));
+#define SLV_FIRST(a, count) \
+  a##_0 = _mm256_andnot_pd(sli_lanes_from(count), a##_0), \
+  a##_1 = _mm256_andnot_pd(sli_lanes_from((count)-4), a##_1);
+#define SLV_LANE(b, a, k) \
+  b##_0 = b##_1 = _mm256_permute4x64_pd((k) < 4 ? a##_0 : a##_1, (k) % 4 * 0x55);
+#define SLV_GATHER(a, x, at) \
+  a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]), \
+  a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
+#define SLV_SUM_DECLARE(a) __m256d a;
+#define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
+#define SLV_SUM_DOT(a, l, v) \
+  a = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a); \
+  a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
+#define SLV_SUM_4(a, b, c, d) \
+  _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
+          _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
+#define SLV_SUMS(r, a) \
+  r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
+#define SLV_TRANSPOSE_4(to, from) \
+  { \
+    const __m256d a_ = _mm256_load_pd(from), b_ = _mm256_load_pd((from) + 8); \
+    const __m256d c_ = _mm256_load_pd((from) + 16), d_ = _mm256_load_pd((from) + 24); \
+    const __m256d e_ = _mm256_unpacklo_pd(a_, b_), f_ = _mm256_unpackhi_pd(a_, b_); \
+    const __m256d g_ = _mm256_unpacklo_pd(c_, d_), h_ = _mm256_unpackhi_pd(c_, d_); \
+    _mm256_store_pd((to), _mm256_permute2f128_pd(e_, g_, 0x20)); \
+    _mm256_store_pd((to) + 8, _mm256_permute2f128_pd(f_, h_, 0x20)); \
+    _mm256_store_pd((to) + 16, _mm256_permute2f128_pd(e_, g_, 0x31)); \
+    _mm256_store_pd((to) + 24, _mm256_permute2f128_pd(f_, h_, 0x31)); \
+  }
+#define SLV_TRANSPOSE(to, from) \
+  SLV_TRANSPOSE_4(to, from) \
+  SLV_TRANSPOSE_4((to) + 4, (from) + 32) \
+  SLV_TRANSPOSE_4((to) + 32, (from) + 4) \
+  SLV_TRANSPOSE_4((to) + 36, (from) + 36)
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) \
+  a##_0 = _mm256_load_pd(p); \
+  a##_1 = _mm256_load_pd((p) + 4); \
+  SLI_PIN(a##_0);  \
+  SLI_PIN(a##_1);
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
+#define SLV_MULTIPLY(a, b, c) \
+  a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c) \
+  a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
+#define SLV_BELOW(a, k) \
+  a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)), \
+  a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
+#define SLV_EXPAND(mask, lanes, count) \
+  const __m256i low_ = sli_expand_index((mask)&15u), high_ = sli_expand_index((mask) >> 4); \
+  const __m256d keep_low_ = sli_expand_keep(low_), keep_high_ = sli_expand_keep(high_); \
+  const ptrdiff_t second_ = sli_count4((mask)&15u); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to), \
+                    sli_expand_4(_mm256_loadu_pd(from), low_, keep_low_))); \
+  _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
+                      sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
+                             keep_high_)));
+#define SLV_DUP_AT(e, l) \
+  { \
+    const __m256d l_ = SLV_READ(l); \
+    e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
+    e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
+  }
+#define SLV_DUP_LOW(e, l) SLV_DUP_AT(e, l)
+#define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_4(f) SLV_NAME(f##4)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#define SLV_NAME_SMALL SLV_NAME
+#define SLV_OWN_SMALL
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#ifdef SLI_SECTION_LANES_AVX2
+#undef SLI_SECTION_LANES_AVX2
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 2
+#define SLW_NAME(f) sli_##f##2_avx2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 4
+#define SLW_NAME(f) sli_##f##4_avx2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m256d a;
+#define SLW_ZERO(a) a = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 8
+#define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_HALF(f) sli_##f##4_avx2
+#define SLW_ROWS 4
+#define SLW_DECLARE(a) __m256d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const __m256d s_ = _mm256_broadcast_sd(&(s)); \
+    a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
+    a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
+  a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+#endif
+
+#ifdef SLI_SECTION_WORDS_AVX512
+#undef SLI_SECTION_WORDS_AVX512
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
+
+#define SLV_NAME(f) sli_##f##_avx512
+#define SLV_NAME_4(f) sli_##f##4_avx2
+#define SLV_NAME_2(f) sli_##f##2_avx2
+#define SLV_NAME_SMALL(f) sli_##f##_avx2
+#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
+#define SLV_ISA SL_ISA_AVX512
+#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
+#define SLV_DECLARE(a) __m512d a;
+#define SLV_ZERO(a) a = _mm512_setzero_pd();
+#define SLV_LOAD(a, p) a = _mm512_load_pd(p);
+#define SLV_STORE(p, a) _mm512_store_pd((p), a);
+#define SLV_STREAM(p, a) _mm512_stream_pd((p), a);
+#define SLV_STREAM_END _mm_sfence();
+#define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLV_READ_0(l) _mm512_load_pd(l)
+#define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), SLV_READ_1(l));
+#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
+#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
+#define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
+#define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
+#define SLV_TURN(a, b) \
+  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
+#define SLV_TURN_BACK(a, b) \
+  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
+#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_LOAD_PART(a, p, count, rest) \
+  a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
+#define SLV_FIRST(a, count) a = _mm512_maskz_mov_pd((__mmask8)(0xff >> (8 - (count))), a);
+#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
+#define SLV_GATHER(a, x, at) \
+  a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)], \
+            (x)[at(1)], (x)[at(0)]);
+#define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
+#define SLV_SUM_ZERO(a) SLV_ZERO(a)
+#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
+#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
+#define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
+#define SLV_SUM_2(a, b) \
+  _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
+#define SLV_SUM_4(a, b) \
+  _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88), \
+          _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
+#define SLV_SUMS(r, a) \
+  r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)), \
+          SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
+#define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
+#define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
+#define SLV_TRANSPOSE_4(to, from, unpack) \
+  { \
+    const __m512d a_ = unpack(0xff, _mm512_load_pd(from), _mm512_load_pd((from) + 8)); \
+    const __m512d b_ = unpack(0xff, _mm512_load_pd((from) + 16), _mm512_load_pd((from) + 24)); \
+    const __m512d c_ = unpack(0xff, _mm512_load_pd((from) + 32), _mm512_load_pd((from) + 40)); \
+    const __m512d d_ = unpack(0xff, _mm512_load_pd((from) + 48), _mm512_load_pd((from) + 56)); \
+    const __m512d e_ = SLV_BLOCKS_EVEN(a_, b_), f_ = SLV_BLOCKS_EVEN(c_, d_); \
+    const __m512d g_ = SLV_BLOCKS_ODD(a_, b_), h_ = SLV_BLOCKS_ODD(c_, d_); \
+    _mm512_store_pd((to), SLV_BLOCKS_EVEN(e_, f_)); \
+    _mm512_store_pd((to) + 16, SLV_BLOCKS_EVEN(g_, h_)); \
+    _mm512_store_pd((to) + 32, SLV_BLOCKS_ODD(e_, f_)); \
+    _mm512_store_pd((to) + 48, SLV_BLOCKS_ODD(g_, h_)); \
+  }
+#define SLV_TRANSPOSE(to, from) \
+  SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd) \
+  SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
+#define SLV_TILES 2
+#define SLV_COLUMNS 8
+#define SLV_EACH_COLUMN SLI_EACH8
+#define SLV_LOAD_PINNED(a, p) \
+  a = _mm512_load_pd(p); \
+  SLI_PIN_ANY(a);
+#define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
+#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
+#define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
+#define SLV_EXPAND(mask, lanes, count) \
+  const __mmask8 expand_ = (__mmask8)(mask); \
+  const __m512i order_ = \
+    _mm512_maskz_expand_epi64(expand_, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0)); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm512_store_pd( \
+    (to), _mm512_add_pd(_mm512_load_pd(to), \
+              _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
+#define SLV_DUP_LOW(e, l) \
+  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
+#define SLV_DUP_HIGH(e, l) \
+  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
+#define SLV_PAIR(b, p) \
+  b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
+
+#define SLW_TAKES_FLOATS
+#define SLV_SPREAD_0(s) _mm512_set1_pd(s)
+#define SLV_SPREAD_1(s) _mm512_maskz_cvtps_pd(0xff, _mm256_set1_ps(s))
+#define SLV_SPREAD(s) SLI_BY_TYPE(SLV_SPREAD_, SLV_SINGLE)(s)
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#endif
+
+#ifdef SLI_SECTION_LANES_AVX512
+#undef SLI_SECTION_LANES_AVX512
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 8
+#define SLW_NAME(f) sli_##f##8_avx512
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m512d a;
+#define SLW_ZERO(a) a = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
+#define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 16
+#define SLW_NAME(f) sli_##f##16_avx512
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m512d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm512_loadu_pd(p), a##_1 = _mm512_loadu_pd((p) + 8);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const __m512d s_ = SLV_SPREAD(s); \
+    a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
+    a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = _mm512_add_pd(a##_0, b##_0), a##_1 = _mm512_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
+  a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#endif
+#endif
+
+#ifdef SLI_SECTION_WORDS_NEON
+#undef SLI_SECTION_WORDS_NEON
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
+
+#define SLV_NAME(f) sli_##f##_neon
+#define SLV_ISA SL_ISA_NEON
+#define SLV_FUNCTION
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
+#define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
+#define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
+#define SLV_LOAD(a, p) \
+  a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), \
+  a##_3 = vld1q_f64((p) + 6);
+#define SLV_STORE(p, a) \
+  vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), \
+    vst1q_f64((p) + 6, a##_3);
+#define SLV_ADD(a, b) \
+  a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), \
+  a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLV_READ_0(l) vld1q_f64(l)
+#define SLV_READ_1(l) vcvt_f64_f32(vld1_f32(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+  { \
+    int i_; \
+    for (i_ = 0; i_ < (rows); i_ += 2) { \
+      vst1q_f64((v) + i_, vcvt_f64_f32(vld1_f32((l) + i_))); \
+    } \
+  }
+#define SLV_AXPY(a, l, p) \
+  { \
+    const float64x2_t s_ = vld1q_dup_f64(p); \
+    a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), s_); \
+    a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), s_); \
+    a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), s_); \
+    a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), s_); \
+  }
+#define SLV_DOT(a, l, v) \
+  a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), v##_0), \
+  a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), v##_1), \
+  a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
+  a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
+#define SLV_SAME(a) (a)
+#define SLV_TURN(a, b) \
+  a##_0 = SLV_TURN_2(b##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(b##_1, vneg_f64, SLV_SAME), \
+  a##_2 = SLV_TURN_2(b##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(b##_3, vneg_f64, SLV_SAME);
+#define SLV_TURN_BACK(a, b) \
+  a##_0 = SLV_TURN_2(b##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(b##_1, SLV_SAME, vneg_f64), \
+  a##_2 = SLV_TURN_2(b##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(b##_3, SLV_SAME, vneg_f64);
+#define SLV_FNMA(a, b, c) \
+  a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
+  a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_LOAD_PART(a, p, count, rest) \
+  { \
+    double part_[SLI_TILE]; \
+    sl_int i_; \
+    for (i_ = 0; i_ < SLI_TILE; i_++) { \
+      part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
+    } \
+    SLV_LOAD(a, part_) \
+  }
+#define SLV_FIRST(a, count) \
+  { \
+    double part_[SLI_TILE]; \
+    sl_int i_; \
+    SLV_STORE(part_, a) \
+    for (i_ = (count); i_ < SLI_TILE; i_++) { \
+      part_[i_] = 0.0; \
+    } \
+    SLV_LOAD(a, part_) \
+  }
+#define SLV_LANE(b, a, k) \
+  b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0 \
+                                 : (k) < 4 ? a##_1 \
+                                 : (k) < 6 ? a##_2 \
+                                     : a##_3, \
+                                 (k) % 2));
+#define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
+#define SLV_GATHER(a, x, at) \
+  a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)), \
+  a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
+#define SLV_SUM_DECLARE(a) float64x2_t a;
+#define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
+#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
+#define SLV_SUM_DOT(a, l, v) \
+  a = vfmsq_f64(a, SLV_READ((l) + 0), v##_0); \
+  a = vfmsq_f64(a, SLV_READ((l) + 2), v##_1); \
+  a = vfmsq_f64(a, SLV_READ((l) + 4), v##_2); \
+  a = vfmsq_f64(a, SLV_READ((l) + 6), v##_3);
+#define SLV_SUMS(r, a) \
+  r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3), \
+  r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
+#define SLV_TRANSPOSE(to, from) \
+  { \
+    int i_, k_; \
+    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
+      for (k_ = 0; k_ < SLI_TILE; k_ += 2) { \
+        const float64x2_t low_ = vld1q_f64((from) + SLI_TILE * k_ + i_); \
+        const float64x2_t high_ = vld1q_f64((from) + SLI_TILE * (k_ + 1) + i_); \
+        vst1q_f64((to) + SLI_TILE * i_ + k_, vtrn1q_f64(low_, high_)); \
+        vst1q_f64((to) + SLI_TILE * (i_ + 1) + k_, vtrn2q_f64(low_, high_)); \
+      } \
+    } \
+  }
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_dup_f64(p);
+#define SLV_MULTIPLY(a, b, c) \
+  a##_0 = vmulq_f64(b##_0, c##_0), a##_1 = vmulq_f64(b##_1, c##_1), \
+  a##_2 = vmulq_f64(b##_2, c##_2), a##_3 = vmulq_f64(b##_3, c##_3);
+#define SLV_DIVIDE(a, b, c) \
+  a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1), \
+  a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
+#define SLV_BELOW_2(a, k) \
+  a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a), \
+                    vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), \
+                           vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+#define SLV_BELOW(a, k) \
+  SLV_BELOW_2(a##_0, k) \
+  SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLV_DUP_LOW(e, l) \
+  e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
+  e##_3 = vdupq_n_f64((l)[3]);
+#define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
+#define SLV_STREAM(p, a) SLV_STORE(p, a)
+#define SLV_STREAM_END
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_4(f) SLV_NAME(f##4)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#define SLV_NAME_SMALL SLV_NAME
+#define SLV_OWN_SMALL
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#ifdef SLI_SECTION_LANES_NEON
+#undef SLI_SECTION_LANES_NEON
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 2
+#define SLW_NAME(f) sli_##f##2_neon
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) float64x2_t a;
+#define SLW_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p) a = vld1q_f64(p);
+#define SLW_STORE(p, a) vst1q_f64((p), a);
+#define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
+#define SLW_ADD(a, b) a = vaddq_f64(a, b);
+#define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 4
+#define SLW_NAME(f) sli_##f##4_neon
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p) a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
+#define SLW_STORE(p, a) vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vdivq_f64(a##_0, s_); \
+    a##_1 = vdivq_f64(a##_1, s_); \
+  }
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 8
+#define SLW_NAME(f) sli_##f##8_neon
+#define SLW_HALF(f) sli_##f##4_neon
+#define SLW_ROWS 4
+#define SLW_DECLARE(a) SLV_DECLARE(a)
+#define SLW_ZERO(a) SLV_ZERO(a)
+#define SLW_LOAD(a, p) SLV_LOAD(a, p)
+#define SLW_STORE(p, a) SLV_STORE(p, a)
+#define SLW_FNMA(a, s, b) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+    a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
+    a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
+  }
+#define SLW_ADD(a, b) SLV_ADD(a, b)
+#define SLW_DIVIDE(a, s) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vdivq_f64(a##_0, s_); \
+    a##_1 = vdivq_f64(a##_1, s_); \
+    a##_2 = vdivq_f64(a##_2, s_); \
+    a##_3 = vdivq_f64(a##_3, s_); \
+  }
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+#endif
+
+#ifdef SLI_SECTION_FRONTS
+#undef SLI_SECTION_FRONTS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
+
+SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
+  const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
+  const sl_off at = begin < own ? begin + worker * own : begin;
+  return (SLF_VALUE *)F->stack + (at >> SLF_HALF);
+}
+
+static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
+  const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
+  const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
+  const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+  memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
+       (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
+  if (f->below > 0 && t1 > whole) {
+    memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
+         (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
+  }
+}
+
+SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
+                        const sli_loading *e, uint64_t *marks,
+                        sli_failure *failure) {
+  const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
+  const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
+  const double *x = e->x;
+  const sl_int *scatter_from = e->scatter_from;
+  double largest = F->extents[s].entry;
+  uint64_t mark = 0;
+  sl_off m;
+  for (m = e->first; m < e->last; m++) {
+    if (scatter_from != NULL && m < ahead) { /* untested: constant */
+      SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
+    }
+    const double a =
+      scatter_from != NULL ? x[scatter_from[m]] : x[m - e->first]; /* untested: constant */
+    const double size = fabs(a);
+#if SLF_SINGLE
+    if (!(size <= SLI_SINGLE_MOST)) {
+      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
+              -1, m, a);
+    }
+    panel[to[m] - begin] += sli_single(a);
+#else
+    if (!(size <= DBL_MAX)) {
+      return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+    }
+#if SLF_HALF
+    if ((to[m] & SLI_TILE) == 0) {
+      panel[sli_half_at(to[m] - begin)] += a;
+    }
+#else
+    panel[to[m] - begin] += a;
+#endif
+    if (marks != NULL) { /* untested: constant where entries are summed */
+      mark += sli_mark_entry(a, to[m] - begin);
+    }
+#endif
+    largest = size > largest ? size : largest;
+  }
+  F->extents[s].entry = largest;
+  if (marks != NULL) { /* untested: the same */
+    marks[s] += mark;
+  }
+  return SL_OK;
+}
+
+static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
+                    SLF_VALUE *panel, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sl_off end = S->scatter_begin[s + 1];
+  sli_loading e;
+  sl_status status = SL_OK;
+  sli_panel_begin(F, s);
+  e.first = S->scatter_begin[s];
+  if (from->A != NULL) {
+    e.x = from->A->x;
+    e.scatter_from = S->scatter_from;
+    e.last = end;
+    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->marks, failure);
+  }
+  e.scatter_from = NULL;
+  for (; e.first < end && status == SL_OK; e.first = e.last) {
+    double sums[SLI_SUM_ENTRIES];
+    e.last = end - e.first < SLI_SUM_ENTRIES ? end : e.first + SLI_SUM_ENTRIES;
+    e.x = sums;
+    sli_source_sum(from, e.first, (sl_int)(e.last - e.first), sums);
+    status = SLF_NAME(panel_add)(F, s, panel, &e, NULL, failure);
+  }
+  return status;
+}
+
+static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
+                    sli_failure *failure) {
+  SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
+  const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
+  const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
+  sl_int k;
+  for (k = 0; k < rows; k++) {
+    magnitude[k] = 0;
+  }
+#if SLF_HALF
+  for (k = 0; k < w; k += 2) {
+    magnitude[k] = fabs(panel[sli_half_at(sli_panel_at(w, k, k))]);
+  }
+#else
+  for (k = 0; k < w; k += SLI_TILE) {
+    const SLF_VALUE *tile = panel + sli_panel_at(w, k, k);
+    const sl_int columns = sli_min(SLI_TILE, w - k);
+    sl_int r;
+    for (r = 0; r < columns; r++) {
+      magnitude[k + r] = (SLF_VALUE)fabs(tile[(SLI_TILE + 1) * r]);
+    }
+  }
+#endif
+  return status;
+}
+
+static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,
+                   sl_int t0, sl_int t1) {
+  const sl_symbolic *S = F->S;
+  const sl_int tiles = sli_front_tiles(f);
+  sl_int c, k;
+  for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
+    const sli_step *child = &S->steps[c];
+    const sl_int *relative = S->relative + S->rows_begin[c];
+    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
+    const sl_off magnitudes = child->width % SLI_TILE +
+                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
+    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+    const sl_int last =
+      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
+    F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
+    for (k = first; k < last; k += 1 + SLF_HALF) {
+      SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
+    }
+  }
+}
+
+static void SLF_NAME(front_hand_over)(const sli_front *f) {
+  const sl_int tiles = sli_update_tiles(f->width, f->below), rows = SLI_TILE * tiles;
+  const SLF_VALUE *from = SLF_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+  SLF_VALUE *to = SLF_OF(f, update) + (sli_triangle_offset(tiles) >> SLF_HALF);
+  sl_int k;
+  for (k = 0; k < rows; k += 1 + SLF_HALF) {
+#if SLF_HALF
+    to[k / 2] = from[k] + from[k + 1];
+#else
+    to[k] = from[k];
+#endif
+  }
+}
+
+static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
+                     sli_failure *failure) {
+  sl_status status = SL_OK;
+  sl_int k;
+#if SLF_SINGLE
+  for (k = 0; k < f->width && status == SL_OK; k++) {
+    status = sli_check_single(F, f, k, failure);
+  }
+#else
+  const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status =
+      f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
+        ? sli_check_pair(F, f->super, f->column + k, f->magnitude + k, failure)
+        : sli_check_pivot(F, f->super, f->column + k, f->D[k], f->magnitude[k], failure);
+  }
+  if (status == SL_OK && F->type->store != NULL) {
+    status = F->type->store(F, f, failure);
+  }
+#endif
+  return status;
+}
+
+static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
+                    sli_failure *failure) {
+  SLF_NAME(front_hand_over)(f);
+  return SLF_NAME(front_check)(F, f, failure);
+}
+
+static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
+                    sl_int worker, sli_failure *failure) {
+  sli_front f = SLF_FRONT(F, s, worker);
+  const sl_int tiles = sli_front_tiles(&f);
+  double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+  sl_status status;
+  f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
+#if !SLF_SINGLE
+  if (f.is_small) {
+    sli_front_clear_small(&f);
+  } else
+#endif
+  {
+    SLF_NAME(front_clear)(&f, 0, tiles);
+  }
+  status = SLF_NAME(front_load)(F, from, &f, failure);
+  if (status != SL_OK) {
+    return status;
+  }
+  SLF_NAME(front_assemble)(F, &f, worker, 0, tiles);
+  sli_front_eliminate(F->front, &f, scratch);
+  sli_front_update(F->front, &f, scratch);
+  SLF_NAME(front_hand_over)(&f);
+  return SLF_NAME(front_check)(F, &f, failure);
+}
+
+static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
+                  sl_int worker, sli_failure *failure) {
+  sl_status status = SL_OK;
+  sl_int s;
+  for (s = first; s <= last && status == SL_OK; s++) {
+    if (sli_is_copied(F, s)) {
+      F->copied->copy(F, s, worker);
+    } else {
+      status = SLF_NAME(front_factor)(F, from, s, worker, failure);
+    }
+  }
+  return status;
+}
+#endif
+
+#ifdef SLI_SECTION_FRONTS_UNDEF
+#undef SLI_SECTION_FRONTS_UNDEF
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
+
+#undef SLF_NAME
+#undef SLF_VALUE
+#undef SLF_SINGLE
+#undef SLF_HALF
+#undef SLF_OF
+#undef SLF_FRONT
 #endif
 
 /*

@@ -3,6 +3,7 @@
 #ifndef SPARSE_LOCAL_H
 #define SPARSE_LOCAL_H
 #include "public/intro.h"
+#include "public/packs.h"
 #include "public/config.h"
 #ifdef __cplusplus
 extern "C" {
@@ -15,20 +16,32 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
+#if defined(SL_WITH_ACCURACY)
 #include "public/parts.h"
 #include "public/accuracy.h"
+#endif
+#if defined(SL_WITH_INVERSE)
 #include "public/inverse.h"
-#include "public/batch.h"
-#include "public/several.h"
 #include "public/selected.h"
 #include "public/region.h"
+#endif
+#if defined(SL_WITH_BATCH)
+#include "public/batch.h"
+#include "public/several.h"
+#endif
+#if defined(SL_WITH_SAVE)
 #include "public/save.h"
 #include "public/saved_set.h"
+#endif
+#if defined(SL_WITH_CHANGE)
 #include "public/change.h"
 #include "public/pins.h"
-#include "public/complex.h"
 #include "public/restrict.h"
 #include "public/edit.h"
+#endif
+#if defined(SL_WITH_COMPLEX)
+#include "public/complex.h"
+#endif
 #ifdef __cplusplus
 }
 #endif
@@ -44,7 +57,6 @@ extern "C" {
 #include "impl/base/options.h"
 #include "impl/base/alloc.h"
 #include "impl/base/hash.h"
-#include "impl/base/file_map.h"
 #include "impl/base/sort.h"
 #include "impl/base/parallel.h"
 /* kernels: numerical kernels on raw arrays, once for each instruction set */
@@ -53,29 +65,19 @@ extern "C" {
 #include "impl/kernels/pivot_rule.h"
 #include "impl/kernels/front.h"
 #include "impl/kernels/pairs.h"
-#include "impl/kernels/inverse_front.h"
 #include "impl/kernels/table.h"
 #include "impl/kernels/simd.h"
-#include "impl/kernels/simd_scalar_single.h"
 #include "impl/kernels/simd_scalar.h"
-#include "impl/kernels/simd_avx2_single.h"
 #include "impl/kernels/simd_avx2.h"
-#include "impl/kernels/simd_avx512_single.h"
 #include "impl/kernels/simd_avx512.h"
-#include "impl/kernels/simd_neon_single.h"
 #include "impl/kernels/simd_neon.h"
 #include "impl/kernels/dispatch.h"
 /* matrix: sparse matrices of the caller and of the library */
 #include "impl/matrix/csc.h"
 #include "impl/matrix/csc_build.h"
-#include "impl/matrix/csc64.h"
 #include "impl/matrix/csc_triangle.h"
 #include "impl/matrix/csc_products.h"
 #include "impl/matrix/permute.h"
-#include "impl/matrix/sum.h"
-#include "impl/matrix/output_file.h"
-#include "impl/matrix/text_reader.h"
-#include "impl/matrix/matrix_market.h"
 /* ordering: fill-reducing orderings of a graph */
 #include "impl/ordering/graph.h"
 #include "impl/ordering/contract.h"
@@ -118,31 +120,23 @@ extern "C" {
 #include "impl/analysis/reach.h"
 /* factor: the numbers of L and D */
 #include "impl/factor/factor_types.h"
+#include "impl/factor/storage_type.h"
 #include "impl/factor/panel_load.h"
 #include "impl/factor/pivot_check.h"
-#include "impl/factor/storage.h"
-#include "impl/factor/pivot_search.h"
-#include "impl/factor/pivoted.h"
-#include "impl/factor/scatter.h"
-#include "impl/factor/uplooking.h"
 #include "impl/factor/null_product.h"
 #include "impl/factor/null_dense.h"
 #include "impl/factor/null_basis.h"
 #include "impl/factor/null_vectors.h"
 #include "impl/factor/multifrontal.h"
-#include "impl/factor/gather.h"
-#include "impl/factor/kept.h"
+#include "impl/factor/uplooking.h"
 #include "impl/factor/front_tasks.h"
 #include "impl/factor/null_center.h"
 #include "impl/factor/nullspace.h"
 #include "impl/factor/growth.h"
 #include "impl/factor/factor_setup.h"
 #include "impl/factor/factor.h"
-#include "impl/factor/leftlooking.h"
 #include "impl/factor/factor_query.h"
-#include "impl/factor/combination.h"
 /* solve: full and local solves */
-#include "impl/solve/region_types.h"
 #include "impl/solve/work.h"
 #include "impl/solve/query.h"
 #include "impl/solve/singular.h"
@@ -152,12 +146,32 @@ extern "C" {
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"
 #include "impl/solve/local.h"
-#include "impl/solve/parts.h"
-#include "impl/solve/refine.h"
-#include "impl/solve/refine_local.h"
-#include "impl/solve/rcond.h"
-#include "impl/solve/defects.h"
+/* accuracy: refinement, condition, defects, half solves */
+#if defined(SL_WITH_ACCURACY)
+#include "impl/accuracy/parts.h"
+#include "impl/accuracy/refine.h"
+#include "impl/accuracy/refine_local.h"
+#include "impl/accuracy/rcond.h"
+#include "impl/accuracy/defects.h"
+#endif
+/* pivots: the order of the pivots by the values of a matrix */
+#if defined(SL_WITH_PIVOTS)
+#include "impl/pivots/pivot_search.h"
+#include "impl/pivots/pivoted.h"
+#endif
+/* float: L and fronts in single precision */
+#if defined(SL_WITH_FLOAT)
+#include "impl/float/simd_scalar_single.h"
+#include "impl/float/simd_avx2_single.h"
+#include "impl/float/simd_avx512_single.h"
+#include "impl/float/simd_neon_single.h"
+#include "impl/float/float_kernels.h"
+#include "impl/float/float_storage.h"
+#endif
 /* inverse: entries of the inverse, regions */
+#if defined(SL_WITH_INVERSE)
+#include "impl/inverse/inverse_front.h"
+#include "impl/inverse/inverse_kernels.h"
 #include "impl/inverse/traversal.h"
 #include "impl/inverse/traversal_run.h"
 #include "impl/inverse/row_sets.h"
@@ -168,9 +182,17 @@ extern "C" {
 #include "impl/inverse/reserve.h"
 #include "impl/inverse/selected.h"
 #include "impl/inverse/selected_query.h"
+#include "impl/inverse/region_types.h"
 #include "impl/inverse/region_choose.h"
+#include "impl/inverse/region_ending.h"
 #include "impl/inverse/region.h"
+#endif
 /* change: a factor that follows changes of its matrix */
+#if defined(SL_WITH_CHANGE)
+#include "impl/change/change_kernels.h"
+#include "impl/change/gather.h"
+#include "impl/change/kept.h"
+#include "impl/change/leftlooking.h"
 #include "impl/change/update_pivots.h"
 #include "impl/change/update.h"
 #include "impl/change/path.h"
@@ -201,7 +223,20 @@ extern "C" {
 #include "impl/change/edit_join.h"
 #include "impl/change/edit.h"
 #include "impl/change/edit_factor.h"
+#endif
+/* io: files that are written and mapped */
+#if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
+#include "impl/io/output_file.h"
+#include "impl/io/file_map.h"
+#endif
+/* files: Matrix Market files, 64-bit indices */
+#if defined(SL_WITH_FILES)
+#include "impl/files/csc64.h"
+#include "impl/files/text_reader.h"
+#include "impl/files/matrix_market.h"
+#endif
 /* save: factors in files */
+#if defined(SL_WITH_SAVE)
 #include "impl/save/format.h"
 #include "impl/save/decode.h"
 #include "impl/save/check.h"
@@ -209,13 +244,28 @@ extern "C" {
 #include "impl/save/load.h"
 #include "impl/save/load_inverse.h"
 #include "impl/save/load_calls.h"
-/* batch: many solves, factors and diagonals by one call */
+#endif
+/* batch: many solves and factorizations by one call, sums of matrices */
+#if defined(SL_WITH_BATCH)
+#include "impl/batch/matrix_sum.h"
+#include "impl/batch/scatter.h"
+#include "impl/batch/combination.h"
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"
+#endif
+/* batch: diagonals of many inverses */
+#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
 #include "impl/batch/batch_diagonal.h"
+#endif
 /* complex: complex Hermitian systems over real factors */
+#if defined(SL_WITH_COMPLEX)
+#include "impl/complex/complex_kernels.h"
+#include "impl/complex/complex_storage.h"
 #include "impl/complex/hermitian.h"
 #include "impl/complex/complex_rows.h"
+#endif
+/* packs: the tables through which the core calls packs */
+#include "impl/packs/storage_types.h"
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"
 #endif

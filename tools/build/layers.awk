@@ -218,10 +218,10 @@ function identifier(text) {
 }
 
 function check_name(name) {
-    if (name != "" && name !~ /^(sl|sli)_/ && name !~ /^(SL|SLI|SLV|SLW)_/ && \
+    if (name != "" && name !~ /^(sl|sli)_/ && name !~ /^(SL|SLI|SLV|SLW|SLF)_/ && \
         name != "SPARSE_LOCAL_IMPLEMENTED" && name !~ /^(WIN32_LEAN_AND_MEAN|NOMINMAX)$/)
         violation("`" name "` at file scope has no prefix", \
-                  "name it sli_" name " (macros: SLI_, SLV_, SLW_)")
+                  "name it sli_" name " (macros: SLI_, SLV_, SLW_, SLF_)")
 }
 
 # Checks the name that a line declares: the name before the first parenthesis (a function), the tag

@@ -105,8 +105,8 @@ static void sli_reach_add_path(const sl_symbolic *S, sl_int k, sl_int low, sl_in
  * before and behind it that are in the reach already; -1: none. count, n_rows, tallest and widest
  * are exact. columns counts whole supernodes, and entries does not include that k may enter a
  * shared supernode at an earlier tile. O(supernodes added). */
-static void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
-                          sli_reach *R) {
+SLI_INLINE void sli_reach_add(const sl_symbolic *S, sl_int k, sl_int before, sl_int behind,
+                              sli_reach *R) {
     sli_reach_add_path(S, k, before < 0 ? -1 : S->super_of[before],
                        behind < 0 ? S->n_supers : S->super_of[behind], R);
 }
@@ -125,8 +125,8 @@ static void sli_reach_measure_within(const sl_symbolic *S, const sli_region_exte
     R->columns += extent == NULL ? 0 : extent->n_rows;
 }
 
-static void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                              sli_reach *R) {
+SLI_INLINE void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                                  sli_reach *R) {
     sli_reach_measure_within(S, NULL, seeds, count, R);
 }
 
@@ -248,8 +248,8 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
     R->rows = rows;
 }
 
-static void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
-                           sli_step *steps, sl_int *rows, sli_reach *R) {
+SLI_INLINE void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
+                               sli_step *steps, sl_int *rows, sli_reach *R) {
     sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
 }
 

@@ -171,34 +171,6 @@ static void sli_fill_descendants(sl_symbolic *S) {
     }
 }
 
-/* Fills the relative indices of the children of supernode s. local: n of scratch; on return it has
- * the local rows of s. */
-static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
-    const sl_off begin = S->rows_begin[s];
-    const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
-    sl_int c;
-    sl_off at;
-    for (c = 0; c < width; c++) {
-        local[first + c] = c;
-    }
-    for (at = begin; at < S->rows_begin[s + 1]; at++) {
-        local[S->rows[at]] = width + (sl_int)(at - begin);
-    }
-    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
-        for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
-            S->relative[at] = local[S->rows[at]];
-        }
-    }
-}
-
-/* Fills the relative indices of all supernodes in their parents' fronts. local: n of scratch. */
-static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
-    sl_int s;
-    for (s = 0; s < S->n_supers; s++) {
-        sli_fill_relative_of(S, s, local);
-    }
-}
-
 /* The last row tile of supernode s. */
 SLI_INLINE sl_int sli_last_tile(const sl_symbolic *S, sl_int s) {
     return sli_tiles(S->steps[s].width + S->steps[s].below) - 1;

@@ -22,7 +22,7 @@ static void sli_analysis_layout(sli_analysis *w, sli_block *b, sl_int rows, sl_i
     w->old_of = SLI_TAKE(b, sl_int, n);
     w->new_of = SLI_TAKE(b, sl_int, n);
     w->parent = SLI_TAKE(b, sl_int, n); /* sli_pattern_fill uses 7 n from here on */
-    w->choice.parent = w->parent; /* the ordering of a forest needs none of this memory */
+    w->choice.parent = w->parent;       /* the ordering of a forest needs none of this memory */
     w->counts = SLI_TAKE(b, sl_int, n);
     w->super_of = SLI_TAKE(b, sl_int, n);
     w->amalgamation.first = SLI_TAKE(b, sl_int, n + 1);
@@ -468,7 +468,9 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
 SL_API void sl_symbolic_free(sl_symbolic *S) {
     if (S != NULL) {
         const sl_allocator a = S->allocator;
-        sli_unmap(&S->mapping);
+        if (S->backing.release != NULL) {
+            S->backing.release(S->backing.bytes, S->backing.size);
+        }
         sli_free(&a, S);
     }
 }

@@ -4,11 +4,17 @@
 
 #include "../../public/analyze.h"
 #include "../base/alloc.h"
-#include "../base/file_map.h"
 #include "../base/hash.h"
 #include "../kernels/pairs.h"
 #include "../kernels/step.h"
 #include "../ordering/graph.h"
+
+/* Memory of another owner that holds the arrays of an object, released with it. */
+typedef struct sli_backing {
+    void (*release)(const void *bytes, size_t size); /* NULL: there is none */
+    const void *bytes;
+    size_t size;
+} sli_backing;
 
 struct sl_symbolic {
     sl_allocator allocator;
@@ -50,7 +56,7 @@ struct sl_symbolic {
     sl_int n_nodes;                   /* nodes of the separator tree; 0: the ordering has none */
     sl_int *node_of;                  /* n: the node of each column */
     sl_int *node_parent, *node_level; /* n_nodes */
-    sli_mapping mapping;              /* the mapped file that holds the arrays; empty: none */
+    sli_backing backing;              /* the mapped file that holds the arrays */
     /* made from a file that has more than this library reads, or a restriction: it is not saved */
     int is_partial;
     /* after edits of the pattern: nnz_l and nnz_a of the last analysis with a new order; 0: none */

@@ -215,12 +215,4 @@ static void sli_team_run(const sl_threads *t, sl_int workers,
     sli_parallel(t, workers, sli_team_body, &team);
 }
 
-/* Where the range of worker k begins among the row tiles first .. last-1: the ranges have equal
- * length, or for a triangle, whose rows grow longer, equal area. */
-static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
-                                   int is_triangle) {
-    const double share = (double)k / workers;
-    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
-}
-
 #endif

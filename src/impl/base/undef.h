@@ -95,8 +95,9 @@
 #undef SLI_WIDE_1
 #undef SLI_WIDEN_0
 #undef SLI_WIDEN_1
-#undef SLV_SINGLE
-#undef SLV_COMPLEX
+#undef SLI_LOOP
+#undef SLI_ISAS
+#undef SLI_ISA_TABLES
 #undef SLV_PARTS
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS

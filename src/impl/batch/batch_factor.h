@@ -2,7 +2,7 @@
 #ifndef SLI_BATCH_BATCH_FACTOR_H
 #define SLI_BATCH_BATCH_FACTOR_H
 
-#include "../factor/combination.h"
+#include "combination.h"
 
 /* One call. Factor k has the coefficients from k * source.terms on. */
 typedef struct sli_factor_batch {

@@ -31,8 +31,7 @@ static sli_query sli_request_query(const sl_factor *F, const sl_request *r) {
 
 /* The weight of a block of 8 right-hand sides: the entries that it reads, and 1 for the call. */
 SLI_INLINE double sli_query_weight(const sli_query *q) {
-    return 1.0 + (double)q->forward.entries + (double)q->backward.entries +
-           (double)q->boundary.entries;
+    return 1.0 + (double)q->forward.entries + (double)q->backward.entries + (double)q->used.entries;
 }
 
 /* Right-hand sides of a request that begin before a point of the batch, given by weight; `before`

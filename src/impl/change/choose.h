@@ -2,7 +2,7 @@
 #ifndef SLI_CHANGE_CHOOSE_H
 #define SLI_CHANGE_CHOOSE_H
 
-#include "../factor/leftlooking.h"
+#include "leftlooking.h"
 #include "edges.h"
 
 /* Seconds of the parts of the three ways, fitted to grids of 1e4 and 1e5 rows: what does not depend
@@ -88,7 +88,7 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
 static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
     const sl_symbolic *S = F->S;
     const int can_reach =
-        F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE;
+        F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE;
     c->flops_refactor = S->stats.symbolic.flops;
     c->refactor = sli_way_refactor(F);
     c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;

@@ -2,6 +2,7 @@
 #ifndef SLI_CHANGE_EDIT_FACTOR_H
 #define SLI_CHANGE_EDIT_FACTOR_H
 
+#include "kept.h"
 #include "../../public/edit.h"
 #include "choose.h"
 #include "edit_match.h"
@@ -64,7 +65,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
         r->columns[k] = r->row_columns[T->perm[k]];
     }
     r->kept.F = r->F;
-    r->kept.from = r->from;
+    r->kept.copied.from = r->from;
+    r->kept.copied.copy = sli_kept_run;
     r->kept.columns = r->columns;
     return status;
 }
@@ -171,10 +173,10 @@ static int sli_reuse_choose(sli_reuse *r) {
         }
     }
     info->computed = T->n - info->kept;
-    seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits +
-              SLI_REUSE_SUPER * supers + SLI_REUSE_ENTRY * (double)info->entries;
-    return seconds < SLI_REUSE_SHARE * (SLI_REUSE_FLOP * r->flops_anew +
-                                        SLI_REUSE_FRONT * (double)T->n_supers);
+    seconds = SLI_REUSE_FLOP * info->flops + SLI_REUSE_FRONT * visits + SLI_REUSE_SUPER * supers +
+              SLI_REUSE_ENTRY * (double)info->entries;
+    return seconds < SLI_REUSE_SHARE *
+                         (SLI_REUSE_FLOP * r->flops_anew + SLI_REUSE_FRONT * (double)T->n_supers);
 }
 
 /* Supernode s is not kept, nor are its ancestors. */
@@ -231,9 +233,9 @@ static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure
     }
     sli_factor_identify(r->G, from);
     r->G->identity = sli_hash_words(r->G->identity, &r->F->identity, 2);
-    r->G->kept = &r->kept;
+    r->G->copied = &r->kept.copied;
     (void)sli_multifrontal(r->G, from, failure);
-    r->G->kept = NULL;
+    r->G->copied = NULL;
     return SL_OK;
 }
 

@@ -82,7 +82,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
         one.width = step->width;
         one.below = step->below;
         one.w = w;
-        F->kernels->change_panel(&one);
+        sli_change_kernels_of(F->kernels->isa)->panel(&one);
         entered = SLI_TILE * one.first_tile;
         k = step->column + entered;
         status = sli_update_take_all(u, k, step->width - entered, one.e + entered, NULL);

@@ -118,7 +118,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
     sl_status status;
     opt.isa = F->kernels->isa;
     opt.method = F->method;
-    opt.storage = F->storage;
+    opt.storage = F->type->storage;
     opt.threads = F->threads;
     opt.null_pivots = F->null_pivots;
     opt.null_tolerance = F->rule.null_tolerance;
@@ -138,7 +138,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
 /* Can G be computed in the reach of the changes? is_new: from the numbers of F, whose null pivots
  * need not remain. */
 static int sli_held_is_local(const sl_factor *F, int is_new) {
-    return F->method == SL_METHOD_SUPERNODAL && F->storage == SL_STORAGE_DOUBLE &&
+    return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
            (F->null_pivots == SL_NULL_PIVOT_REFUSE || !is_new);
 }
 

@@ -69,7 +69,7 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
 /* Can rows of F be eliminated? */
 static int sli_pins_can_hold(const sl_factor *F) {
     return F->null_vectors == 1 && F->rule.regularization == 0.0 &&
-           F->storage != SL_STORAGE_COMPLEX;
+           F->type->storage != SL_STORAGE_COMPLEX;
 }
 
 /* Reports the way in use. */

@@ -266,7 +266,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
         return SL_ERR_STATE;
     }
-    if (q->region != NULL) {
+    if (q->ending != NULL) {
         return SL_ERR_UNSUPPORTED;
     }
     if (nrhs == 0 || q->nx == 0) {

@@ -42,7 +42,7 @@ typedef struct sli_rank {
 
 /* Can F have rank-one changes? In float each one would round all of its columns again. */
 static int sli_rank_is_suited(const sl_factor *F) {
-    return F->E == NULL && F->n_nulls == 0 && F->storage == SL_STORAGE_DOUBLE;
+    return F->E == NULL && F->n_nulls == 0 && F->type->storage == SL_STORAGE_DOUBLE;
 }
 
 /* May F be changed in place? */

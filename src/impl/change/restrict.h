@@ -4,6 +4,7 @@
 
 #include "../../public/restrict.h"
 #include "../factor/factor.h"
+#include "kept.h"
 #include "restrict_symbolic.h"
 
 /* Refuses a kept pivot that was skipped as null. */
@@ -58,7 +59,8 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     if (status == SL_OK && r->n_kept > 0) {
         sli_restrict_keep(G, r, from, columns);
         kept.F = F;
-        kept.from = from;
+        kept.copied.from = from;
+        kept.copied.copy = sli_kept_run;
         kept.columns = columns;
         kept.is_subset = 1;
         status = sli_kept_room(&kept, G, &room);
@@ -67,12 +69,12 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         memset(&failure, 0, sizeof failure);
         sli_factor_begin(G);
         G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-        G->kept = r->n_kept > 0 ? &kept : NULL;
+        G->copied = r->n_kept > 0 ? &kept.copied : NULL;
         G->marks = NULL; /* no later factorization compares its entries */
         if (sli_restrict_check(F, r, &failure) == SL_OK) {
             (void)sli_factor_eliminate(G, &source, &failure);
         }
-        G->kept = NULL;
+        G->copied = NULL;
         status = sli_factor_done(G, &source, &failure, started, stats);
     }
     sli_free(&G->allocator, room.base);
@@ -105,10 +107,8 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
     sl_factor *G = NULL;
     sl_status status;
     opt.method = r->n_kept > 0 ? SL_METHOD_SUPERNODAL : SL_METHOD_AUTO;
-    opt.storage = F->storage;
-    if (F->storage == SL_STORAGE_COMPLEX &&
-        (!sli_are_pairs(r->rows, r->R.count) || /* untested: the order keeps pairs together */
-         !sli_rows_are_paired(S))) {            /* untested: the same */
+    opt.storage = F->type->storage;
+    if (F->type->keeps != NULL && !F->type->keeps(r->rows, r->R.count, S)) {
         opt.storage = SL_STORAGE_DOUBLE; /* A[R, R] is not complex, or not its order */
     }
     status = sli_factor_new_with(&G, S, &opt, F->kernels, stats);
@@ -161,8 +161,8 @@ static sl_status sli_restrict_run(sl_symbolic **S, sl_factor **G, const sl_facto
     found.symbolic.triangle = F->S->stats.symbolic.triangle;
     status = sli_restriction_list(r, a, stats);
     if (status == SL_OK) {
-        status = r->n_kept > 0 ? sli_joint_make(S, r, a, &found)
-                               : sli_restriction_make(S, r, a, &found);
+        status =
+            r->n_kept > 0 ? sli_joint_make(S, r, a, &found) : sli_restriction_make(S, r, a, &found);
     }
     sli_restriction_done(r, a);
     if (status == SL_OK) {
@@ -215,7 +215,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     r.S = F->S;
     r.A = A;
     r.may_keep =
-        F->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
+        F->type->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
     r.rows = rows;
     r.R.count = count;
     status = sli_restriction_begin(&r, &a, stats);

@@ -6,6 +6,34 @@
 #include "../base/sort.h"
 #include "../ordering/mindeg.h"
 
+/* Fills the relative indices of the children of supernode s. local: n of scratch; on return it has
+ * the local rows of s. */
+static void sli_fill_relative_of(const sl_symbolic *S, sl_int s, sl_int *local) {
+    const sl_off begin = S->rows_begin[s];
+    const sl_int first = S->super_first[s], width = S->super_first[s + 1] - first;
+    sl_int c;
+    sl_off at;
+    for (c = 0; c < width; c++) {
+        local[first + c] = c;
+    }
+    for (at = begin; at < S->rows_begin[s + 1]; at++) {
+        local[S->rows[at]] = width + (sl_int)(at - begin);
+    }
+    for (c = s - 1; c >= S->first_descendant[s]; c = S->first_descendant[c] - 1) {
+        for (at = S->rows_begin[c]; at < S->rows_begin[c + 1]; at++) {
+            S->relative[at] = local[S->rows[at]];
+        }
+    }
+}
+
+/* Fills the relative indices of all supernodes in their parents' fronts. local: n of scratch. */
+static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        sli_fill_relative_of(S, s, local);
+    }
+}
+
 /* The rank of a column is its position in the sorted list. The set is a bitmap of the columns, in
  * words of 64, and for each word the rank of its first column. Time and memory go by the size of
  * the set, not by n: where it is small, only words that have a column are stored, and a hash table

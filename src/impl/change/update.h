@@ -18,7 +18,7 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
         }
     }
     if (status == SL_OK) {
-        u->F->kernels->change[u->kind - 1](l, columns, at, w);
+        sli_change_kernels_of(u->F->kernels->isa)->change[u->kind - 1](l, columns, at, w);
         /* the kernel has changed the part above them, too; memset is slow for a few bytes */
         for (r = 0; r < columns; r++) {
             for (j = r; j < columns; j++) {
@@ -33,10 +33,11 @@ static sl_status sli_update_tile(sli_update *u, const sli_step *step, sl_int c, 
 static void sli_update_rows(const sli_update *u, const sli_step *step, sl_int t, sl_int from,
                             sl_int to) {
     const sl_int entered = step->first_tile;
-    u->F->kernels->change[u->kind - 1](
-        (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
-        to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
-        u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
+    sli_change_kernels_of(u->F->kernels->isa)
+        ->change[u->kind - 1](
+            (double *)u->F->values + step->panel + sli_panel_at(step->width, SLI_TILE * t, from),
+            to - from, u->c + 2 * (ptrdiff_t)u->lanes * (from - SLI_TILE * entered),
+            u->local + SLI_TILE * (ptrdiff_t)u->lanes * (t - entered));
 }
 
 /* Moves the rows of a step between the compact vector and the tiles: into the tiles, or back. */

@@ -2,6 +2,7 @@
 #ifndef SLI_CHANGE_UPDATE_PIVOTS_H
 #define SLI_CHANGE_UPDATE_PIVOTS_H
 
+#include "change_kernels.h"
 #include "../analysis/reach.h"
 #include "../factor/factor.h"
 #include "../solve/query.h"
@@ -135,8 +136,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         return SL_ERR_NOT_FINITE;
     }
     if (fabs(e) < DBL_MIN || (u->keeps_signs && (e < 0.0) != (d < 0.0)) ||
-        (fabs(e) < fabs(d) &&
-         (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
+        (fabs(e) < fabs(d) && (fabs(e) <= u->least || sli_update_is_null(F, k, e, magnitude)))) {
         return SL_ERR_PIVOT;
     }
     if (!u->is_trial) {
@@ -194,7 +194,8 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
 static sl_status sli_update_pivots(sli_update *u, sl_int k, sl_int columns, const double *l,
                                    const double *w, double *c) {
     sl_factor *F = u->F;
-    const sl_int done = F->kernels->change_ranks(u->state, l, columns, F->D + k, w, c);
+    const sl_int done =
+        sli_change_kernels_of(F->kernels->isa)->ranks(u->state, l, columns, F->D + k, w, c);
     return sli_update_take_all(u, k, done, u->state->e, u->state->magnitude);
 }
 

@@ -32,7 +32,7 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
 }
 
 /* Checks that F holds a factor and that A has the pattern that was analyzed. */
-static sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
+SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
     return F->is_valid && sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A)
                                                                    : SL_ERR_STATE;
 }
@@ -110,8 +110,8 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     F->stats.factor.seconds = sli_seconds() - started;
     F->is_valid = failure->status == SL_OK;
     if (F->is_valid) { /* the pivots show every other option that changes more than rounding */
-        const sl_int storage = (sl_int)F->storage;
-        if (F->storage != SL_STORAGE_DOUBLE) {
+        const sl_int storage = (sl_int)F->type->storage;
+        if (F->type->storage != SL_STORAGE_DOUBLE) {
             F->identity = sli_hash_ints(F->identity, &storage, 1);
         }
         F->identity = sli_hash_words(F->identity, F->D, F->S->n);
@@ -173,7 +173,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
             (void)sli_fail(&failure, SL_ERR_NOT_FINITE, 0, -1, -1, from->coefficients[t]);
         }
     }
-    if (sli_is_complex(F) && (from->A == NULL || !sli_matrix_is_complex(from->A))) {
+    if (F->type->accepts != NULL && !F->type->accepts(from)) {
         (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
     }
     if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {

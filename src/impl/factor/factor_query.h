@@ -4,7 +4,7 @@
 
 #include "factor.h"
 #include "pivot_check.h"
-#include "storage.h"
+#include "storage_type.h"
 
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats) {
     sli_stats_clear_error(stats);
@@ -134,7 +134,7 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F) {
     sl_factor_arrays v = {NULL, NULL, NULL, NULL, NULL};
     if (F != NULL) {
         v.symbolic = F->S;
-        v.L = F->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
+        v.L = F->type->storage == SL_STORAGE_DOUBLE ? (const double *)F->values : NULL;
         v.L_float = sli_is_float(F) ? (const float *)F->values : NULL;
         v.D = F->D;
         v.E = F->E;

@@ -40,10 +40,8 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
         F->center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
         F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
     }
-    F->values = sli_is_float(F)
-                    ? (void *)SLI_TAKE(b, float, S->panel_begin[S->n_supers])
-                    : (void *)SLI_TAKE(b, double,
-                                       S->panel_begin[S->n_supers] >> sli_is_complex(F));
+    F->values =
+        sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
 }
 
 /* The pieces of scratch for panels that are not stored in double: one a worker, and one for a large
@@ -120,9 +118,8 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         b.base = NULL;
         b.used = 0;
         for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-            F->stack = sli_is_single(F)
-                           ? (double *)(void *)SLI_TAKE(&b, float, F->schedule.stack)
-                           : SLI_TAKE(&b, double, F->schedule.stack >> sli_is_complex(F));
+            F->stack =
+                sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
             sli_schedule_layout_tops(&F->schedule, S, &b);
             F->stats.factor.bytes += pass == 0 ? b.used : 0;
             status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
@@ -201,7 +198,7 @@ SLI_INLINE double sli_limit(double option, double limit) {
 }
 
 /* The option that gives this limit again. (Without a difference of infinities, which may trap.) */
-static double sli_limit_option(double limit) {
+SLI_INLINE double sli_limit_option(double limit) {
     return limit <= DBL_MAX ? limit : -1.0;
 }
 
@@ -211,7 +208,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
     F->null_pivots = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
-    F->rule.epsilon = sli_epsilon(F->storage);
+    F->rule.epsilon = F->type->epsilon;
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
     F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
@@ -219,9 +216,8 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
         opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
     F->consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
-    F->growth_limit =
-        sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
-                  sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
+    F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
+                                sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
     F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
 }
 
@@ -304,8 +300,8 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     F->schedule.workers = 1;
     if (opt != NULL && F->method == SL_METHOD_SUPERNODAL) {
         F->threads = opt->threads;
-        F->schedule.workers = sli_min(
-            sli_workers_for(&opt->threads, sli_schedule_flops(F->S)), sli_max(F->S->n_supers, 1));
+        F->schedule.workers = sli_min(sli_workers_for(&opt->threads, sli_schedule_flops(F->S)),
+                                      sli_max(F->S->n_supers, 1));
     }
     if (F->kernels == NULL) {
         F->kernels = sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
@@ -315,13 +311,10 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     }
     F->stats.factor.isa = F->kernels->isa;
     F->stats.factor.method = F->method;
-    F->stats.storage = (sl_off)F->storage;
+    F->sweeps = F->type->sweeps(F->kernels);
+    F->front = F->type->front(F->kernels);
+    F->stats.storage = (sl_off)F->type->storage;
     return SL_OK;
-}
-
-/* With SL_STORAGE_COMPLEX both columns of a pair are treated alike. */
-static int sli_complex_is_possible(const sl_factor *F) {
-    return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
 }
 
 /* Creates a factor with its memory and its schedule, but without numbers. kernels: NULL: those of
@@ -339,12 +332,14 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.S = S;
     draft.kernels = kernels;
     draft.analysis = S->identity;
-    draft.storage = opt == NULL ? SL_STORAGE_DOUBLE : opt->storage;
+    draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
+    if (draft.type == NULL) {
+        return SL_ERR_UNSUPPORTED;
+    }
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
     status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
-                     (S->n_pairs > 0 && sli_is_single(&draft)) ||
-                     (sli_is_complex(&draft) && !sli_complex_is_possible(&draft))
+                     (draft.type->suits != NULL && !draft.type->suits(&draft))
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {

@@ -45,11 +45,23 @@ typedef struct sli_extent {
     sl_int zero;      /* instead of padding: saved factors have no undefined bytes */
 } sli_extent;
 
+typedef struct sli_storage_type sli_storage_type; /* storage_type.h */
+
+/* Supernodes whose numbers are copied in a factorization: a pack's struct begins with this. */
+typedef struct sli_copied {
+    const sl_int *from; /* n_supers: where the numbers of a supernode are, or -1: it is computed */
+    /* copies a supernode whose descendants are copied, and prepares what it passes up */
+    void (*copy)(sl_factor *F, sl_int s, sl_int worker);
+} sli_copied;
+
 struct sl_factor {
     sl_allocator allocator;
     sl_stats stats;       /* the factor group and the error group */
     const sl_symbolic *S; /* borrowed */
     const sli_kernels *kernels;
+    const sli_storage_type *type;   /* how L is kept */
+    const sli_sweeps *sweeps;       /* those of the kernels that read L so .. */
+    const sli_front_kernels *front; /* .. and that compute fronts so */
     sli_pivot_rule rule;
     sl_null_pivots null_pivots;
     sl_method method;
@@ -62,18 +74,17 @@ struct sl_factor {
     sli_hash identity;
     /* counts factorizations and changes, also those that give the same numbers again */
     uint64_t generation;
-    double clock; /* when its memory was there */
-    sl_off updates; /* rank-one changes since the last complete factorization */
-    double drift;   /* the rounding errors that they have added, relative to the largest entry */
-    double scale;   /* of the matrix as they have changed it: the largest entry, or less */
-    double lowest;  /* the least that it has been */
-    sli_hash analysis;  /* the identity of S */
-    sl_storage storage; /* of L */
-    void *values;       /* L: the panels of all supernodes, as they are stored */
-    double *panels;     /* scratch for panels that are not stored in double, one a worker */
-    sl_off panel_room;   /* doubles of such a piece */
-    double *D;           /* n pivots */
-    double *E;           /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
+    double clock;      /* when its memory was there */
+    sl_off updates;    /* rank-one changes since the last complete factorization */
+    double drift;      /* the rounding errors that they have added, relative to the largest entry */
+    double scale;      /* of the matrix as they have changed it: the largest entry, or less */
+    double lowest;     /* the least that it has been */
+    sli_hash analysis; /* the identity of S */
+    void *values;      /* L: the panels of all supernodes, as they are stored */
+    double *panels;    /* scratch for panels that are not stored in double, one a worker */
+    sl_off panel_room; /* doubles of such a piece */
+    double *D;         /* n pivots */
+    double *E;         /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
     sli_extent *extents; /* n_supers */
     double growth_limit; /* a larger growth is refused */
     double error_limit;  /* a refinement that ends above it is reported */
@@ -116,12 +127,12 @@ struct sl_factor {
     double *buffer; /* kernel scratch, one piece a worker */
     /* n_supers: a hash of the entries of A that each supernode was computed from; 0: not known */
     uint64_t *marks;
-    const struct sli_kept *kept; /* supernodes that are copied in this factorization, or NULL */
+    const sli_copied *copied; /* supernodes that are copied in this factorization, or NULL */
 
     /* multifrontal; scratch arrays hold one piece a worker */
     sl_threads threads;
     sli_schedule schedule;
-    double *stack; /* the update stack: update matrices until their parents assemble them */
+    void *stack; /* the update stack: update matrices until their parents assemble them */
     /* rows of the tallest front: the sum of the magnitudes that went into each diagonal entry */
     double *magnitude;
     double *reciprocals;   /* SLI_FRONT_RECIPROCALS */
@@ -205,32 +216,6 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
     return low;
 }
 
-/* The rounding unit of fronts. */
-SLI_INLINE double sli_epsilon(sl_storage storage) {
-    return storage == SL_STORAGE_FLOAT_FRONTS ? (double)FLT_EPSILON : DBL_EPSILON;
-}
-
-/* Are fronts computed in float? */
-SLI_INLINE int sli_is_single(const sl_factor *F) {
-    return F->storage == SL_STORAGE_FLOAT_FRONTS;
-}
-
-/* Is L kept in float? */
-SLI_INLINE int sli_is_float(const sl_factor *F) {
-    return F->storage == SL_STORAGE_FLOAT || sli_is_single(F);
-}
-
-/* Is only the first column of each pair computed and kept, as the second one is i times that? */
-SLI_INLINE int sli_is_complex(const sl_factor *F) {
-    return F->storage == SL_STORAGE_COMPLEX;
-}
-
-/* The panel of supernode s in double, while a worker factors it. */
-SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-    return sli_is_float(F) ? F->panels + F->panel_room * worker
-                           : (double *)F->values + (F->S->steps[s].panel >> sli_is_complex(F));
-}
-
 /* Columns of F->center. */
 SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
     return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
@@ -249,10 +234,5 @@ SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
 /* Beyond this drift F is refactored, after some 40,000 changes of moderate size, and a saved factor
  * has it as growth. */
 #define SLI_CHANGE_DRIFT 1e-11
-
-/* The largest entry of A and sum of magnitudes, and the smallest sum, of fronts in float. Products
- * of pivots and entries of L then neither overflow nor lose more by underflow than by rounding. */
-#define SLI_SINGLE_MOST (0.25 * (double)FLT_MAX)
-#define SLI_SINGLE_LEAST 7.888609052210118e-31 /* 2^-100 */
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef SLI_FACTOR_FRONT_TASKS_H
 #define SLI_FACTOR_FRONT_TASKS_H
 
-#include "kept.h"
+#include "multifrontal.h"
 
 /* A factorization is one parallel call. Its tasks are bundles of subtrees, and the fronts above
  * them: small fronts as a whole, large ones in pieces. A worker draws a task that waits for nothing
@@ -35,10 +35,10 @@ typedef struct sli_job {
     const sli_source *from;
     sli_atomic lock;    /* of what follows */
     sli_atomic changes; /* counts the tasks that are done */
-    sl_int next;      /* the first bundle that is not drawn */
-    sl_int left;      /* bundles and fronts above them that are not done */
-    sl_int n_ready;   /* fronts in tops.ready */
-    sl_int failed;    /* the first supernode that is known to have failed, or n_supers */
+    sl_int next;        /* the first bundle that is not drawn */
+    sl_int left;        /* bundles and fronts above them that are not done */
+    sl_int n_ready;     /* fronts in tops.ready */
+    sl_int failed;      /* the first supernode that is known to have failed, or n_supers */
     /* the large front whose turn it is where all share one panel in double; -1: none */
     sl_int in_turn;
 } sli_job;
@@ -48,10 +48,9 @@ enum { SLI_STEP_CLEAR, SLI_STEP_ASSEMBLE, SLI_STEP_ROWS };
 /* The row tiles of a piece: from its beginning to that of the next one. */
 SLI_INLINE sl_int sli_piece_begin(const sli_step *s, const sli_top *top, sl_int piece) {
     const sl_int groups = sli_front_groups(s->width);
-    return piece < groups
-               ? SLI_GROUP_TILES * piece
-               : sli_min(sli_tiles(s->width) + (piece - groups) * top->piece_tiles,
-                         sli_tiles(s->width + s->below));
+    return piece < groups ? SLI_GROUP_TILES * piece
+                          : sli_min(sli_tiles(s->width) + (piece - groups) * top->piece_tiles,
+                                    sli_tiles(s->width + s->below));
 }
 
 /* The last step of a piece in which it computes columns of L. */
@@ -143,7 +142,7 @@ static sli_task sli_job_draw(sli_job *job) {
     while (k < job->n_ready) {
         const sl_int at = p->ready[k];
         const sli_top *top = &p->tops[at];
-        const int is_whole = top->pieces == 0 || sli_is_kept(job->F, p->top[at]);
+        const int is_whole = top->pieces == 0 || sli_is_copied(job->F, p->top[at]);
         const int skip = !top->is_begun && p->top[at] > job->failed;
         if (is_whole || skip) {
             p->ready[k] = p->ready[--job->n_ready];
@@ -212,23 +211,6 @@ static void sli_job_return(sli_job *job, const sli_task *task, sl_status status)
 
 /* ---- running tasks ---- */
 
-/* A large front. Its magnitudes, in float also D, and its reciprocals follow its update matrix. */
-static sli_front sli_large_front(const sl_factor *F, sl_int s) {
-    const sli_step *step = &F->S->steps[s];
-    const ptrdiff_t rows = SLI_TILE * (ptrdiff_t)sli_tiles(step->width + step->below);
-    sli_front f = sli_front_of(F, s, 0);
-    if (sli_is_single(F)) {
-        f.single.magnitude = f.single.update + sli_update_size(step);
-        f.single.D = f.single.magnitude + rows;
-        f.single.reciprocals = f.single.D + SLI_TILE * (ptrdiff_t)sli_tiles(step->width);
-        return f;
-    }
-    f.magnitude = f.update + (sli_update_size(step) >> f.is_complex);
-    f.reciprocals = f.magnitude + rows;
-    f.panel = sli_front_panel(F, s, F->schedule.workers);
-    return f;
-}
-
 /* Runs a step of a piece. */
 static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
     const sl_int s = F->schedule.top[task->at], piece = task->piece;
@@ -237,25 +219,18 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
     const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
     const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
     double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-    const sli_front_kernels *kernels = sli_front_kernels_of(F);
-    sli_front f = sli_large_front(F, s);
+    const sli_storage_type *type = F->type;
+    const sli_front f = type->shared(F, s, sli_max(group, 0));
     if (task->step == SLI_STEP_CLEAR) {
-        sli_front_clear(&f, t0, t1);
+        type->clear(&f, t0, t1);
     } else if (task->step == SLI_STEP_ASSEMBLE) {
-        sli_front_assemble(F, &f, s, worker, t0, t1);
+        type->assemble(F, &f, worker, t0, t1);
     } else if (task->step > sli_piece_last_step(step, piece)) {
-        kernels->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+        F->front->update(&f, whole, sli_front_tiles(&f), sli_max(t0, whole), t1, scratch);
+    } else if (group == piece) {
+        F->front->pivots(&f, SLI_GROUP_TILES * group, scratch);
     } else {
-        if (f.panel == NULL) {
-            f.single.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-        } else {
-            f.reciprocals += SLI_FRONT_RECIPROCALS * (ptrdiff_t)group;
-        }
-        if (group == piece) {
-            kernels->pivots(&f, SLI_GROUP_TILES * group, scratch);
-        } else {
-            kernels->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
-        }
+        F->front->rows(&f, SLI_GROUP_TILES * group, t0, t1, scratch);
     }
 }
 
@@ -263,15 +238,11 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
  * first one in the order of supernodes, and another subtree may hold it. */
 static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle, sl_int worker) {
     const sli_schedule *p = &F->schedule;
-    sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0, s;
+    sl_int m = bundle > 0 ? p->bundle_end[bundle - 1] : 0;
     for (; m < p->bundle_end[bundle]; m++) {
         sli_failure failure;
-        sl_status status = SL_OK;
-        for (s = p->first[m]; s <= p->last[m] && status == SL_OK; s++) {
-            status = sli_super_factor(F, from, s, worker, &failure);
-            if (status != SL_OK) {
-                sli_keep_first_failure(&F->failures[worker], &failure);
-            }
+        if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
+            sli_keep_first_failure(&F->failures[worker], &failure);
         }
     }
 }
@@ -287,16 +258,15 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
         sli_subtrees_run(F, from, task->at, worker);
         break;
     case SLI_TASK_FRONT:
-        (void)sli_super_factor(F, from, s, worker, &failure);
+        (void)F->type->factor(F, from, s, s, worker, &failure);
         break;
     case SLI_TASK_LOAD:
-        f = sli_large_front(F, s);
-        (void)sli_front_load(F, from, &f, s, &failure);
+        f = F->type->shared(F, s, 0);
+        (void)F->type->load(F, from, &f, &failure);
         break;
     case SLI_TASK_FINISH:
-        f = sli_large_front(F, s);
-        sli_front_hand_over(&f);
-        (void)sli_front_check(F, &f, s, &failure);
+        f = F->type->shared(F, s, 0);
+        (void)F->type->finish(F, &f, &failure);
         break;
     default:
         sli_piece_run(F, task, worker);

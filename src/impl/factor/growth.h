@@ -2,7 +2,7 @@
 #ifndef SLI_FACTOR_GROWTH_H
 #define SLI_FACTOR_GROWTH_H
 
-#include "storage.h"
+#include "storage_type.h"
 
 /* The computed factors satisfy L D L' = P A P' + E, |E| <= c n epsilon |L| |D| |L'| [Hi02] 11.1.
  * No entry of the semidefinite matrix |L| |D| |L'| exceeds its largest diagonal entry. Null pivots

@@ -3,7 +3,7 @@
 #define SLI_FACTOR_NULL_CENTER_H
 
 #include "../analysis/reach.h"
-#include "storage.h"
+#include "storage_type.h"
 #include "null_basis.h"
 
 /* Let M be the diagonal of the weights, and let the columns of Z span the null space of a tree,

@@ -2,6 +2,7 @@
 #ifndef SLI_FACTOR_NULL_VECTORS_H
 #define SLI_FACTOR_NULL_VECTORS_H
 
+#include "storage_type.h"
 #include "null_basis.h"
 
 /* Rounding alone cannot tell whether a small pivot is null: the rounding error of a pivot comes
@@ -108,23 +109,6 @@ static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
     return SL_OK;
 }
 
-/* Are all pivots that were skipped before still null, or judged by the tolerance? New null pivots
- * are in the reach of the changes, unless they are anchors. */
-static int sli_nulls_remain(const sl_factor *F) {
-    sl_int m, k;
-    for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
-        if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
-            return 0;
-        }
-    }
-    for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
-        if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
 /* Where null pivots are refused: may a root of the elimination forest be a null pivot that the
  * tolerance missed, because its rounding error comes from heavier rows? Reads D only. */
 static int sli_null_is_suspected(const sl_factor *F) {
@@ -150,7 +134,7 @@ static int sli_null_is_suspected(const sl_factor *F) {
 /* Does it fit in L? L has 8 entries or more for each column: enough in double. */
 static int sli_null_suspect_fits(const sl_factor *F) {
     const sl_off entries = F->S->panel_begin[F->S->n_supers];
-    return F->storage == SL_STORAGE_DOUBLE ||
+    return F->type->storage == SL_STORAGE_DOUBLE ||
            (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
 }
 

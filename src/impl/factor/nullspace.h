@@ -3,7 +3,7 @@
 #define SLI_FACTOR_NULLSPACE_H
 
 #include "../analysis/reach.h"
-#include "storage.h"
+#include "storage_type.h"
 #include "null_center.h"
 #include "null_vectors.h"
 

@@ -30,23 +30,6 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return SL_OK;
 }
 
-/* The same for a pivot of a front in float, and stores it. Refuses what float cannot tell from
- * rounding: a kept pivot of a semidefinite matrix, too, is regular in double but not here. */
-SLI_INLINE sl_status sli_check_single(const sl_factor *F, sl_int s, sl_int k, float pivot,
-                                      float magnitude, sli_failure *failure) {
-    const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
-    const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
-    F->D[k] = d;
-    if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
-        return sli_fail(failure, SL_ERR_INACCURATE, s, k, -1, d);
-    }
-    if (!is_null && F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK) {
-        sli_record_magnitude(F, s, k, m);
-        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, d);
-    }
-    return sli_check_pivot(F, s, k, d, m, failure);
-}
-
 /* At the first column k of a 2x2 pivot of supernode s: records the magnitudes that both columns
  * were computed from, and refuses a pivot that is not finite or null. */
 SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, const double *magnitude,

@@ -2,8 +2,7 @@
 #ifndef SLI_FACTOR_UPLOOKING_H
 #define SLI_FACTOR_UPLOOKING_H
 
-#include "panel_load.h"
-#include "pivot_check.h"
+#include "multifrontal.h"
 #include "../base/sort.h"
 
 /* Links supernode s into the list of its next row below, if it has one. */
@@ -62,7 +61,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         if (q == 0) {
             const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
             memset(panel, 0, (size_t)size * sizeof(double));
-            status = sli_panel_load(F, from, s, panel, NULL, failure);
+            status = sli_double_panel_load(F, from, s, panel, failure);
             if (status != SL_OK) {
                 break;
             }

@@ -2,6 +2,7 @@
 #ifndef SLI_INVERSE_BLOCK_H
 #define SLI_INVERSE_BLOCK_H
 
+#include "inverse_kernels.h"
 #include "bilinear.h"
 
 /* Sweeps of one side that are kept while those of the other side are computed one by one: 128
@@ -33,7 +34,7 @@ static void sli_cross_sums(const sl_factor *F, const sli_forward *f, const sli_f
         const double *y = f->y + (ptrdiff_t)m.in_a * f->lanes;
         const double *x = z + (ptrdiff_t)m.in_b * g->lanes;
         if (f->lanes == SLI_LANES_MAX && g->lanes == SLI_LANES_MAX) {
-            F->kernels->products(m.count, y, x, sums);
+            sli_inverse_kernels_of(F->kernels->isa)->products(m.count, y, x, sums);
             continue;
         }
         for (k = 0; k < m.count; k++, y += f->lanes, x += g->lanes) {

@@ -161,7 +161,7 @@ static void sli_entries_plan(void *call) {
 static void sli_entries_layout_run(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
     if (q->method == SL_INVERSE_SELECTED) {
-        sli_traversal_layout_run(&q->run, &q->traversal, q->F->storage, b);
+        sli_traversal_layout_run(&q->run, &q->traversal, q->F->type->storage, b);
     }
 }
 

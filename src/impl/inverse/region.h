@@ -4,6 +4,7 @@
 
 #include "block.h"
 #include "region_choose.h"
+#include "region_ending.h"
 #include "selected_query.h"
 
 /* Fills what follows from the roots and the rows of the boundary: everything but the numbers. */
@@ -11,6 +12,7 @@ static void sli_region_index(sl_region *R) {
     const sl_symbolic *S = R->S;
     const sl_int n = R->extent.n_rows;
     sl_int k;
+    sli_region_begin(R);
     R->extent.roots = R->roots;
     R->extent.rows = R->rows;
     R->analysis = S->identity;

@@ -3,7 +3,7 @@
 #define SLI_INVERSE_REGION_CHOOSE_H
 
 #include "row_sets.h"
-#include "../solve/region_types.h"
+#include "region_types.h"
 
 /* The state of the choice: which supernodes of the compiled reach of the set are inside the region.
  * A row is in the boundary if it is not inside and either belongs to the set or is below a

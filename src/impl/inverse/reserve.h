@@ -80,7 +80,7 @@ static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) 
     memset(r, 0, sizeof *r);
     r->S = F->S;
     r->workers = sli_traversal_workers(F->S, &F->threads);
-    r->storage = F->storage;
+    r->storage = F->type->storage;
     r->all = sli_traversal_of(F->S, F->S->n_supers, 1);
     return sli_work_stages(W, &stage, 1, r);
 }

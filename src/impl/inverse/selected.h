@@ -76,7 +76,7 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
     memset(&draft, 0, sizeof draft);
     draft.allocator = sli_allocator(opt);
     draft.analysis = S->identity;
-    draft.storage = F->storage;
+    draft.storage = F->type->storage;
     draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
     for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, count);
@@ -119,7 +119,7 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
 
 static void sli_selected_layout_run(void *context, sli_block *b) {
     sli_traversal_run *run = (sli_traversal_run *)context;
-    sli_traversal_layout_run(run, run->traversal, run->F->storage, b);
+    sli_traversal_layout_run(run, run->traversal, run->F->type->storage, b);
 }
 
 static const sli_stage sli_selected_stage = {sli_selected_layout_run, NULL};
@@ -141,7 +141,7 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     if (status == SL_OK) {
         sli_traverse(&run);
         Z->numbers = sli_numbers_of(F);
-        Z->storage = F->storage;
+        Z->storage = F->type->storage;
         Z->seconds = sli_seconds() - started;
     }
     sli_free(&own.allocator, own.block);

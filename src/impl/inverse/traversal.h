@@ -4,7 +4,7 @@
 
 #include "../analysis/reach.h"
 #include "../analysis/schedule.h"
-#include "../kernels/inverse_front.h"
+#include "inverse_front.h"
 
 /* A top-down traversal computes fronts of the inverse from the roots of the elimination tree to its
  * leaves. The front of a supernode starts with entries of its parent's front, so the parent's front

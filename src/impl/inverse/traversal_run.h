@@ -2,8 +2,26 @@
 #ifndef SLI_INVERSE_TRAVERSAL_RUN_H
 #define SLI_INVERSE_TRAVERSAL_RUN_H
 
+#include "inverse_kernels.h"
 #include "traversal.h"
-#include "../factor/storage.h"
+#include "../factor/storage_type.h"
+
+/* Where the range of worker k begins among the row tiles first .. last-1: the ranges have equal
+ * length, or for a triangle, whose rows grow longer, equal area. */
+static sl_int sli_tile_range_begin(sl_int first, sl_int last, sl_int k, sl_int workers,
+                                   int is_triangle) {
+    const double share = (double)k / workers;
+    return first + (sl_int)((last - first) * (is_triangle ? sqrt(share) : share));
+}
+
+/* Copies the panel of supernode s, of a factor in another storage, to doubles. */
+static void sli_panel_widen(const sl_factor *F, sl_int s, double *to) {
+    const sl_off first = F->S->panel_begin[s], size = F->S->panel_begin[s + 1] - first;
+    sl_off k;
+    for (k = 0; k < size; k++) {
+        to[k] = sli_entry(F, first + k);
+    }
+}
 
 /* Called with each completed front, that of the k-th supernode of the list, to read its row tiles
  * t0 .. t1-1. Calls for other tiles or other fronts may run at the same time. */
@@ -44,8 +62,9 @@ static void sli_traversal_layout_run(sli_traversal_run *run, const sli_traversal
 static sli_inverse_front sli_traverse_front(const sli_traversal_run *run, sl_int k) {
     const sli_step *step = &run->traversal->S->steps[run->traversal->supers[k]];
     sli_inverse_front f;
-    f.panel =
-        run->F->storage != SL_STORAGE_DOUBLE ? NULL : (const double *)run->F->values + step->panel;
+    f.panel = run->F->type->storage != SL_STORAGE_DOUBLE
+                  ? NULL
+                  : (const double *)run->F->values + step->panel;
     f.D = run->F->D + step->column;
     f.front = run->fronts + run->traversal->schedule.stack_begin[k];
     f.width = step->width;
@@ -61,9 +80,10 @@ static void sli_traverse_gather(const sli_traversal_run *run, sl_int k, const sl
     const sl_int up = traversal->forest.parent[k];
     if (up != -1) {
         const sli_inverse_front parent = sli_traverse_front(run, up);
-        run->F->kernels->gather(
-            f, parent.front, parent.width + parent.below,
-            traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0, t1);
+        sli_inverse_kernels_of(run->F->kernels->isa)
+            ->gather(f, parent.front, parent.width + parent.below,
+                     traversal->S->relative + traversal->S->rows_begin[traversal->supers[k]], t0,
+                     t1);
     }
 }
 
@@ -78,7 +98,7 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
     const sl_off row = S->rows_begin[s];
     const sl_int rows = sli_min(S->steps[s].below, SLI_PANEL_AHEAD);
     /* bytes of an entry, stored or not */
-    const size_t entry = sizeof(double) / (F->storage == SL_STORAGE_DOUBLE ? 1 : 2);
+    const size_t entry = sizeof(double) / (F->type->storage == SL_STORAGE_DOUBLE ? 1 : 2);
     sl_off k;
     for (k = 0; k < rows; k += (sl_off)(SLI_ALIGN / sizeof(sl_int))) {
         SLI_PREFETCH(S->relative + row + k, 0);
@@ -91,9 +111,9 @@ static void sli_traverse_prefetch(const sl_factor *F, sl_int s) {
 /* The scratch of a worker; first gives front k a panel in double there if L is in float. */
 static double *sli_traverse_begin(const sli_traversal_run *run, sl_int k, sli_inverse_front *f,
                                   sl_int worker) {
-    const sl_off room = sli_traverse_scratch(run->traversal, run->F->storage);
+    const sl_off room = sli_traverse_scratch(run->traversal, run->F->type->storage);
     double *scratch = run->scratch + (ptrdiff_t)(room * worker);
-    if (run->F->storage != SL_STORAGE_DOUBLE) {
+    if (run->F->type->storage != SL_STORAGE_DOUBLE) {
         sli_panel_widen(run->F, run->traversal->supers[k], scratch + run->traversal->scratch);
         f->panel = scratch + run->traversal->scratch;
     }
@@ -107,7 +127,7 @@ static void sli_traverse_complete(const sli_traversal_run *run, sl_int k, sli_in
     if (k > 0) {
         sli_traverse_prefetch(run->F, run->traversal->supers[k - 1]);
     }
-    run->F->kernels->takahashi(f, scratch);
+    sli_inverse_kernels_of(run->F->kernels->isa)->takahashi(f, scratch);
     run->visit(run->context, k, f, 0, sli_tiles(f->width + f->below));
 }
 
@@ -161,10 +181,10 @@ static void sli_traverse_phase_range(void *data, sl_int k, sl_int worker) {
                  is_square = run->phase == SLI_INVERSE_SQUARE;
     const sli_tile_range all = sli_inverse_tiles(&run->front, run->group, run->phase);
     (void)worker;
-    run->F->kernels->inverse_phase(
-        &run->front, run->group, run->phase,
-        sli_tile_range_begin(all.first, all.last, k, workers, is_square),
-        sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
+    sli_inverse_kernels_of(run->F->kernels->isa)
+        ->phase(&run->front, run->group, run->phase,
+                sli_tile_range_begin(all.first, all.last, k, workers, is_square),
+                sli_tile_range_begin(all.first, all.last, k + 1, workers, is_square), run->scratch);
 }
 
 static void sli_traverse_visit_range(void *data, sl_int k, sl_int worker) {

@@ -12,16 +12,9 @@
  * reach included, relative to one lane. Measured on grids of 1e4 to 1e6 vertices (Zen 4); NEON was
  * not measured and uses the AVX2 row. */
 static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},  /* others */
-                                                         {1.0, 1.2, 3.8, 8.6},  /* plain C */
-                                                         {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
-                                                         {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
-
-/* The row of an instruction set in the tables of costs. */
-SLI_INLINE int sli_isa_row(sl_isa isa) {
-    return isa == SL_ISA_SCALAR ? 1
-           : isa == SL_ISA_AVX2 ? 2
-                                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
-}
+                                                        {1.0, 1.2, 3.8, 8.6},  /* plain C */
+                                                        {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
+                                                        {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
 
 /* A block of right-hand sides: unit vectors that share one forward sweep, one per lane. */
 typedef struct sli_rhs_block {

@@ -108,4 +108,28 @@ static const sli_kernels *sli_kernels_select(sl_isa isa) {
     return NULL;
 }
 
+/* The row of an instruction set in tables. */
+SLI_INLINE int sli_isa_row(sl_isa isa) {
+    return isa == SL_ISA_SCALAR ? 1
+           : isa == SL_ISA_AVX2 ? 2
+                                : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
+}
+
+/* The tables of a pack in the order of these rows: one for each instruction set, NULL where it
+ * is not compiled in. */
+#define SLI_ISAS 4
+#if defined(SLI_AVX512)
+#define SLI_ISA_TABLES(name) \
+    { NULL, &name##_scalar, &name##_avx2, &name##_avx512 }
+#elif defined(SLI_X86)
+#define SLI_ISA_TABLES(name) \
+    { NULL, &name##_scalar, &name##_avx2, NULL }
+#elif defined(SLI_ARM)
+#define SLI_ISA_TABLES(name) \
+    { &name##_neon, &name##_scalar, NULL, NULL }
+#else
+#define SLI_ISA_TABLES(name) \
+    { NULL, &name##_scalar, NULL, NULL }
+#endif
+
 #endif

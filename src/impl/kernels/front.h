@@ -56,10 +56,9 @@ typedef struct sli_front {
      * pivots, 8 divisors. The first 1/d is 0 if any of them is out of range. */
     double *reciprocals;
     sli_front_single single; /* of a front in float, which has no arrays in double */
-    int is_complex;          /* panel and update have the first columns of pairs only */
     int is_small; /* one row tile: its pivots are eliminated from the update matrix at once */
     const sli_pivot_rule *rule;
-    sl_int column; /* first column of the supernode */
+    sl_int super, column; /* the supernode and its first column */
 } sli_front;
 
 /* A front is eliminated by groups of SLI_GROUP_TILES column tiles that begin at tile c0: first the

@@ -135,11 +135,6 @@
         SLV_STORE(update + SLI_TILE * (k), a##k) \
     }
 
-#if !defined(SLV_NAME_PIVOTS)
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#endif
-
 #if defined(SLV_OWN_PIVOTS)
 /* The pivots of column tile c, 8 or fewer, and the update matrix of a small front. The columns
  * before it are already applied. */
@@ -326,11 +321,3 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
         }
     }
 }
-
-#if SLV_COMPLEX
-#undef SLV_COMPLEX
-#define SLV_COMPLEX 0
-#else
-#undef SLV_COMPLEX
-#define SLV_COMPLEX 1
-#endif

@@ -1,10 +1,5 @@
 /* interleave.inl.h: 8 columns of a dense block to interleaved rows of a vector, and back */
 
-#if !defined(SLV_STREAM)
-#define SLV_STREAM(p, a) SLV_STORE(p, a)
-#define SLV_STREAM_END
-#endif
-
 /* Both sides are prefetched: the caller's order jumps about in the vector, and a column of the
  * block is left after a chunk of rows, before the hardware has learned to read it ahead. Packing at
  * n = 1e6 is 1.5 times faster for the second. */

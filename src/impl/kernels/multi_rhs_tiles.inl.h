@@ -1,6 +1,6 @@
 /* multi_rhs_tiles.inl.h: several right-hand sides through supernodes of any width, by row tiles */
 
-/* Whoever includes this has defined
+/* multi_rhs.inl.h or complex_groups.inl.h has defined
  *
  *  SLI_PARTS              real columns that a column of L stands for: 2 of a complex matrix, or 1
  *  SLI_KERNEL(f)          the name of sweep f
@@ -218,3 +218,32 @@ SLI_GROUPED_KERNELS(32)
 #undef SLI_STRIDE_PARAMETER
 #undef SLI_SET_STRIDE
 #undef SLI_IS_DIRECT
+
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+#undef SLI_PARTS
+#undef SLI_KERNEL
+#undef SLI_TABLE
+#undef SLI_SMALL
+#undef SLI_PREPARE
+#undef SLI_APPLY
+#undef SLI_APPLY_COLUMN
+#undef SLI_GATHER
+#undef SLI_GATHER2
+#undef SLI_GATHER_COLUMN
+#undef SLI_DOWN
+#undef SLI_UP
+#undef SLI_COLUMN
+#undef SLI_ROW
+#undef SLI_TRIANGLE
+#undef SLI_TRIANGLE_UP
+#undef SLI_PAIRS
+#undef SLI_PAIRS_AGAIN
+#undef SLI_PAIRS_DOWN
+#undef SLI_NEGATE
+#undef SLI_SUBTRACT
+#undef SLI_BELOW
+#undef SLI_BEFORE
+#undef SLW_ENTRIES
+#undef SLW_SET_ENTRIES

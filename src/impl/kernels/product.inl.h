@@ -8,11 +8,6 @@
  * Of a complex matrix, B holds real and imaginary parts in turn, as a tile does. Both are applied
  * to the same entries of A, in two columns c0, c1 of the block: as B is conjugated, the column of C
  * is c0 - i c1. So the loop is the same, over half of the columns. */
-#if !defined(SLV_LOAD_TILES)
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#endif
 #if SLV_VECTOR_TILES == 1
 #define SLI_LOAD_ROWS(a, p, q) SLV_LOAD_PINNED(a, p)
 #else
@@ -129,21 +124,6 @@ SLV_FUNCTION SLI_INLINE void SLV_FRONT(rows2)(const SLV_VALUE *Ap0, const SLV_VA
 #undef SLI_UPDATE
 #undef SLI_UPDATE2
 #undef SLI_LOAD_ROWS
-
-#if SLV_VECTOR_TILES == 1 && !SLV_COMPLEX
-/* The same for users of single row tiles. */
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(block1)(const SLV_VALUE *A, const SLV_VALUE *B,
-                                               sl_int length, SLV_VALUE *C, sl_int columns) {
-    SLV_FRONT(rows1)(A, A, B, length, C, C, columns);
-}
-#if SLV_TILES == 2
-SLV_FUNCTION SLI_INLINE void SLV_FRONT(block2)(const SLV_VALUE *A, const SLV_VALUE *A1,
-                                               const SLV_VALUE *B, sl_int length, SLV_VALUE *C,
-                                               SLV_VALUE *C1, sl_int columns) {
-    SLV_FRONT(rows2)(A, A, A1, A1, B, length, C, C, C1, C1, columns);
-}
-#endif
-#endif
 
 /* B(k, j) = L(k, j) d(j) for the 8 rows k of a tile and `length` columns that are kept. */
 SLV_FUNCTION SLI_INLINE void SLV_FRONT(pack)(const SLV_VALUE *l, const SLV_VALUE *d, sl_int length,

@@ -135,9 +135,16 @@
         } \
     }
 
+/* Repeats a statement over i_, where a vector is an array. */
+#define SLI_LOOP(count, statement) \
+    { \
+        int i_; \
+        for (i_ = 0; i_ < (count); i_++) { \
+            statement; \
+        } \
+    }
+
 /* What depends on the type of L. */
-#define SLV_SINGLE 0
-#define SLV_COMPLEX 0
 #define SLI_PASTE(a, b) a##b
 #define SLI_BY_TYPE(word, is_single) SLI_PASTE(word, is_single)
 #define SLI_VALUE_0 double

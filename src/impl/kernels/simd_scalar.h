@@ -1,132 +1,25 @@
-/* simd_scalar.h: the kernels in plain C: a vector is an array */
+/* simd_scalar.h: the kernels in plain C */
 #ifndef SLI_KERNELS_SIMD_SCALAR_H
 #define SLI_KERNELS_SIMD_SCALAR_H
 
-#include "simd_scalar_single.h"
 #include "simd.h"
 #include "table.h"
 
-#define SLV_NAME(f) sli_##f##_scalar
-#define SLV_ISA SL_ISA_SCALAR
-#define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) ((c) - (a) * (b)) /* c - a b */
-#define SLV_DECLARE(a) double a[SLI_TILE];
-#define SLV_ZERO(a) SLI_LOOP(SLI_TILE, a[i_] = 0.0)
-#define SLV_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLV_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_TURN_ALL(a, b, re, im) \
-    { \
-        sl_int i_; \
-        for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
-            const double re_ = b[i_]; \
-            a[i_] = re b[i_ + 1]; \
-            a[i_ + 1] = im re_; \
-        } \
-    }
-#define SLV_TURN(a, b) SLV_TURN_ALL(a, b, -, +)
-#define SLV_TURN_BACK(a, b) SLV_TURN_ALL(a, b, +, -)
-#define SLV_WIDEN_ROWS(v, l, rows) SLI_LOOP(rows, (v)[i_] = (l)[i_])
-#define SLV_ADD(a, b) SLI_LOOP(SLI_TILE, a[i_] += b[i_])
-#define SLV_AXPY(a, l, p) \
-    { \
-        const double s_ = *(p); \
-        SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * s_) \
-    }
-#define SLV_DOT(a, l, v) SLI_LOOP(SLI_TILE, a[i_] -= (l)[i_] * v[i_])
-#define SLV_LOAD_PART(a, p, count, rest) \
-    { \
-        double part_[SLI_TILE]; \
-        SLI_LOOP(SLI_TILE, part_[i_] = (rest)) \
-        SLI_LOOP(count, part_[i_] = (p)[i_]) \
-        memcpy(a, part_, sizeof part_); \
-    }
-#define SLV_FIRST(a, count) \
-    { \
-        double part_[SLI_TILE]; \
-        SLI_LOOP(SLI_TILE, part_[i_] = 0.0) \
-        SLI_LOOP(count, part_[i_] = a[i_]) \
-        memcpy(a, part_, sizeof part_); \
-    }
-#define SLV_LANE(b, a, k) SLI_LOOP(SLI_TILE, b[i_] = a[k])
-#define SLV_GATHER(a, x, at) SLI_LOOP(SLI_TILE, a[i_] = (x)[at(i_)])
-#define SLV_SUM_DECLARE(a) double a;
-#define SLV_SUM_ZERO(a) a = 0.0;
-#define SLV_SUM_LOAD(a, p) a = *(p);
-#define SLV_SUM_STORE(p, a) *(p) = a;
-#define SLV_SUM_DOT(a, l, v) \
-    a -= ((l)[0] * v[0] + (l)[1] * v[1]) + ((l)[2] * v[2] + (l)[3] * v[3]) + \
-         (((l)[4] * v[4] + (l)[5] * v[5]) + ((l)[6] * v[6] + (l)[7] * v[7]));
-#define SLV_SUMS(r, a) \
-    r[0] = a##0, r[1] = a##1, r[2] = a##2, r[3] = a##3; \
-    r[4] = a##4, r[5] = a##5, r[6] = a##6, r[7] = a##7;
-#define SLV_TRANSPOSE(to, from) \
-    { \
-        int i_, k_; \
-        for (i_ = 0; i_ < SLI_TILE; i_++) { \
-            for (k_ = 0; k_ < SLI_TILE; k_++) { \
-                (to)[SLI_TILE * i_ + k_] = (from)[SLI_TILE * k_ + i_]; \
-            } \
-        } \
-    }
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_FNMA(a, b, c) SLI_LOOP(SLI_TILE, a[i_] -= b[i_] * c[i_])
-#define SLV_BROADCAST(b, p) SLI_LOOP(SLI_TILE, b[i_] = *(p))
-#define SLV_MULTIPLY(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] * c[i_])
-#define SLV_DIVIDE(a, b, c) SLI_LOOP(SLI_TILE, a[i_] = b[i_] / c[i_])
-#define SLV_BELOW(a, k) SLI_LOOP((k) + 1, a[i_] = 0.0)
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLW_ROWS 4
-#define SLW_DECLARE(a) double a[SLW_NRHS];
-#define SLW_ZERO(a) memset(a, 0, sizeof a);
-#define SLW_LOAD(a, p) memcpy(a, (p), sizeof a);
-#define SLW_STORE(p, a) memcpy((p), a, sizeof a);
-#define SLW_FNMA(a, s, b) \
-    { \
-        const double s_ = (s); \
-        SLI_LOOP(SLW_NRHS, a[i_] -= s_ * b[i_]) \
-    }
-#define SLW_ADD(a, b) SLI_LOOP(SLW_NRHS, a[i_] += b[i_])
-#define SLW_DIVIDE(a, s) SLI_LOOP(SLW_NRHS, a[i_] /= (s))
-
-#define SLW_NAME(f) sli_##f##8_scalar
+/* One template for all numbers of right-hand sides, in groups of two: arrays gain nothing from
+ * copies. */
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#define SLW_NRHS 2
 #define SLW_GROUPS 32
-#define SLW_NRHS 8
+#include "words_scalar.inl.h"
+#include "lanes_scalar.inl.h"
 #include "front.inl.h"
 #include "copy_rows.inl.h"
 #include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
-
-#include "sweeps.inl.h"
-#include "multi_rhs.inl.h"
-
-#define SLW_NAME(f) sli_##f##4_scalar
-#define SLW_NRHS 4
-#include "front.inl.h"
-#include "copy_rows.inl.h"
-#include "multi_rhs.inl.h"
-
-#include "multi_rhs.inl.h"
-
-/* Arrays gain nothing from duplicating L: two right-hand sides use multi_rhs.inl.h too. */
-#define SLW_NAME(f) sli_##f##2_scalar
-#define SLW_NRHS 2
-#include "copy_rows.inl.h"
-#include "multi_rhs.inl.h"
-
-#include "multi_rhs.inl.h"
-#define SLW_NAME(f) sli_##f##2_scalar
-#define SLW_NRHS 2
-#define SLW_GROUPS 32
-#define SLW_COMPLEX
-#include "multi_rhs.inl.h"
+#include "multi_rhs_tiles.inl.h"
 #include "kernel_set.inl.h"
 #include "lanes_undef.inl.h"
 #include "words_undef.inl.h"
-#undef SLI_LOOP
 
 #endif

@@ -4,10 +4,6 @@
 #if defined(SLV_PAIR) /* else multi_rhs.inl.h has the kernels for two right-hand sides */
 #include "two_rhs.inl.h"
 #endif
-#if !defined(SLV_NAME_SMALL)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#endif
 #if defined(SLV_OWN_SMALL)
 #include "small_supernode.inl.h"
 #endif

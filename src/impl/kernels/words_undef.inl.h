@@ -1,9 +1,7 @@
 /* words_undef.inl.h: undefines the SIMD vocabulary after the last template of a file simd_*.h */
 
 #undef SLV_SINGLE
-#define SLV_SINGLE 0
 #undef SLV_COMPLEX
-#define SLV_COMPLEX 0
 
 #undef SLV_NAME
 #undef SLV_NAME_4
@@ -70,3 +68,7 @@
 #undef SLV_SUMS
 #undef SLV_SUM_LOAD
 #undef SLV_SUM_STORE
+#undef SLW_TAKES_FLOATS
+#undef SLV_SPREAD_0
+#undef SLV_SPREAD_1
+#undef SLV_SPREAD

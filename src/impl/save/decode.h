@@ -124,7 +124,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->S = S;
     F->analysis = S->identity;
     F->method = (sl_method)g->method;
-    F->storage = (sl_storage)g->storage;
+    F->type = sli_storage_type_of((sl_storage)g->storage);
     F->null_pivots = (sl_null_pivots)g->null_pivots;
     F->checks = (int)g->checks;
     F->is_centered = (int)g->is_centered;
@@ -134,7 +134,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->consistency = g->consistency;
     F->growth_limit = g->growth_limit;
     F->error_limit = g->error_limit;
-    F->rule.epsilon = sli_epsilon(F->storage);
+    F->rule.epsilon = F->type->epsilon;
     F->rule.null_tolerance = g->null_tolerance;
     F->rule.regularization = g->regularization;
     F->rule.replaces = skips || g->regularization != 0.0;

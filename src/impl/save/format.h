@@ -6,7 +6,7 @@
 #include "../analysis/symbolic.h"
 #include "../factor/factor_setup.h"
 #include "../inverse/selected.h"
-#include "../solve/region_types.h"
+#include "../inverse/region_types.h"
 
 /* src/FORMAT.md specifies the format. A change of it changes SLI_READ_VERSION if older libraries
  * must not read the new files, and SLI_WRITE_VERSION in any case. */
@@ -116,7 +116,7 @@ SLI_INLINE uint64_t sli_saved_prefix(const sli_saved *f) {
 
 /* Appends a section of `count` words, of which `used` have contents. */
 SLI_NOINLINE static void sli_saved_add(sli_saved *f, uint32_t id, uint32_t word, const void *data,
-                          uint64_t count, uint64_t used) {
+                                       uint64_t count, uint64_t used) {
     const uint32_t k = f->header.sections++;
     f->table[k].id = id;
     f->table[k].word = word;
@@ -263,7 +263,7 @@ static void sli_saved_add_selected(sli_saved *f, const sl_selected *Z) {
 /* Appends the sections of an analysis and a factor to the empty table, from their numbers and,
  * where they are known, their arrays. */
 SLI_NOINLINE static void sli_saved_add_base(sli_saved *f, const sl_symbolic *S, const sl_factor *F,
-                               int has_factor) {
+                                            int has_factor) {
     f->header.sections = 0;
     sli_saved_add(f, SLI_SECTION_ANALYSIS, 8, &f->analysis, sizeof f->analysis / 8,
                   sizeof f->analysis / 8);

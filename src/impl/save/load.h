@@ -164,7 +164,8 @@ static sl_status sli_read_front(sli_reading *r) {
             return status != SL_OK ? status : SL_ERR_IO;
         }
     }
-    if ((r->F.storage != SL_STORAGE_DOUBLE) != (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
+    if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
+        (f->header.read_version > SLI_READ_VERSION_DOUBLE)) {
         return SL_ERR_IO;
     }
     memset(&expected, 0, sizeof expected);
@@ -264,10 +265,10 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     status = sli_factor_use(F, r->opt);
     sli_factor_layout(F, &b, (int)g->has_mass);
     m.first = r->saved.first_number;
-    m.last = m.first + SLI_FACTOR_SECTIONS + (F->storage != SL_STORAGE_DOUBLE);
+    m.last = m.first + SLI_FACTOR_SECTIONS + (F->type->storage != SL_STORAGE_DOUBLE);
     m.head = sizeof *F;
     m.bytes = b.used;
-    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) { /* untested: on 32 bits only */
+    if (b.overflow || b.used > SIZE_MAX - 2 * sizeof *F) {    /* untested: on 32 bits only */
         status = status == SL_OK ? SL_ERR_TOO_LARGE : status; /* untested: the same */
     }
     status = status == SL_OK ? sli_read_image(r, &m) : status;

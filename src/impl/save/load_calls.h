@@ -2,6 +2,7 @@
 #ifndef SLI_SAVE_LOAD_CALLS_H
 #define SLI_SAVE_LOAD_CALLS_H
 
+#include "../io/file_map.h"
 #include "load_inverse.h"
 
 /* What a call creates; each includes what is before it. */
@@ -80,9 +81,11 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
     if (status == SL_OK) {
         status = sli_read_memory(r, map.bytes, map.size, set, wanted);
         if (status == SL_OK) {
-            set->symbolic->mapping = map;
+            set->symbolic->backing.release = sli_unmap;
+            set->symbolic->backing.bytes = map.bytes;
+            set->symbolic->backing.size = map.size;
         } else {
-            sli_unmap(&map);
+            sli_unmap(map.bytes, map.size);
         }
     }
     return status;

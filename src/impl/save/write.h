@@ -2,7 +2,8 @@
 #ifndef SLI_SAVE_WRITE_H
 #define SLI_SAVE_WRITE_H
 
-#include "../matrix/output_file.h"
+#include "../io/file_map.h"
+#include "../io/output_file.h"
 #include "format.h"
 
 static sli_saved_analysis sli_saved_analysis_of(const sl_symbolic *S) {
@@ -68,7 +69,7 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.identity[0] = F->identity.a;
     g.identity[1] = F->identity.b;
     g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
-    g.storage = F->storage;
+    g.storage = F->type->storage;
     return g;
 }
 
@@ -184,8 +185,7 @@ static sl_status sli_save_check(const sl_saved_set *set) {
 /* Checks the arguments of a save and fills in everything but the checksums. */
 static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     const sl_factor *F = set->factor;
-    const sl_status status = F != NULL && sli_is_complex(F) ? SL_ERR_UNSUPPORTED
-                                                                           : sli_save_check(set);
+    const sl_status status = F != NULL && F->type->half ? SL_ERR_UNSUPPORTED : sli_save_check(set);
     sl_factor none;
     int fits = 1;
     memset(f, 0, sizeof *f);
@@ -197,7 +197,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
     f->header.order_mark = SLI_ORDER_MARK;
     f->header.read_version = SLI_READ_VERSION_DOUBLE;
     f->header.write_version = SLI_WRITE_VERSION_PLAIN;
-    if (F != NULL && F->storage != SL_STORAGE_DOUBLE) {
+    if (F != NULL && F->type->storage != SL_STORAGE_DOUBLE) {
         f->header.read_version = SLI_READ_VERSION;
         f->header.write_version = SLI_WRITE_VERSION;
     }
@@ -218,7 +218,7 @@ static sl_status sli_save_prepare(sli_saved *f, const sl_saved_set *set) {
         sli_saved_add_selected(f, set->selected);
     }
     fits = fits && sli_saved_place(f) && f->header.bytes <= SIZE_MAX; /* untested: 2^62 bytes */
-    return fits ? SL_OK : SL_ERR_TOO_LARGE; /* untested: the same */
+    return fits ? SL_OK : SL_ERR_TOO_LARGE;                           /* untested: the same */
 }
 
 /* Computes the checksums, then writes everything. */

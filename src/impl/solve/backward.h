@@ -3,7 +3,7 @@
 #define SLI_SOLVE_BACKWARD_H
 
 #include "../analysis/reach.h"
-#include "../factor/storage.h"
+#include "../factor/storage_type.h"
 
 /* x := D^-1 x in the columns of 2x2 pivots. A reach begins at a whole tile, and a pair is in one
  * tile, so both of its columns are there or none. */

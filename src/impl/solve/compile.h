@@ -12,14 +12,15 @@ typedef struct sli_set {
     int repeats; /* some row is given more than once */
     /* seeds inside the subtrees, where the reach starts; the others are boundary rows */
     sl_int inside;
-    const sli_region_extent *extent; /* the region's subtrees and boundary; NULL: no region */
+    const sli_region_extent *extent; /* where paths end; NULL: at the roots */
     /* count: the rows' columns of L, ascending, each with its position in the caller's order */
     uint64_t *seeds;
     uint64_t *scratch; /* count */
     sl_int *index;     /* count: where each of the caller's rows is in the vector */
     sli_step *steps;
-    sl_int *row_index;       /* the indices of all steps' rows in the vector */
-    unsigned char *boundary; /* chunks of the boundary: 1 where the set uses one */
+    sl_int *row_index;    /* the indices of all steps' rows in the vector */
+    unsigned char *marks; /* n_marks: of an ending, which parts of it the set uses */
+    sl_int n_marks;
 } sli_set;
 
 static sli_set sli_set_of(const sl_symbolic *S, const sl_int *rows, sl_int count) {
@@ -42,8 +43,7 @@ static void sli_set_layout_reach(sli_set *set, sli_block *b, const sli_reach *R)
         set->index = SLI_TAKE_INLINE(b, sl_int, set->count);
         set->steps = SLI_TAKE_INLINE(b, sli_step, R->count);
         set->row_index = SLI_TAKE_INLINE(b, sl_int, R->n_rows);
-        set->boundary = SLI_TAKE_INLINE(
-            b, unsigned char, set->extent == NULL ? 0 : sli_region_chunks(set->extent->n_rows));
+        set->marks = SLI_TAKE_INLINE(b, unsigned char, set->n_marks);
     }
 }
 
@@ -70,38 +70,6 @@ static sl_status sli_set_sort(const sl_symbolic *S, sli_set *set, sl_stats *stat
     return SL_OK;
 }
 
-/* Is every row of a sorted set in the region? The set of all rows counts as outside. */
-static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
-                             const sli_region_extent *extent) {
-    sl_int k;
-    for (k = 0; set->rows != NULL && k < set->count; k++) {
-        const sl_int column = sli_key(set->seeds[k]);
-        if (sli_extent_find(S, extent, S->super_of[column]) == -1 &&
-            sli_extent_boundary(extent, column) == -1) {
-            return 0;
-        }
-    }
-    return set->rows != NULL;
-}
-
-/* Assigns a set to the region that contains it: seeds in subtrees first, boundary rows after them,
- * both ascending. */
-static void sli_set_partition(const sl_symbolic *S, sli_set *set, const sli_region_extent *extent) {
-    sl_int k, inside = 0, rest = 0;
-    for (k = 0; k < set->count; k++) {
-        if (sli_extent_find(S, extent, S->super_of[sli_key(set->seeds[k])]) != -1) {
-            set->seeds[inside++] = set->seeds[k];
-        } else {
-            set->scratch[rest++] = set->seeds[k];
-        }
-    }
-    for (k = 0; k < rest; k++) {
-        set->seeds[inside + k] = set->scratch[k];
-    }
-    set->inside = inside;
-    set->extent = extent;
-}
-
 /* Measures the reach of a sorted set. */
 static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach *R) {
     if (set->rows == NULL) {
@@ -109,34 +77,6 @@ static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach 
     } else {
         sli_reach_measure_within(S, set->extent, set->seeds, set->inside, R);
     }
-}
-
-/* Marks the chunks of the boundary that a compiled set uses: those of its own rows, and those of
- * the rows below its subtrees, which are the rows below their roots. */
-static void sli_set_mark(sli_set *set, const sli_reach *R) {
-    const sl_int n = set->extent->n_rows, base = R->columns - n;
-    const sl_int *rows = R->rows;
-    sl_int k, i;
-    memset(set->boundary, 0, (size_t)sli_region_chunks(n));
-    for (k = set->inside; k < set->count; k++) {
-        set->boundary[(set->index[sli_value(set->seeds[k])] - base) / SLI_REGION_COLUMNS] = 1;
-    }
-    for (k = 0; k < R->count; k++) {
-        for (i = 0; R->steps[k].up == -1 && i < R->steps[k].below; i++) {
-            set->boundary[(rows[i] - base) / SLI_REGION_COLUMNS] = 1;
-        }
-        rows += R->steps[k].below;
-    }
-}
-
-/* Doubles of the region's inverse in the chunks that either set uses. */
-static sl_off sli_boundary_entries(const sl_region *R, const sli_set *b, const sli_set *x) {
-    sl_off sum = 0;
-    sl_int k;
-    for (k = 0; k < sli_region_chunks(R->extent.n_rows); k++) {
-        sum += b->boundary[k] || x->boundary[k] ? R->begin[k + 1] - R->begin[k] : 0;
-    }
-    return sum;
 }
 
 /* Compiles the reach of a set, and the index of each of the caller's rows in its vector. */
@@ -154,9 +94,6 @@ static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const
         set->index[sli_value(set->seeds[k])] =
             R->columns - set->extent->n_rows +
             sli_extent_boundary(set->extent, sli_key(set->seeds[k]));
-    }
-    if (set->extent != NULL) {
-        sli_set_mark(set, R);
     }
     *index = set->index;
 }
@@ -177,33 +114,32 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
 
 /* Compiles both sets, which are laid out and measured. Equal reaches share one vector, which saves
  * the transfer between the sweeps. */
-static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sl_region *region, sli_set *b,
+static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sli_ending *ending, sli_set *b,
                            sli_set *x) {
     q->S = S;
     q->analysis = S->identity;
-    q->extent = region == NULL ? S->identity : region->identity;
-    q->region = region;
+    q->ending = ending;
     q->nb = b->count;
     q->nx = x->count;
     q->b_repeats = b->repeats;
     sli_set_fill(S, b, &q->forward, &q->b_index);
     sli_set_fill(S, x, &q->backward, &q->x_index);
     q->is_shared = sli_reach_equal(&q->forward, &q->backward);
-    q->boundary.b = b->boundary;
-    q->boundary.x = x->boundary;
-    q->boundary.entries = region == NULL ? 0 : sli_boundary_entries(region, b, x);
+    if (ending != NULL) {
+        ending->calls->finish(ending, q, b, x);
+    }
 }
 
 static void sli_query_stats(const sli_query *q, sl_stats *stats) {
-    const sl_int boundary = q->region == NULL ? 0 : q->region->extent.n_rows;
+    const sl_int boundary = q->ending == NULL ? 0 : q->ending->rows;
     stats->plan.b_supernodes = q->forward.count;
     stats->plan.b_columns = q->forward.columns - boundary;
     stats->plan.b_entries = q->forward.entries;
     stats->plan.x_supernodes = q->backward.count;
     stats->plan.x_columns = q->backward.columns - boundary;
     stats->plan.x_entries = q->backward.entries;
-    stats->plan.in_region = q->region != NULL;
-    stats->plan.region_entries = q->boundary.entries;
+    stats->plan.in_region = q->ending != NULL;
+    stats->plan.region_entries = q->used.entries;
 }
 
 static sl_status sli_check_sets(const sl_symbolic *S, const sl_int *bset, sl_int nb,

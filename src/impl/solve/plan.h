@@ -19,7 +19,8 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_plan *P = NULL;
     sli_query query;
-    const sl_region *region = opt == NULL ? NULL : opt->region;
+    /* a region begins with its ending */
+    const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
     sli_set b, x;
     sl_status status;
     int pass;
@@ -30,8 +31,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     *out = NULL;
     status = sli_options_are_valid(opt, SLI_READS_REGION) ? sli_check_sets(S, bset, nb, xset, nx)
                                                           : SL_ERR_ARGUMENT;
-    if (status == SL_OK && region != NULL &&
-        (region->S != S || !sli_hash_equals(region->analysis, S->identity))) {
+    if (status == SL_OK && ending != NULL && !ending->calls->belongs(ending, S)) {
         status = SL_ERR_STATE;
     }
     if (status != SL_OK) {
@@ -47,14 +47,10 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     }
     status = status == SL_OK ? sli_set_sort(S, &b, stats) : status;
     status = status == SL_OK ? sli_set_sort(S, &x, stats) : status;
-    if (status == SL_OK && region != NULL && sli_set_is_within(S, &b, &region->extent) &&
-        sli_set_is_within(S, &x, &region->extent)) {
-        sli_set_partition(S, &b, &region->extent);
-        sli_set_partition(S, &x, &region->extent);
-    } else {
-        region = NULL;
-    }
     if (status == SL_OK) {
+        if (ending != NULL && !ending->calls->place(ending, &b, &x)) {
+            ending = NULL;
+        }
         sli_set_measure(S, &b, &query.forward);
         sli_set_measure(S, &x, &query.backward);
     }
@@ -65,7 +61,7 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
         status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
     }
     if (status == SL_OK) {
-        sli_query_fill(&query, S, region, &b, &x);
+        sli_query_fill(&query, S, ending, &b, &x);
         P->allocator = a;
         P->bytes = kept.used;
         P->query = query;

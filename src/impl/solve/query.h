@@ -3,24 +3,55 @@
 #define SLI_SOLVE_QUERY_H
 
 #include "../analysis/reach.h"
-#include "region_types.h"
+#include "../factor/factor_types.h"
 #include "work.h"
+
+/* Where the sweeps of a query end before the roots. The object of a pack begins with this; rows of
+ * the boundary, which has the role of the roots, are at the end of both vectors. */
+typedef struct sli_ending {
+    const struct sli_ending_calls *calls;
+    sl_int rows; /* of the boundary */
+} sli_ending;
+
+/* The parts of an ending that a query uses: what `place` and `finish` have marked. */
+typedef struct sli_ending_use {
+    sli_hash identity;          /* of the ending */
+    const unsigned char *b, *x; /* the parts that the sets use */
+    sl_off entries;             /* doubles that a solve reads */
+} sli_ending_use;
 
 /* A compiled solve: the reach of b, the reach of x, and the index of each of the caller's rows in
  * their vectors. */
 typedef struct sli_query {
     const sl_symbolic *S;
-    sli_hash analysis, extent; /* the identities of S and of the region */
+    sli_hash analysis; /* the identity of S */
     sl_int nb, nx;
     int is_shared; /* the reaches are equal: one vector serves both sweeps */
     int b_repeats; /* the b-set repeats a row: its values add up */
     sli_reach forward, backward;
-    const sl_int *b_index;     /* nb */
-    const sl_int *x_index;     /* nx */
-    sli_boundary_use boundary; /* the part of the region's boundary that is used */
-    /* the region in which both reaches end, its boundary at the end of their vectors; or NULL */
-    const sl_region *region;
+    const sl_int *b_index;    /* nb */
+    const sl_int *x_index;    /* nx */
+    const sli_ending *ending; /* NULL: both reaches end at the roots */
+    sli_ending_use used;      /* of the ending */
 } sli_query;
+
+struct sli_set;
+struct sli_vectors;
+typedef struct sli_ending_calls {
+    /* Does the ending belong to this analysis? */
+    int (*belongs)(const sli_ending *e, const sl_symbolic *S);
+    /* Places two sorted sets within the ending; 0: they are not inside it, and end at the roots. */
+    int (*place)(const sli_ending *e, struct sli_set *b, struct sli_set *x);
+    /* Fills q->used. */
+    void (*finish)(const sli_ending *e, sli_query *q, struct sli_set *b, struct sli_set *x);
+    /* Has it the numbers of F? */
+    int (*fits)(const sli_query *q, const sl_factor *F);
+    /* Doubles of its vectors and of its scratch. */
+    uint64_t (*vectors)(const sli_ending *e, sl_int lanes);
+    size_t (*scratch)(const sli_ending *e, sl_int lanes);
+    /* From the end of the forward vector to that of the backward vector. */
+    void (*apply)(const sl_factor *F, const sli_query *q, int kind, const struct sli_vectors *v);
+} sli_ending_calls;
 
 /* The query of a full solve: b is given, and x wanted, in all rows. */
 static sli_query sli_query_all(const sl_symbolic *S) {
@@ -32,16 +63,15 @@ static sli_query sli_query_all(const sl_symbolic *S) {
     q.b_repeats = 0;
     q.forward = q.backward = sli_reach_all(S);
     q.b_index = q.x_index = S->iperm;
-    q.region = NULL;
-    q.boundary.entries = 0;
+    q.ending = NULL;
+    q.used.entries = 0;
     return q;
 }
 
 /* Does F hold the numbers that the query needs? */
 SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
     return F->is_valid && sli_factor_is_over(F, q->S, q->analysis) &&
-           (q->region == NULL || (sli_hash_equals(q->extent, q->region->identity) &&
-                                  sli_region_fits(q->region, F)));
+           (q->ending == NULL || q->ending->calls->fits(q, F));
 }
 
 /* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */
@@ -76,14 +106,14 @@ static void sli_vectors_layout(sli_vectors *v, sli_block *b, const sli_query *q,
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const size_t forward = sli_sweep_scratch(q->forward.tallest, q->forward.widest, lanes);
     const size_t backward = sli_sweep_scratch(q->backward.tallest, q->backward.widest, lanes);
-    const size_t across = q->region == NULL ? 0 : sli_region_scratch(q->region, lanes);
+    const size_t across = q->ending == NULL ? 0 : q->ending->calls->scratch(q->ending, lanes);
     const size_t most = forward > backward ? forward : backward;
     v->y = SLI_TAKE_INLINE(b, double, (uint64_t)q->forward.columns *(uint64_t)lanes);
     v->x = q->is_shared
                ? v->y
                : SLI_TAKE_INLINE(b, double, (uint64_t)q->backward.columns *(uint64_t)lanes);
-    v->product =
-        SLI_TAKE_INLINE(b, double, q->region == NULL ? 0 : sli_region_vectors(q->region, lanes));
+    v->product = SLI_TAKE_INLINE(
+        b, double, q->ending == NULL ? 0 : q->ending->calls->vectors(q->ending, lanes));
     v->scratch = SLI_TAKE_INLINE(b, double, most > across ? most : across);
 }
 
@@ -209,10 +239,9 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
         sl_int first, r;
         for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
             for (r = 0; r < nrhs; r += 8) {
-                kernels->interleave(y + r, lanes, index + first,
-                                    sli_min(SLI_PACK_CHUNK, count - first),
-                                    B + (size_t)first + (size_t)r * at.column, at.column,
-                                    is_streamed);
+                kernels->interleave(
+                    y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
+                    B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
             }
         }
     } else if (nrhs % 8 == 0) {

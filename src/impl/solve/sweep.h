@@ -18,15 +18,6 @@ static void sli_sweep_transfer(const sli_query *q, const double *y, double *x, s
     }
 }
 
-/* Applies the region's inverse: u is at the end of y, Z u goes to the end of x. */
-static void sli_sweep_region(const sl_factor *F, const sli_query *q, int kind,
-                             const sli_vectors *v) {
-    const ptrdiff_t n = q->region->extent.n_rows;
-    sli_region_apply(q->region, &q->boundary, F->kernels, kind,
-                     v->y + ((q->forward.columns - n) << kind),
-                     v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
-}
-
 /* y := L^-1 y in the forward vector, and y(k) := z' b at known null vectors z, tree by tree. Where
  * components have several of them, their y(k) has no meaning. */
 static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
@@ -68,7 +59,7 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
     if (F->checks) {
         sli_norms(&q->forward, v->y, lanes, norms);
-        if (F->null_vectors > 1 && (q->region == NULL || q->region->extent.n_rows == 0) &&
+        if (F->null_vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
             !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
             return 0;
         }
@@ -85,8 +76,8 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     if (!q->is_shared) {
         sli_sweep_transfer(q, v->y, v->x, lanes);
     }
-    if (q->region != NULL) {
-        sli_sweep_region(F, q, kind, v);
+    if (q->ending != NULL) {
+        q->ending->calls->apply(F, q, kind, v);
     }
     if (F->is_centered || F->null_vectors > 1) {
         sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);

@@ -1,0 +1,231 @@
+/* refine_local.h: sl_plan_solve_refined: local solves without the error of regularization */
+#ifndef SLI_ACCURACY_REFINE_LOCAL_H
+#define SLI_ACCURACY_REFINE_LOCAL_H
+
+#include "refine.h"
+
+/* A block of up to 8 right-hand sides in progress, and the regularized rows in the components of b.
+ * The factor is that of A + E. A solution x of (A + E) x = b has the residual E x, which is nonzero
+ * only in these rows. */
+typedef struct sli_local_refinement {
+    const sl_factor *F;
+    const sli_query *q;
+    sl_int count, room;
+    sl_int *row;           /* room: pivots, ascending */
+    sl_int *in_y;          /* room: their indices in the forward vector */
+    sl_int *in_x;          /* room: their indices in the backward vector */
+    double *previous;      /* room x 8: x of the previous step in these rows, 0 at first */
+    double *current;       /* nx x 8, column-major: x of the current step */
+    double *best;          /* nx x 8, column-major: the best x so far */
+    unsigned char *memory; /* vectors of the sweeps */
+    double error[SLI_TILE];
+    int is_done[SLI_TILE];
+    sl_int steps;
+} sli_local_refinement;
+
+static void sli_local_refinement_layout(sli_local_refinement *f, sli_block *b, sl_int nrhs) {
+    const size_t bytes = sli_vectors_bytes(f->q, nrhs, 8);
+    const uint64_t columns = (uint64_t)sli_min(nrhs, 8);
+    f->row = SLI_TAKE(b, sl_int, f->room);
+    f->in_y = SLI_TAKE(b, sl_int, f->room);
+    f->in_x = SLI_TAKE(b, sl_int, f->room);
+    f->previous = SLI_TAKE(b, double, (uint64_t)f->room *columns);
+    f->current = SLI_TAKE(b, double, (uint64_t)f->q->nx *columns);
+    f->best = SLI_TAKE(b, double, (uint64_t)f->q->nx *columns);
+    f->memory = (unsigned char *)sli_take(b, bytes, 1);
+}
+
+/* Finds the regularized rows of every tree that b has a row in. Returns -1, or the pivot of one
+ * that is not in both reaches. */
+static sl_int sli_local_refinement_find(sli_local_refinement *f) {
+    const sl_factor *F = f->F;
+    const sli_reach *R = &f->q->forward;
+    sl_int s;
+    f->count = 0;
+    for (s = 0; s < R->count; s++) {
+        sli_tree_range tree;
+        sl_int m;
+        if (R->steps[s].up != -1) {
+            continue;
+        }
+        tree = sli_tree_range_of(F->S, &R->steps[s]);
+        m = sli_lower_bound(F->regularized, F->stats.factor.regularized, tree.first);
+        for (; m < F->stats.factor.regularized && F->regularized[m] <= tree.root; m++) {
+            const sl_int k = F->regularized[m];
+            const sl_int in_y = sli_reach_index_of(R, k),
+                         in_x = sli_reach_index_of(&f->q->backward, k);
+            if (in_y == -1 || in_x == -1) {
+                return k;
+            }
+            f->row[f->count] = k;
+            f->in_y[f->count] = in_y;
+            f->in_x[f->count++] = in_x;
+        }
+    }
+    return -1;
+}
+
+/* Solves (A + E) x = b + E x_previous, and keeps x where its residual E (x - x_previous) is the
+ * least so far. */
+static void sli_local_refinement_step(sli_local_refinement *f, const double *B, sli_dense at,
+                                      sl_int columns, const double *norms, sl_int step) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+    const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
+    const size_t nx = (size_t)f->q->nx;
+    sl_int m, c;
+    sli_pack(f->q, f->F->kernels, v.y, B, at, lanes, columns);
+    for (m = 0; m < f->count; m++) {
+        for (c = 0; c < columns; c++) {
+            v.y[(ptrdiff_t)f->in_y[m] * lanes + c] +=
+                f->F->rule.shifts[f->row[m]] * f->previous[(ptrdiff_t)m * columns + c];
+        }
+    }
+    sli_sweep_forward(f->F, f->q, &v, columns);
+    sli_sweep_backward(f->F, f->q, &v, columns);
+    sli_unpack(f->q, f->F->kernels, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes,
+               columns);
+    for (c = 0; c < columns; c++) {
+        double error = 0.0;
+        for (m = 0; m < f->count; m++) {
+            double *previous = &f->previous[(ptrdiff_t)m * columns + c];
+            const double x = v.x[(ptrdiff_t)f->in_x[m] * lanes + c];
+            error = sli_max_error(fabs(f->F->rule.shifts[f->row[m]] * (x - *previous)), error);
+            *previous = x;
+        }
+        error = sli_backward_error(error, 0.0, 0.0, norms[c]);
+        if (step == 0 || (!f->is_done[c] && error < f->error[c])) {
+            f->is_done[c] = step > 0 && !(error <= 0.5 * f->error[c]);
+            f->is_done[c] |= error <= DBL_EPSILON;
+            f->error[c] = error;
+            f->steps = sli_max(f->steps, step);
+            memcpy(f->best + nx * (size_t)c, f->current + nx * (size_t)c, nx * sizeof(double));
+        } else {
+            f->is_done[c] = 1;
+        }
+    }
+}
+
+/* norms(c) := the largest |b| of right-hand side c. Where the b-set repeats rows it is the largest
+ * sum, which only the packed forward vector holds. */
+static void sli_local_refinement_norms(const sli_local_refinement *f, const double *B, size_t ldb,
+                                       sl_int columns, double *norms) {
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+    const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
+    sl_int k, c;
+    if (!f->q->b_repeats) {
+        for (c = 0; c < columns; c++) {
+            norms[c] = sli_largest(f->q->nb > 0 ? B + ldb * (size_t)c : B, f->q->nb);
+        }
+        return;
+    }
+    sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
+    for (c = 0; c < columns; c++) {
+        norms[c] = 0.0;
+    }
+    for (k = 0; k < f->q->forward.columns; k++) {
+        for (c = 0; c < columns; c++) {
+            norms[c] = sli_max_error(fabs(v.y[(ptrdiff_t)k * lanes + c]), norms[c]);
+        }
+    }
+}
+
+static void sli_local_refinement_block(sli_local_refinement *f, double *X, size_t ldx,
+                                       const double *B, size_t ldb, sl_int columns, sl_int steps) {
+    const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
+    const size_t nx = (size_t)f->q->nx;
+    double norms[SLI_TILE];
+    sl_int c, step, todo = columns;
+    sli_local_refinement_norms(f, B, ldb, columns, norms);
+    memset(f->previous, 0, (size_t)f->count * (size_t)columns * sizeof(double));
+    for (step = 0; step <= steps && todo > 0; step++) {
+        sli_local_refinement_step(f, B, at, columns, norms, step);
+        for (c = 0, todo = 0; c < columns; c++) {
+            todo += !f->is_done[c];
+        }
+    }
+    for (c = 0; c < columns; c++) {
+        memcpy(X + ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
+    }
+}
+
+/* Refines the right-hand sides in blocks, in a workspace. */
+static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx, const double *B,
+                                  size_t ldb, sl_int nrhs, sl_int steps, sl_work *W,
+                                  sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    double worst = 0.0;
+    sl_status status;
+    sl_int r, c;
+    sli_local_refinement_layout(f, &b, nrhs);
+    status = sli_work_block(W, &b);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_local_refinement_layout(f, &b, nrhs);
+    c = sli_local_refinement_find(f);
+    if (c != -1) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
+    }
+    for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
+        const sl_int columns = sli_min(8, nrhs - r);
+        sli_local_refinement_block(f, X + ldx * (size_t)r, ldx,
+                                   f->q->nb > 0 ? B + ldb * (size_t)r : B, ldb, columns, steps);
+        for (c = 0; c < columns; c++) {
+            worst = sli_max_error(f->error[c], worst);
+        }
+    }
+    return sli_refine_done(f->F, stats, steps, f->steps, worst);
+}
+
+SL_API sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs) {
+    sli_block b = {NULL, 0, 0};
+    sli_local_refinement f;
+    if (W == NULL || P == NULL || nrhs < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (nrhs == 0 || P->query.nx == 0) {
+        return SL_OK;
+    }
+    memset(&f, 0, sizeof f);
+    f.q = &P->query;
+    f.room = sli_min(P->query.forward.columns, P->query.backward.columns);
+    sli_local_refinement_layout(&f, &b, nrhs);
+    return sli_work_block(W, &b);
+}
+
+SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                                       const double *B, size_t ldb, sl_int nrhs, sl_int steps,
+                                       sl_work *W, sl_stats *stats) {
+    sli_local_refinement f;
+    sl_work own;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (P == NULL || F == NULL || steps < 0) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
+        status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
+        return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
+    }
+    status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, SLI_COLUMN_MAJOR, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!sli_query_fits(&P->query, F)) {
+        return SL_ERR_STATE;
+    }
+    if (P->query.ending != NULL) { /* E may be nonzero outside of the region */
+        return SL_ERR_UNSUPPORTED;
+    }
+    memset(&f, 0, sizeof f);
+    f.F = F;
+    f.q = &P->query;
+    f.room = sli_min(F->stats.factor.regularized,
+                     sli_min(P->query.forward.columns, P->query.backward.columns));
+    own = sli_work_own(&F->allocator);
+    status = sli_local_refine(&f, X, ldx, B, ldb, nrhs, steps, W == NULL ? &own : W, stats);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif

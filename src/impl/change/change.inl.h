@@ -1,0 +1,256 @@
+/* change.inl.h: rank-k change of the rows of a panel, for 2, 4 and 8 vectors; of a panel for 1 */
+
+/* Row tile by row tile: w(r) -= l y(r), then l += sum over r of b(r) w(r). All w(r) need the old l,
+ * so that they do not wait for each other. c: y(0) .. y(k-1), -b(0) .. -b(k-1) of each column. */
+#define SLI_DECLARE(r, unused) SLV_DECLARE(w##r)
+#define SLI_LOAD(r, unused) SLV_LOAD(w##r, w + SLI_TILE * (r))
+#define SLI_STORE(r, unused) SLV_STORE(w + SLI_TILE * (r), w##r)
+#define SLI_CARRY(r, unused) /* w(i, r) -= l(i, j) y(j, r) */ \
+    SLV_BROADCAST(s, c + (r)) \
+    SLV_FNMA(w##r, a, s)
+#define SLI_CHANGE(r, ranks) /* l(i, j) += w(i, r) b(j, r) */ \
+    SLV_BROADCAST(s, c + (ranks) + (r)) \
+    SLV_FNMA(a, w##r, s)
+#define SLI_CHANGE_KERNEL(name, ranks, each) \
+    SLV_FUNCTION static void SLV_NAME(name)(double *l, sl_int columns, const double *c, \
+                                            double *w) { \
+        sl_int j; \
+        SLV_DECLARE(a) \
+        SLV_DECLARE(s) \
+        each(SLI_DECLARE, 0) \
+            each(SLI_LOAD, 0) for (j = 0; j < columns; j++, l += SLI_TILE, c += 2 * (ranks)) { \
+            SLV_LOAD_PINNED(a, l) \
+            SLI_PREFETCH(l, SLI_PREFETCH_DISTANCE); \
+            each(SLI_CARRY, 0) each(SLI_CHANGE, ranks) SLV_STORE(l, a) \
+        } \
+        each(SLI_STORE, 0) \
+    }
+#define SLI_EACH2(op, k) op(0, k) op(1, k)
+
+SLI_CHANGE_KERNEL(change2, 2, SLI_EACH2)
+SLI_CHANGE_KERNEL(change4, 4, SLI_EACH4)
+SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
+#undef SLI_CARRY
+#undef SLI_CHANGE
+
+/* See sli_ranks_kernel. Lanes are columns of the tile. f(r) is row r of U' Y'. Each vector changes
+ * a pivot, and with it f and U, as in a rank-one change: f(r) -= q s, s += beta f(r). */
+SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
+                                                  const double *d, const double *w, double *c) {
+    SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
+    SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
+    SLI_ALIGNED(double b[SLI_TILE]);
+    const sl_int ranks = u->ranks, lanes = u->lanes;
+    sl_int i, j, r;
+    SLV_DECLARE(a)
+    SLV_DECLARE(x)
+    SLV_DECLARE(s)
+    SLV_DECLARE(t)
+    SLV_DECLARE(p)
+    if (lanes < SLI_TILE) {
+        memset(f, 0, sizeof f);
+    }
+    memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
+    for (j = 0; j < columns && l != NULL; j++) { /* Y' := what a forward sweep makes of W' */
+        SLV_LOAD_PINNED(a, l + SLI_TILE * j)
+        for (r = 0; r < ranks; r++) {
+            SLV_LOAD(x, f + SLI_TILE * r)
+            SLV_BROADCAST(s, f + SLI_TILE * r + j)
+            SLV_FNMA(x, a, s)
+            SLV_STORE(f + SLI_TILE * r, x)
+        }
+    }
+    SLV_TRANSPOSE(y, f)
+    for (r = ranks - 1; r > 0; r--) { /* f(r) = y(r) + sum over i < r of U(i, r) y(i) */
+        SLV_LOAD(x, f + SLI_TILE * r)
+        for (i = 0; i < r; i++) {
+            const double entry = -u->U[r][i];
+            SLV_BROADCAST(s, &entry)
+            SLV_LOAD(a, f + SLI_TILE * i)
+            SLV_FNMA(x, a, s)
+        }
+        SLV_STORE(f + SLI_TILE * r, x)
+    }
+    for (j = 0; j < columns; j++) {
+        double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
+        SLV_ZERO(s)
+        SLV_ZERO(t)
+        for (r = 0; r < ranks; r++) {
+            const double before = e, g = f[SLI_TILE * r + j];
+            const double beta = -u->alpha[r] * g, q = g * inverse;
+            if (g == 0.0) { /* not on the path of this vector */
+                continue;
+            }
+            e -= beta * g;
+            magnitude += fabs(beta * g);
+            if (!(fabs(e) > 0.0)) { /* 0 or NaN */
+                break;
+            }
+            inverse = 1.0 / e;
+            u->alpha[r] *= before * inverse;
+            SLV_BROADCAST(p, &q)
+            SLV_LOAD_PINNED(a, f + SLI_TILE * r)
+            SLV_LOAD(x, f + SLI_TILE * r)
+            SLV_FNMA(x, s, p)
+            SLV_STORE(f + SLI_TILE * r, x)
+            SLV_BELOW(a, j)
+            SLV_LOAD(x, u->U[r])
+            SLV_FNMA(x, t, p)
+            SLV_BROADCAST(p, &beta)
+            SLV_FNMA(s, a, p)
+            SLV_LOAD_PINNED(a, u->U[r])
+            SLV_FNMA(t, a, p)
+            SLV_STORE(u->U[r], x)
+        }
+        u->e[j] = e;
+        u->magnitude[j] = magnitude;
+        if (!(fabs(e) > 0.0)) {
+            return j + 1;
+        }
+        inverse = -inverse;
+        SLV_BROADCAST(p, &inverse)
+        SLV_MULTIPLY(x, t, p)
+        if (lanes == SLI_TILE) {
+            SLV_LOAD(a, y + SLI_TILE * j)
+            SLV_STORE(c, a)
+            SLV_STORE(c + SLI_TILE, x)
+        } else {
+            SLV_STORE(b, x)
+            memcpy(c, y + SLI_TILE * j, (size_t)lanes * sizeof *c);
+            memcpy(c + lanes, b, (size_t)lanes * sizeof *c);
+        }
+        c += 2 * lanes;
+    }
+    return columns;
+}
+
+/* One vector and columns first .. last-1 of one row tile, or of four, whose chains of w overlap:
+ * w -= l y, then l += b w. A trial leaves L alone. */
+#define SLI_POINT(t, unused) double *const l##t = tiles[t];
+#define SLI_CHANGE(t, unused) \
+    SLV_LOAD_PINNED(a, l##t + SLI_TILE * j) \
+    SLV_FNMA(w##t, a, s) \
+    if (!is_trial) { \
+        SLV_FNMA(a, w##t, r) \
+        SLV_STORE(l##t + SLI_TILE * j, a) \
+    }
+#define SLI_TILES_KERNEL(name, each) \
+    SLV_FUNCTION SLI_INLINE void SLV_NAME(name)(double *const *tiles, ptrdiff_t first, \
+                                                ptrdiff_t last, const double *y, const double *b, \
+                                                double *w, int is_trial) { \
+        ptrdiff_t j; \
+        SLV_DECLARE(a) \
+        SLV_DECLARE(s) \
+        SLV_DECLARE(r) \
+        each(SLI_POINT, 0) each(SLI_DECLARE, 0) each(SLI_LOAD, 0) for (j = first; j < last; j++){ \
+            SLV_BROADCAST(s, y + j) SLV_BROADCAST(r, b + j) \
+                each(SLI_CHANGE, 0)} each(SLI_STORE, 0) \
+    }
+#define SLI_EACH1(op, k) op(0, k)
+SLI_TILES_KERNEL(change_tile, SLI_EACH1)
+SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
+#undef SLI_EACH1
+#undef SLI_POINT
+#undef SLI_CHANGE
+#undef SLI_TILES_KERNEL
+
+#define SLI_BEFORE(k) (k)
+#define SLI_AFTER(k) ((k) + 1)
+
+/* The pivots of one column tile. y is what a forward sweep makes of w, whatever the pivots become;
+ * with q = y / d and the sums g of y q, the new pivots are d g(after) / g(before), and
+ * b = q / g(after). So there is no chain of divisions. l: diagonal part of the tile. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
+                                                     double *e, double *b, double *w, double *sum,
+                                                     int is_trial) {
+    SLI_ALIGNED(double z[SLI_TILE]);
+    double g[SLI_TILE + 1];
+    sl_int k;
+    SLV_DECLARE(x)
+    SLV_DECLARE(y)
+    SLV_DECLARE(q)
+    SLV_DECLARE(s)
+    SLV_LOAD(x, w)
+    if (columns == SLI_TILE) {
+        SLV_SWEEP(tile_forward)(l, w);
+    } else {
+        SLV_LOAD(y, w)
+        for (k = 0; k < columns; k++) {
+            SLV_AXPY(y, l + SLI_TILE * k, w + k)
+            SLV_STORE(w, y)
+        }
+    }
+    SLV_LOAD_PART(y, w, columns, 0.0)
+    SLV_LOAD_PART(s, d, columns, 1.0)
+    SLV_DIVIDE(q, y, s)
+    SLV_MULTIPLY(y, y, q)
+    SLV_STORE(z, y)
+    g[0] = *sum;
+    SLI_UNROLL
+    for (k = 0; k < SLI_TILE; k++) {
+        g[k + 1] = g[k] - z[k];
+    }
+    *sum = g[SLI_TILE];
+    SLV_GATHER(y, g, SLI_AFTER) /* in registers: 8 stores are not forwarded to one load */
+    SLV_DIVIDE(q, q, y)
+    SLV_STORE(b, q)
+    SLV_GATHER(q, g, SLI_BEFORE)
+    SLV_DIVIDE(y, y, q)
+    SLV_MULTIPLY(s, s, y)
+    SLV_STORE(e, s)
+    for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
+        SLV_LOAD_PINNED(y, l)
+        SLV_BROADCAST(s, w + k)
+        SLV_FNMA(x, y, s)
+        SLV_BROADCAST(s, b + k)
+        SLV_FNMA(y, x, s)
+        SLV_BELOW(y, k)
+        SLV_STORE(l, y)
+    }
+}
+
+#undef SLI_BEFORE
+#undef SLI_AFTER
+
+SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
+    const sl_int width = u->width, first = SLI_TILE * u->first_tile;
+    const sl_int tiles = sli_tiles(width + u->below);
+    double *l = u->panel + sli_tile_offset(width, u->first_tile), *at[4];
+    double *const w = u->w, *const b = u->b;
+    sl_int t0 = u->first_tile, count, t, k;
+    for (; t0 < tiles; t0 += count) {
+        const sl_int row = SLI_TILE * t0, last = sli_min(row, width);
+        count = sli_min(tiles - t0, 4);
+        for (t = 0; t < count; t++) {
+            at[t] = l;
+            l += SLI_TILE * sli_min(width, row + SLI_TILE * (t + 1));
+        }
+        if (count == 4) {
+            SLV_NAME(change_tiles)(at, first, last, w, b, w + row, u->is_trial);
+        } else {
+            for (t = 0; t < count; t++) {
+                SLV_NAME(change_tile)
+                (at + t, first, last, w, b, w + row + SLI_TILE * t, u->is_trial);
+            }
+        }
+        for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
+            const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
+            SLV_NAME(change_pivots)
+            (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
+            for (k = t + 1; k < count; k++) {
+                SLV_NAME(change_tile)
+                (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);
+            }
+        }
+    }
+}
+#undef SLI_CHANGE_KERNEL
+#undef SLI_EACH2
+#undef SLI_DECLARE
+#undef SLI_LOAD
+#undef SLI_STORE
+
+static const sli_change_kernels SLV_NAME(change_kernels) = {
+    {SLV_NAME(change2), SLV_NAME(change4), SLV_NAME(change8)},
+    SLV_NAME(change_ranks),
+    SLV_NAME(change_panel)};

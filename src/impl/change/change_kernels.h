@@ -1,0 +1,82 @@
+/* change_kernels.h: the kernels of rank-k changes, for every instruction set */
+#ifndef SLI_CHANGE_CHANGE_KERNELS_H
+#define SLI_CHANGE_CHANGE_KERNELS_H
+
+#include "../kernels/dispatch.h"
+
+/* Changes the `columns` columns of one row tile l by k = 2, 4 or 8 vectors: w(r) -= l y(r), then
+ * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
+typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
+
+/* k = 2 .. 8 vectors on their way through the pivots: W U diag(alpha) U' W'. 64-byte aligned. */
+typedef struct sli_ranks {
+    double U[SLI_TILE][SLI_TILE]; /* column by column, with a unit diagonal */
+    double alpha[SLI_TILE];
+    double e[SLI_TILE], magnitude[SLI_TILE]; /* new pivots, and the sums that they are made of */
+    sl_int ranks, lanes;
+} sli_ranks;
+
+/* The pivots of one column tile l: changes u and fills c, as sli_change_kernel takes it. d: the
+ * pivots. w: [k][8], rows of the tile; if l is NULL, what a forward sweep makes of them. Returns
+ * how many pivots were computed: all, or up to one that vanishes. */
+typedef sl_int (*sli_ranks_kernel)(sli_ranks *u, const double *l, sl_int columns, const double *d,
+                                   const double *w, double *c);
+
+/* The change of a panel by one vector w w'/s, from a row tile on. On entry `sum` is -s, on return
+ * what is left of it for the rows below. w, b, e: 64-byte aligned, by local rows, up to a multiple
+ * of 8. */
+typedef struct sli_rank_one {
+    double *panel;
+    const double *D; /* of its columns */
+    sl_int width, below, first_tile;
+    int is_trial; /* computes the pivots alone */
+    double sum;
+    double *w; /* the vector; on return y, and what is left below */
+    double *b; /* scratch */
+    double *e; /* the new pivots */
+} sli_rank_one;
+typedef void (*sli_rank_one_kernel)(sli_rank_one *u);
+
+typedef struct sli_change_kernels {
+    sli_change_kernel change[SLI_NRHS_KINDS - 1]; /* from 2 vectors on */
+    sli_ranks_kernel ranks;
+    sli_rank_one_kernel panel;
+} sli_change_kernels;
+
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#include "../kernels/words_scalar.inl.h"
+#include "change.inl.h"
+#include "../kernels/words_undef.inl.h"
+
+#if defined(SLI_X86)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#include "../kernels/words_avx2.inl.h"
+#include "change.inl.h"
+#include "../kernels/words_undef.inl.h"
+#endif
+
+#if defined(SLI_AVX512)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#include "../kernels/words_avx512.inl.h"
+#include "change.inl.h"
+#include "../kernels/words_undef.inl.h"
+#endif
+
+#if defined(SLI_ARM)
+#define SLV_SINGLE 0
+#define SLV_COMPLEX 0
+#include "../kernels/words_neon.inl.h"
+#include "change.inl.h"
+#include "../kernels/words_undef.inl.h"
+#endif
+
+/* The table of an instruction set. */
+SLI_INLINE const sli_change_kernels *sli_change_kernels_of(sl_isa isa) {
+    static const sli_change_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_change_kernels);
+    return tables[sli_isa_row(isa)];
+}
+
+#endif

@@ -1,0 +1,191 @@
+/* leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
+#ifndef SLI_CHANGE_LEFTLOOKING_H
+#define SLI_CHANGE_LEFTLOOKING_H
+
+#include "../analysis/reach.h"
+#include "../factor/factor.h"
+#include "gather.h"
+
+/* Are all pivots that were skipped before still null, or judged by the tolerance? New null pivots
+ * are in the reach of the changes, unless they are anchors. */
+static int sli_nulls_remain(const sl_factor *F) {
+    sl_int m, k;
+    for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
+        if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
+            return 0;
+        }
+    }
+    for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
+        if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* All but p->buffer, which is the buffer of the factor. */
+static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
+    p->local = SLI_TAKE(b, sl_int, S->n);
+    p->relative = SLI_TAKE(b, sl_int, S->tallest);
+}
+
+/* Recomputes supernode s from A and its descendants. Descendants are visited parents first, and
+ * whole subtrees are skipped: where a supernode has no row among the columns of s, none of its
+ * descendants has one. */
+static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                                 sl_int s, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    sli_front f = sli_front_of(F, s, 0);
+    const sl_int *rows = S->rows + S->rows_begin[s];
+    const sl_int start = S->super_first[s], end = S->super_first[s + 1];
+    sl_int k, d;
+    sl_status status;
+    for (k = 0; k < f.width; k++) {
+        p->local[start + k] = k;
+    }
+    for (k = 0; k < f.below; k++) {
+        p->local[rows[k]] = f.width + k;
+    }
+    memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
+    status = sli_double_front_load(F, from, &f, failure);
+    if (status != SL_OK) {
+        return status;
+    }
+    for (d = s - 1; d >= S->first_descendant[s];) {
+        const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
+        const sl_int first = sli_lower_bound(of, below, start);
+        const sl_int last = first + sli_lower_bound(of + first, below - first, end);
+        if (first < last) {
+            /* the update stack is empty: no other update matrix exists now */
+            sli_left_update(F, p, &f, d, first, last, F->stack);
+            sli_left_magnitudes(F, p, &f, d, first, last);
+            d--;
+        } else {
+            d = S->first_descendant[d] - 1;
+        }
+    }
+    sli_front_eliminate(&F->kernels->front, &f, F->buffer);
+    return sli_double_front_check(F, &f, failure);
+}
+
+/* Recomputes every supernode on the paths from the seeds to the roots. Seeds are columns of L in
+ * ascending order. */
+static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                                     const uint64_t *seeds, sl_int count, sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    sl_status status = SL_OK;
+    sl_int k = 0, s, next;
+    while (k < count && status == SL_OK) {
+        s = S->super_of[sli_key(seeds[k])];
+        next = sli_next_seed(S, seeds, count, &k);
+        for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
+            status = sli_left_factor(F, p, from, s, failure);
+        }
+    }
+    return status;
+}
+
+/* Lists the columns of L that hold the entries of the given columns of A, ascending. Returns how
+ * many; one may occur several times. */
+static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
+                                sl_int count, uint64_t *seeds, uint64_t *scratch) {
+    sl_int k, p, total = 0;
+    for (k = 0; k < count; k++) {
+        const sl_int j = S->iperm[columns[k]];
+        sl_int last = INT32_MAX;
+        for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
+            const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
+            if (seed != last) { /* most entries of a column share the seed of the one before */
+                seeds[total++] = sli_keyed(seed, 0);
+                last = seed;
+            }
+        }
+    }
+    sli_sort(seeds, total, scratch);
+    return total;
+}
+
+/* Refactors F, where the values of `from` differ from those of F in the columns `seeds` of L alone.
+ * If the null pivots do not remain, all of L is computed. */
+static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+                                   const uint64_t *seeds, sl_int count, double started,
+                                   sl_stats *stats) {
+    sli_failure failure;
+    memset(&failure, 0, sizeof failure);
+    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+        (void)sli_null_vectors_check(F, from, &failure);
+    }
+    if (failure.status == SL_OK && !sli_nulls_remain(F)) {
+        return sli_factor_numbers(F, from, started, stats);
+    }
+    if (failure.status == SL_OK) {
+        (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
+    }
+    if (failure.status == SL_OK && sli_null_is_suspected(F)) {
+        return sli_factor_numbers(F, from, started, stats);
+    }
+    return sli_factor_done(F, from, &failure, started, stats);
+}
+
+/* sl_factor_refactor_changed. given: the columns of L that hold what changed, ascending; NULL: all
+ * entries of the columns of A. */
+static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                           sl_int count, const uint64_t *given, sl_int n_given,
+                                           sl_stats *stats) {
+    const double started = sli_seconds();
+    const sli_source from = sli_source_matrix(A);
+    sli_left_work work;
+    sli_block b = {NULL, 0, 0};
+    uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
+    sl_status status;
+    sl_int k;
+    int pass;
+    sli_stats_clear_error(stats);
+    if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0; k < count; k++) {
+        if (columns[k] < 0 || columns[k] >= F->S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
+        }
+        entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
+    }
+    if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
+        entries >= (uint64_t)sli_nnz(A)) {
+        return sl_factor_refactor(F, A, stats);
+    }
+    status = sli_factor_prepare(F);
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        seeds = SLI_TAKE(&b, uint64_t, entries);
+        scratch = SLI_TAKE(&b, uint64_t, entries);
+        sli_left_work_layout(&work, &b, F->S);
+        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    work.buffer = F->buffer;
+    sli_factor_begin(F);
+    for (k = 0; k < count; k++) {
+        const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
+        F->identity = sli_hash_ints(F->identity, &columns[k], 1);
+        F->identity = sli_hash_words(F->identity, A->x + p, q - p);
+    }
+    count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
+    status =
+        sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started, stats);
+    F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+    sli_free(&F->allocator, b.base);
+    return status;
+}
+
+SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
+                                            sl_int count, sl_stats *stats) {
+    return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
+}
+
+#endif

@@ -1,0 +1,136 @@
+/* complex_storage.h: L of a complex matrix: every other column of its real factor, in double */
+#ifndef SLI_COMPLEX_COMPLEX_STORAGE_H
+#define SLI_COMPLEX_COMPLEX_STORAGE_H
+
+#include "../factor/multifrontal.h"
+#include "complex_kernels.h"
+
+/* With SL_STORAGE_COMPLEX the columns 2k of L are computed and kept, column by column as in double,
+ * and the columns 2k + 1, which are i times those, are not: L has the blocks [a -b; b a]. The two
+ * pivots of a block are equal, and the entry inside it is 0. A panel has an even number of columns
+ * of 8 rows, so that the position of an entry says which of the two columns it is in. */
+
+static double sli_complex_entry(const void *values, sl_off at) {
+    const double *l = (const double *)values + at / (2 * SLI_TILE) * SLI_TILE;
+    const sl_off lane = at % SLI_TILE;
+    return at / SLI_TILE % 2 == 0 ? l[lane] : lane % 2 == 0 ? -l[lane + 1] : l[lane - 1];
+}
+
+/* Are these rows whole pairs 2a, 2a + 1, one after the other? */
+static int sli_are_pairs(const sl_int *rows, sl_int count) {
+    sl_int k;
+    for (k = 0; k + 1 < count; k += 2) {
+        if (rows[k] % 2 != 0 || rows[k + 1] != rows[k] + 1) {
+            return 0;
+        }
+    }
+    return k == count;
+}
+
+/* Do the rows of S come in pairs that share a supernode, next to each other? */
+static int sli_rows_are_paired(const sl_symbolic *S) {
+    sl_int s, is_paired = sli_are_pairs(S->perm, S->n);
+    for (s = 0; s < S->n_supers && is_paired; s++) {
+        const sli_step *step = &S->steps[s];
+        is_paired = step->column % 2 == 0 && sli_are_pairs(S->rows + S->rows_begin[s], step->below);
+    }
+    return is_paired;
+}
+
+/* Has A the form of sl_matrix_from_hermitian? Its columns 2j + 1 are i times the columns 2j. */
+static int sli_matrix_is_complex(const sl_csc *A) {
+    sl_int j, p, q;
+    for (j = 0; j + 1 < A->n_cols; j += 2) {
+        const sl_int middle = A->p[j + 1], end = A->p[j + 2];
+        for (p = A->p[j], q = middle; p < middle || q < end;) {
+            const sl_int row = p < middle ? A->i[p] : A->i[q];
+            if (row / 2 != j / 2) {
+                if (row % 2 != 0 || p + 1 >= middle || q + 1 >= end || A->i[p + 1] != row + 1 ||
+                    A->i[q] != row || A->i[q + 1] != row + 1 || A->x[q + 1] != A->x[p] ||
+                    A->x[q] != -A->x[p + 1]) {
+                    return 0;
+                }
+                p += 2;
+                q += 2;
+            } else { /* [a 0; 0 a], of which either 0 may be missing */
+                const sl_int p_zero = p + 1 < middle && A->i[p + 1] == j + 1;
+                const sl_int q_zero = q < end && A->i[q] == j;
+                if (row != j || p >= middle || (p_zero && A->x[p + 1] != 0.0) ||
+                    (q_zero && A->x[q] != 0.0) || q + q_zero >= end || A->i[q + q_zero] != j + 1 ||
+                    A->x[q + q_zero] != A->x[p]) {
+                    return 0;
+                }
+                p += 1 + p_zero;
+                q += 1 + q_zero;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Both columns of a pair are treated alike. */
+static int sli_complex_suits(const sl_factor *F) {
+    return !F->S->is_pivoted && !F->rule.replaces && sli_rows_are_paired(F->S);
+}
+
+static int sli_complex_keeps(const sl_int *rows, sl_int count, const sl_symbolic *S) {
+    return sli_are_pairs(rows, count) && /* untested: the order keeps pairs together */
+           sli_rows_are_paired(S);       /* untested: the same */
+}
+
+static int sli_complex_accepts(const sli_source *from) {
+    return from->A != NULL && sli_matrix_is_complex(from->A);
+}
+
+SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker);
+
+#define SLF_NAME(f) sli_complex_##f
+#define SLF_VALUE double
+#define SLF_SINGLE 0
+#define SLF_HALF 1
+#define SLF_OF(f, array) (f)->array
+#define SLF_FRONT sli_complex_front_of
+#include "../factor/fronts.inl.h"
+#include "../factor/fronts_undef.inl.h"
+
+SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+    sli_front f = sli_front_in_double(F, s, worker);
+    f.update = sli_complex_update_matrix(F, s, worker);
+    return f;
+}
+
+static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
+    sli_front f = sli_complex_front_of(F, s, 0);
+    sli_front_share(F, &f, group);
+    return f;
+}
+
+static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
+    return &sli_complex_kernels_of(kernels->isa)->sweeps;
+}
+
+static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
+    return &sli_complex_kernels_of(kernels->isa)->front;
+}
+
+static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
+                                                     sizeof(double),
+                                                     sizeof(double),
+                                                     1,
+                                                     DBL_EPSILON,
+                                                     sli_complex_sweeps,
+                                                     sli_complex_front,
+                                                     sli_complex_factor,
+                                                     sli_complex_shared,
+                                                     sli_complex_front_clear,
+                                                     sli_complex_front_load,
+                                                     sli_complex_front_assemble,
+                                                     sli_complex_front_finish,
+                                                     NULL,
+                                                     sli_complex_entry,
+                                                     NULL,
+                                                     sli_complex_suits,
+                                                     sli_complex_accepts,
+                                                     sli_complex_keeps};
+
+#endif

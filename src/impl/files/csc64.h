@@ -1,0 +1,78 @@
+/* csc64.h: matrices with 64-bit indices, converted to 32 bits */
+#ifndef SLI_FILES_CSC64_H
+#define SLI_FILES_CSC64_H
+
+#include "../matrix/csc.h"
+
+/* Checks sizes and positions; the indices are checked while they are copied. */
+static sl_status sli_csc64_check(const sl_csc64 *A, sl_stats *stats) {
+    sl_status status;
+    int64_t j;
+    status = A == NULL ? SL_ERR_ARGUMENT : sli_csc_check_sizes(A->n_rows, A->n_cols, A->p);
+    if (status != SL_OK || A->n_cols == 0) {
+        return status;
+    }
+    if (A->p[0] != 0) {
+        return sli_fail_at(stats, SL_ERR_PATTERN, -1, 0, 0.0);
+    }
+    for (j = 0; j < A->n_cols; j++) {
+        if (A->p[j + 1] < A->p[j]) {
+            return sli_fail_at(stats, SL_ERR_PATTERN, -1, (sl_int)j, 0.0);
+        }
+    }
+    if (A->p[A->n_cols] > INT32_MAX) {
+        return SL_ERR_TOO_LARGE;
+    }
+    return A->p[A->n_cols] > 0 && A->i == NULL ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+/* Copies the indices of checked positions. */
+static sl_status sli_csc64_copy(const sl_csc64 *A, sl_matrix *M, sl_stats *stats) {
+    sl_int j, p;
+    M->p[0] = 0;
+    for (j = 0; j < M->n_cols; j++) {
+        M->p[j + 1] = (sl_int)A->p[j + 1];
+        for (p = M->p[j]; p < M->p[j + 1]; p++) {
+            const int64_t i = A->i[p];
+            if (i < 0 || i >= A->n_rows) {
+                const sl_int row = i < INT32_MIN || i > INT32_MAX ? -1 : (sl_int)i;
+                return sli_fail_at(stats, SL_ERR_PATTERN, row, j, 0.0);
+            }
+            M->i[p] = (sl_int)i;
+        }
+    }
+    if (A->x != NULL && M->p[M->n_cols] > 0) {
+        memcpy(M->x, A->x, (size_t)M->p[M->n_cols] * sizeof(double));
+    }
+    return SL_OK;
+}
+
+SL_API sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A, const sl_options *opt,
+                                      sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sl_matrix *M = NULL;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status =
+        sli_options_are_valid(opt, SLI_READS_NOTHING) ? sli_csc64_check(A, stats) : SL_ERR_ARGUMENT;
+    if (status == SL_OK) {
+        const int64_t nnz = A->n_cols > 0 ? A->p[A->n_cols] : 0;
+        status =
+            sli_matrix_new(&M, (sl_int)A->n_rows, (sl_int)A->n_cols, (sl_int)nnz, A->x != NULL, &a);
+    }
+    if (status == SL_OK) {
+        status = sli_csc64_copy(A, M, stats);
+    }
+    if (status != SL_OK) {
+        sl_matrix_free(M);
+        return status;
+    }
+    *out = M;
+    return SL_OK;
+}
+
+#endif

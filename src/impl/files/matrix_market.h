@@ -1,0 +1,288 @@
+/* matrix_market.h: reads and writes coordinate Matrix Market files, in any locale */
+#ifndef SLI_FILES_MATRIX_MARKET_H
+#define SLI_FILES_MATRIX_MARKET_H
+
+#include "../matrix/csc_triangle.h"
+#include "../io/output_file.h"
+#include "text_reader.h"
+
+#define SLI_ENTRIES_FIRST 65536 /* entries of a file for which memory is allocated at first */
+
+/* Reads the banner "%%MatrixMarket matrix coordinate <field> <symmetry>". A banner of the format
+ * that this library does not read gives SL_ERR_UNSUPPORTED, anything else SL_ERR_IO. */
+static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric) {
+    static const char *const sli_formats[] = {"coordinate", "array", NULL};
+    static const char *const sli_fields[] = {"real", "integer", "pattern", "complex", NULL};
+    static const char *const sli_symmetries[] = {"general", "symmetric", "skew-symmetric",
+                                                 "hermitian", NULL};
+    char token[5][SLI_TOKEN_MAX + 1];
+    const char *s, *e;
+    int k;
+    if (!sli_next_line(r, &s, &e, 1)) {
+        return SL_ERR_IO;
+    }
+    for (k = 0; k < 5; k++) {
+        if (!sli_token(&s, e, token[k])) {
+            return SL_ERR_IO;
+        }
+    }
+    if (!sli_token_is(token[0], "%%matrixmarket") || !sli_token_is(token[1], "matrix") ||
+        !sli_token_in(token[2], sli_formats) || !sli_token_in(token[3], sli_fields) ||
+        !sli_token_in(token[4], sli_symmetries)) {
+        return SL_ERR_IO;
+    }
+    *has_values = !sli_token_is(token[3], "pattern");
+    *symmetric = sli_token_is(token[4], "symmetric");
+    return sli_token_is(token[2], "coordinate") && !sli_token_is(token[3], "complex") &&
+                   (*symmetric || sli_token_is(token[4], "general"))
+               ? SL_OK
+               : SL_ERR_UNSUPPORTED;
+}
+
+/* Entries read, with room for more. */
+typedef struct sli_triplets {
+    void *block;
+    sl_int *i, *j;
+    double *x; /* NULL: a pattern */
+    sl_off count, room;
+} sli_triplets;
+
+/* Allocates room for more entries and moves those that were read. */
+static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
+                                   const sl_allocator *a) {
+    sli_block b = {NULL, 0, 0};
+    sli_triplets larger = *t;
+    sl_status status = SL_OK;
+    int pass;
+    larger.room = room;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        larger.i = SLI_TAKE(&b, sl_int, room);
+        larger.j = SLI_TAKE(&b, sl_int, room);
+        larger.x = has_values ? SLI_TAKE(&b, double, room) : NULL;
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    if (t->count > 0) {
+        memcpy(larger.i, t->i, (size_t)t->count * sizeof *t->i);
+        memcpy(larger.j, t->j, (size_t)t->count * sizeof *t->j);
+        if (has_values) {
+            memcpy(larger.x, t->x, (size_t)t->count * sizeof *t->x);
+        }
+    }
+    sli_free(a, t->block);
+    larger.block = b.base;
+    *t = larger;
+    return SL_OK;
+}
+
+/* Reads size[2] lines "row column [value]", 1-based, and checks that no other line follows. Entries
+ * of a symmetric file are stored in the lower triangle. */
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
+                                  sli_triplets *t, const sl_allocator *a) {
+    const char *s, *e;
+    sl_off row, column;
+    sl_status status;
+    for (; t->count < size[2]; t->count++) {
+        if (t->count == t->room) {
+            const sl_off more = 2 * t->room < size[2] ? 2 * t->room : size[2];
+            status = sli_triplets_grow(t, more, has_values, a);
+            if (status != SL_OK) {
+                return status;
+            }
+        }
+        if (!sli_next_line(r, &s, &e, 0) || !sli_token_int(&s, e, 1, size[0], &row) ||
+            !sli_token_int(&s, e, 1, size[1], &column) ||
+            (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
+            return SL_ERR_IO;
+        }
+        t->i[t->count] = (sl_int)(symmetric && row < column ? column : row) - 1;
+        t->j[t->count] = (sl_int)(symmetric && row < column ? row : column) - 1;
+    }
+    return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+}
+
+/* Reads a whole matrix. Memory grows with the entries that are there, not with the number that the
+ * header promises. */
+static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
+    const char *s, *e;
+    sl_off size[3] = {0, 0, 0}, room;
+    sli_triplets t;
+    int has_values, symmetric, k;
+    sl_status status = sli_read_banner(r, &has_values, &symmetric);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (!sli_next_line(r, &s, &e, 0)) {
+        return SL_ERR_IO;
+    }
+    for (k = 0; k < 3; k++) {
+        if (!sli_token_int(&s, e, 0, INT64_MAX, &size[k])) {
+            return SL_ERR_IO;
+        }
+        if (size[k] > SLI_ROWS_MAX) {
+            return SL_ERR_TOO_LARGE;
+        }
+    }
+    /* An entry has at least four bytes. A count that a text in memory cannot hold is refused before
+     * memory is allocated. */
+    if (!sli_line_ends(s, e) || (symmetric && size[0] != size[1]) ||
+        (r->buffer == NULL && size[2] > (r->end - r->at) / 4 + 1)) {
+        return SL_ERR_IO;
+    }
+    memset(&t, 0, sizeof t);
+    room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
+    status = sli_triplets_grow(&t, room, has_values, a);
+    status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
+    if (status == SL_OK) {
+        status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], t.i, t.j,
+                                   t.x, a);
+    }
+    sli_free(a, t.block);
+    return status;
+}
+
+/* Reads the matrix; in any locale, and without a trace in errno. */
+static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_allocator *a,
+                                 sl_stats *stats) {
+    const int saved = errno; /* strtod may set it */
+    sl_status status;
+    sli_find_point(r->point);
+    status = sli_parse(out, r, a);
+    if (status != SL_OK && stats != NULL) {
+        stats->error.line = r->line > 0 ? r->line : 1;
+    }
+    errno = saved;
+    return status;
+}
+
+SL_API sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                                 const sl_options *opt, sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    sli_reader r;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (text == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+        return SL_ERR_ARGUMENT;
+    }
+    memset(&r, 0, sizeof r);
+    r.at = text;
+    r.end = text + length;
+    return sli_read_matrix(out, &r, &a, stats);
+}
+
+SL_API sl_status sl_matrix_read(sl_matrix **out, const char *path, const sl_options *opt,
+                                sl_stats *stats) {
+    const sl_allocator a = sli_allocator(opt);
+    const int saved = errno;
+    sli_reader r;
+    FILE *file;
+    sl_status status = SL_ERR_MEMORY;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    if (path == NULL || !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
+        return SL_ERR_ARGUMENT;
+    }
+    file = fopen(path, "rb");
+    if (file == NULL) {
+        errno = saved;
+        return SL_ERR_IO;
+    }
+    memset(&r, 0, sizeof r);
+    r.file = file;
+    r.buffer = (char *)sli_alloc(&a, SLI_LINE_MAX);
+    if (r.buffer != NULL) {
+        r.at = r.end = r.buffer;
+        status = sli_read_matrix(out, &r, &a, stats);
+    }
+    sli_free(&a, r.buffer);
+    fclose(file);
+    errno = saved;
+    return status;
+}
+
+/* Replaces the decimal point that the locale printed, of any number of bytes, by a point. */
+static void sli_set_point(char *number) {
+    const char *from = number;
+    char *to = number;
+    while (*from != '\0') {
+        if (sli_is_numeric(*from)) {
+            *to++ = *from++;
+            continue;
+        }
+        *to++ = '.';
+        while (*from != '\0' && !sli_is_numeric(*from)) { /* untested: a digit follows */
+            from++;
+        }
+    }
+    *to = '\0';
+}
+
+/* Writes one entry, 1-based; value NULL: of a pattern. */
+static int sli_write_entry(FILE *file, sl_int row, sl_int column, const double *value) {
+    char number[40];
+    if (value == NULL) {
+        return fprintf(file, "%ld %ld\n", (long)row + 1, (long)column + 1) > 0;
+    }
+    snprintf(number, sizeof number, "%.17g", *value);
+    sli_set_point(number);
+    return fprintf(file, "%ld %ld %s\n", (long)row + 1, (long)column + 1, number) > 0;
+}
+
+/* Writes a checked matrix; returns 0 if the file system fails. */
+static int sli_write(FILE *file, const sl_csc *A, sl_reading reading, sl_triangle triangle) {
+    sl_int j, p;
+    sl_off count = 0;
+    int ok;
+    for (j = 0; j < A->n_cols; j++) {
+        for (p = A->p[j]; p < A->p[j + 1]; p++) {
+            count += sli_is_read(triangle, A->i[p], j);
+        }
+    }
+    ok = fprintf(file, "%%%%MatrixMarket matrix coordinate %s %s\n%ld %ld %ld\n",
+                 A->x != NULL ? "real" : "pattern",
+                 reading == SL_AS_SYMMETRIC ? "symmetric" : "general", (long)A->n_rows,
+                 (long)A->n_cols, (long)count) > 0;
+    for (j = 0; j < A->n_cols && ok; j++) {
+        for (p = A->p[j]; p < A->p[j + 1] && ok; p++) {
+            const sl_int i = A->i[p];
+            if (sli_is_read(triangle, i, j)) {
+                const int flip = reading == SL_AS_SYMMETRIC && i < j;
+                ok = sli_write_entry(file, flip ? j : i, flip ? i : j,
+                                     A->x != NULL ? A->x + p : NULL);
+            }
+        }
+    }
+    return ok;
+}
+
+SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path) {
+    const int saved = errno;
+    sl_triangle triangle = SL_TRIANGLE_NONE;
+    sl_status status = reading == SL_AS_SYMMETRIC ? sl_csc_triangle(A, &triangle, NULL, NULL)
+                                                  : sl_csc_check(A, NULL);
+    const sl_allocator a = sli_allocator(NULL);
+    sli_output output;
+    if (status != SL_OK) {
+        return status;
+    }
+    if (path == NULL || (reading != SL_AS_SYMMETRIC && reading != SL_AS_STORED)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_output_open(&output, path, &a);
+    if (status == SL_OK) {
+        const int complete = sli_write(output.file, A, reading, triangle);
+        status = sli_output_close(&output, complete, &a) ? SL_OK : SL_ERR_IO;
+    }
+    errno = saved;
+    return status;
+}
+
+#endif

@@ -1,0 +1,9 @@
+/* float_set.inl.h: the table of the kernels of L in float, for one instruction set */
+
+static const sli_float_kernels SLV_NAME(float_kernels) = {
+    {{SLV_NAME(single_forward), SLV_NAME(single_forward2), SLV_NAME_4(single_forward),
+      SLV_NAME(single_forward8), SLV_NAME(single_forward16), SLV_NAME(single_forward32)},
+     {SLV_NAME(single_backward), SLV_NAME(single_backward2), SLV_NAME_4(single_backward),
+      SLV_NAME(single_backward8), SLV_NAME(single_backward16), SLV_NAME(single_backward32)}},
+    {SLV_NAME(single_pivots), SLV_NAME(single_rows), SLV_NAME(single_update),
+     SLV_NAME(single_assemble)}};

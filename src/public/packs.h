@@ -1,0 +1,36 @@
+/* packs.h: the packs that a user asks for: what each adds to the core, and what it brings along */
+#ifndef SL_PUBLIC_PACKS_H
+#define SL_PUBLIC_PACKS_H
+
+/* The core analyzes, factors, refactors and solves: in full, on plans and in one shot, with one to
+ * many right-hand sides, for regular and for singular matrices. Define the macro of a pack before
+ * every include of this header to add to it, or SL_WITH_ALL for all packs:
+ *
+ *  SL_WITH_INVERSE    entries of the inverse, bilinear forms, selected inversion, regions
+ *  SL_WITH_CHANGE     changes of a factor in place, pins, factors of submatrices, edits
+ *  SL_WITH_SAVE       factors, selected inverses and regions in files and in mapped memory
+ *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
+ *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
+ *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS
+ *  SL_WITH_ACCURACY   refinement, condition numbers, defects, half solves
+ *  SL_WITH_FILES      Matrix Market files, matrices with 64-bit indices
+ *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
+ *
+ * A call of a pack that is off does not compile, and the error names the macro. An option that
+ * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CHANGE brings SL_WITH_INVERSE along, which
+ * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
+#if defined(SL_WITH_ALL)
+#define SL_WITH_CHANGE
+#define SL_WITH_SAVE
+#define SL_WITH_BATCH
+#define SL_WITH_COMPLEX
+#define SL_WITH_FLOAT
+#define SL_WITH_ACCURACY
+#define SL_WITH_FILES
+#define SL_WITH_PIVOTS
+#endif
+#if (defined(SL_WITH_CHANGE) || defined(SL_WITH_SAVE)) && !defined(SL_WITH_INVERSE)
+#define SL_WITH_INVERSE
+#endif
+
+#endif
