@@ -1,0 +1,39 @@
+# peers.mk: measurements against other libraries, tables and figures of them (a part of the Makefile)
+
+.PHONY: deps-peers deps-arpack bench-peers bench-eigenpairs readme-table figures
+
+PEERS := $(wildcard bench/peers/*.c bench/peers/*.cpp)
+
+deps-peers: deps-cxx ## CHOLMOD with OpenBLAS, LDL, AMD, Eigen
+	@tools/build/deps.sh suitesparse/cholmod.h=libsuitesparse-dev /usr/include/eigen3/Eigen/Sparse=libeigen3-dev \
+	/usr/share/doc/libopenblas-dev=libopenblas-dev
+
+deps-arpack: ## ARPACK with OpenBLAS
+	@tools/build/deps.sh arpack/arpack.h=libarpack2-dev /usr/share/doc/libopenblas-dev=libopenblas-dev
+
+# Peers in their best setting: OpenBLAS chooses its kernels itself, whatever core the environment names.
+PEER_ENV = env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE
+# Eigen chooses its vector instructions at compile time: its best setting is -march=native, for its own file only.
+bench-peers: deps deps-peers sparse_local.h ## the questions peers, peers_harmonic, peers_shifted, peers_complex, peers_kkt and peers_kinds: against CHOLMOD, Eigen and LDL
+	@+$(SUB_MAKE) run-bench B=build/peers QUESTION_DEFAULT="peers peers_harmonic peers_shifted peers_complex peers_kkt peers_kinds" LINK=$(CXX) BENCH_ENV='$(PEER_ENV)' \
+	CFLAGS='-DSL_BENCH_PEERS $(OPENMP) $(CFLAGS)' INCLUDES='-isystem /usr/include/suitesparse -isystem /usr/include/eigen3' \
+	CXXFLAGS='-DSL_BENCH_PEERS -O3 -march=native $(CXXFLAGS)' PEER_LIBS='-lcholmod -lldl -lamd -lopenblas' \
+	PEER_OBJECTS='$(addprefix build/peers/obj/,$(addsuffix .o,$(basename $(PEERS))))'
+
+ARPACK_OBJECTS = $(patsubst %.c,build/arpack/obj/%.o,$(wildcard bench/eigen/*.c))
+ARPACK_BENCH = B=build/arpack BENCH_ENV='$(PEER_ENV) OPENBLAS_NUM_THREADS=1' CFLAGS='-DSL_BENCH_ARPACK $(OPENMP) $(CFLAGS)' \
+	PEER_LIBS='-larpack -lopenblas' PEER_OBJECTS='$(ARPACK_OBJECTS)'
+bench-eigenpairs: deps deps-arpack sparse_local.h ## auto-diffusion by the eigenpairs of ARPACK, with our factor as its solver: digits and time
+	@+$(SUB_MAKE) run-bench QUESTION_DEFAULT=eigenpairs $(ARPACK_BENCH)
+
+readme-table: ## prints the measurements of the last bench-peers as Markdown tables
+	@awk -f tools/build/csv.awk -f tools/build/readme_table.awk build/bench-out/peers.machine.txt build/bench-out/peers.csv \
+	$(wildcard build/bench-out/peers_harmonic.csv build/bench-out/peers_kinds.csv)
+
+# ---- the paper ----
+
+FIGURES = build/figures$(if $(MESH),/$(firstword $(subst ., ,$(notdir $(MESH)))))
+# The bench is that of bench-eigenpairs, the program that of the tests.
+figures: deps deps-png deps-arpack sparse_local.h $(B)/sparse-local ## the paper's figures into build/figures, of made-up surfaces or of MESH (two minutes; BENCH=quick less)
+	@$(MAKE) --no-print-directory build/arpack/bench $(ARPACK_BENCH)
+	@tools/build/figures.sh $(B)/sparse-local build/arpack/bench '$(FIGURES)' '$(MESH)'

@@ -1,0 +1,38 @@
+# release.mk: sizes and counts, the flat header, packages, the manual, a release (a part of the Makefile)
+
+.PHONY: header-flat size test-figures test-page release
+
+header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
+	build/amalgamate --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
+
+size: sparse_local.h build/deps.ok ## size of the header and of its object, compile time; fails above the limits
+	@tools/build/size.sh
+
+test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
+	@echo '$(words $(CORE_TESTS)) programs of $(shell cat $(CORE_TESTS) | grep -c 'cmocka_unit_test') core tests'
+	@echo '$(words $(TOOL_TESTS)) programs of $(shell cat $(TOOL_TESTS) | grep -c 'cmocka_unit_test') tests of tools'
+	@for f in tests/fuzz/corpus/*; do echo "corpus $${f##*/}: $$(ls $$f | wc -l) inputs, $$(cat $$f/* | wc -c) bytes"; done
+
+# What else the page reports is read from the logs of the targets that have run in this checkout.
+test-page: ## writes the figures between the marks in tests/README.md
+	@tools/build/test_page.sh
+
+include tools/packaging/packaging.mk
+include tools/docs/docs.mk
+
+# ---- release ----
+
+RELEASE = build/release/sparse_local-$(VERSION)
+
+# The tarball is what git has of the last commit, and the generated header; owner and times are fixed, so that the same commit gives
+# the same bytes.
+release: check-header docs ## build/release: header, flat header, tarball, manual, notes and checksums
+	@test -z "$$(git status --porcelain)" || { echo 'release: there are changes that are not committed'; exit 1; }
+	@rm -rf build/release && mkdir -p build/release
+	@cp sparse_local.h build/release
+	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release
+	@git archive --format=tar --prefix=sparse_local-$(VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
+	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
+	@tools/docs/release_notes.sh $(VERSION) >build/release/NOTES.md
+	@cd build/release && sha256sum *.h *.tar.gz >SHA256SUMS
+	@ls -l build/release
