@@ -20,6 +20,8 @@ MESH ?=
 OPENMP ?= -fopenmp
 ## B        folder of objects, test programs and the bench; what is the same for all of them stays in build
 B ?= build
+## PACKS    what `make header` selects: "core", "core change save", ...; nothing: everything, in sparse_local.h
+PACKS ?=
 ## V        1 shows every command
 V ?=
 
@@ -86,8 +88,8 @@ help: ## this list
 
 # ---- the header ----
 
-header: build/amalgamate ## makes sparse_local.h from src/
-	build/amalgamate src/sparse_local.in.h sparse_local.h LICENSE
+header: build/amalgamate ## makes sparse_local.h from src/; with PACKS a header of the core and these packs, in build
+	build/amalgamate $(if $(strip $(PACKS)),$(SELECTION),src/sparse_local.in.h sparse_local.h) LICENSE
 
 sparse_local.h: build/amalgamate $(SRC) LICENSE
 	$(call say,MAKE)
@@ -282,5 +284,6 @@ clean: ## removes everything built
 	rm -rf build
 
 include tests/platforms.mk
+include tests/packs.mk
 include bench/peers.mk
 include tools/release.mk

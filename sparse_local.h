@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f1c14f17040b9a29
+ * FNV-1a of the lines after this comment, without the license: c8a8de892b98f669
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -15,98 +15,98 @@
  *   1119 factor.h     the numerical factorization P A P' = L D L'
  *   1408 solve.h      full solves, and the workspace of all solves
  *   1521 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1616 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples
- *   1729 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems
- *   1844 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep
- *   1980 selected.h   the selected inverse: entries of A^-1 on the pattern of L
- *   2100 region.h     regions, inside which the cost of local solves does not depend on the whole matrix
- *   2206 batch.h      many independent solves by one call, distributed over threads
- *   2256 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis
- *   2436 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy
- *   2575 saved_set.h  a factor with its selected inverse and regions in one file or block of memory
- *   2695 change.h     a factor that follows small changes of its matrix
- *   2788 pins.h       rows held at given values, on top of a factor that stays as it is
- *   2940 restrict.h   the factor of a principal submatrix, from that of the whole matrix
- *   2995 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go
- *   3080 complex.h    complex Hermitian systems, solved as real ones of twice the size
+ *   1616 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1729 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1855 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1991 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   2111 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2238 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2288 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2479 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
+ *   2618 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
+ *   2754 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2847 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2999 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   3054 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   3157 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3222 base.h   3518 status.h   3579 options.h   3638 alloc.h   3801 hash.h   3931 sort.h
- *   3996 parallel.h
+ *   3307 base.h   3603 status.h   3664 options.h   3723 alloc.h   3886 hash.h   4016 sort.h
+ *   4081 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4186 panel.h   4211 step.h   4290 pivot_rule.h   4364 front.h   4424 pairs.h   4631 table.h
- *   4647 simd.h   4750 simd_scalar.h   4777 simd_avx2.h   4844 simd_avx512.h   4876 simd_neon.h
- *   4906 dispatch.h
+ *   4271 panel.h   4296 step.h   4375 pivot_rule.h   4449 front.h   4509 pairs.h   4716 table.h
+ *   4732 simd.h   4835 simd_scalar.h   4862 simd_avx2.h   4929 simd_avx512.h   4961 simd_neon.h
+ *   4991 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5020 csc.h   5163 csc_build.h   5297 csc_triangle.h   5362 csc_products.h   5479 permute.h
+ *   5105 csc.h   5248 csc_build.h   5382 csc_triangle.h   5447 csc_products.h   5564 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5546 graph.h   5665 contract.h   5846 coarsen.h   6060 labels.h   6286 subgraph.h   6480 heap.h
- *   6542 bisect.h   6750 separator.h   7012 mindeg.h   7195 dissection.h   7305 weigh.h
- *   7372 dissect.h   7669 tree_cost.h   7732 levelset.h   7817 geometric.h   7992 cells.h
- *   8172 septree.h   8248 metis.h   8397 metis_refined.h   8512 thin.h   8766 nd.h
- *   8983 compress.h   9135 levels.h   9188 border.h   9241 forest.h   9328 peel.h   9528 quotient.h
- *   9862 quotient_order.h   9956 graph_kind.h  10045 order.h
+ *   5631 graph.h   5750 contract.h   5931 coarsen.h   6145 labels.h   6371 subgraph.h   6565 heap.h
+ *   6627 bisect.h   6835 separator.h   7097 mindeg.h   7280 dissection.h   7390 weigh.h
+ *   7457 dissect.h   7754 tree_cost.h   7817 levelset.h   7902 geometric.h   8077 cells.h
+ *   8257 septree.h   8333 metis.h   8482 metis_refined.h   8597 thin.h   8851 nd.h
+ *   9068 compress.h   9220 levels.h   9273 border.h   9326 forest.h   9413 peel.h   9613 quotient.h
+ *   9947 quotient_order.h  10041 graph_kind.h  10130 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10373 symbolic_types.h  10416 etree.h  10613 supernodes.h  10871 pattern.h  10952 structure.h
- *  11123 schedule.h  11454 symbolic.h  11930 reach.h
+ *  10458 symbolic_types.h  10501 etree.h  10698 supernodes.h  10956 pattern.h  11037 structure.h
+ *  11208 schedule.h  11539 symbolic.h  12015 reach.h
  * (factor: the numbers of L and D)
- *  12206 factor_types.h  12396 storage_type.h  12461 panel_load.h  12502 pivot_check.h
- *  12606 null_product.h  12810 null_dense.h  12887 null_basis.h  13207 null_vectors.h
- *  13334 multifrontal.h  13477 uplooking.h  13551 front_tasks.h  13865 null_center.h
- *  13989 nullspace.h  14196 growth.h  14274 factor_setup.h  14610 factor.h  14825 factor_query.h
+ *  12291 factor_types.h  12481 storage_type.h  12546 panel_load.h  12587 pivot_check.h
+ *  12691 null_product.h  12895 null_dense.h  12972 null_basis.h  13292 null_vectors.h
+ *  13419 multifrontal.h  13562 uplooking.h  13636 front_tasks.h  13950 null_center.h
+ *  14074 nullspace.h  14281 growth.h  14359 factor_setup.h  14695 factor.h  14910 factor_query.h
  * (solve: full and local solves)
- *  14961 work.h  15061 query.h  15300 singular.h  15560 backward.h  15590 sweep_tasks.h
- *  15921 sweep.h  16121 compile.h  16256 plan.h  16358 local.h
+ *  15046 work.h  15146 query.h  15385 singular.h  15645 backward.h  15675 sweep_tasks.h
+ *  16006 sweep.h  16206 compile.h  16341 plan.h  16443 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  16512 parts.h  16801 refine.h  16980 refine_local.h  17196 rcond.h  17355 defects.h
+ *  16597 parts.h  16886 refine.h  17065 refine_local.h  17281 rcond.h  17440 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  17416 pivot_search.h  17762 pivoted.h
+ *  17501 pivot_search.h  17847 pivoted.h
  * (float: L and fronts in single precision)
- *  17834 simd_scalar_single.h  17865 simd_avx2_single.h  17922 simd_avx512_single.h
- *  17977 simd_neon_single.h  18022 float_kernels.h  18120 float_storage.h
+ *  17919 simd_scalar_single.h  17950 simd_avx2_single.h  18007 simd_avx512_single.h
+ *  18062 simd_neon_single.h  18107 float_kernels.h  18205 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  18285 inverse_front.h  18357 inverse_kernels.h  18429 traversal.h  18683 traversal_run.h
- *  18892 row_sets.h  18926 unit_vectors.h  19147 bilinear.h  19319 entries.h  19596 block.h
- *  19831 reserve.h  20023 selected.h  20233 selected_query.h  20335 region_types.h
- *  20435 region_choose.h  20662 region_ending.h  20778 region.h
+ *  18370 inverse_front.h  18442 inverse_kernels.h  18514 traversal.h  18768 traversal_run.h
+ *  18977 row_sets.h  19011 unit_vectors.h  19232 bilinear.h  19404 entries.h  19681 block.h
+ *  19916 reserve.h  20108 selected.h  20318 selected_query.h  20420 region_types.h
+ *  20520 region_choose.h  20747 region_ending.h  20863 region.h
  * (change: a factor that follows changes of its matrix)
- *  21029 change_kernels.h  21102 gather.h  21150 kept.h  21307 leftlooking.h  21476 update_pivots.h
- *  21647 update.h  21881 path.h  21983 rank.h  22375 edges.h  22529 choose.h  22779 pins_types.h
- *  22845 pins_nulls.h  23026 pins_capacitance.h  23292 pins_rows.h  23412 pins_balance.h
- *  23574 pins_held.h  23802 pins_choose.h  23868 pins_rebuild.h  24091 pins_matrix.h  24242 pins.h
- *  24504 pins_solve.h  24779 subset.h  24932 restrict_kept.h  25130 restrict_analysis.h
- *  25375 restrict_symbolic.h  25570 restrict.h  25801 edit_match.h  26000 edit_place.h
- *  26249 edit_separate.h  26563 edit_order.h  26718 edit_graph.h  26800 edit_join.h  27076 edit.h
- *  27239 edit_factor.h
+ *  21114 change_kernels.h  21187 gather.h  21235 kept.h  21392 leftlooking.h  21561 update_pivots.h
+ *  21732 update.h  21966 path.h  22068 rank.h  22460 edges.h  22614 choose.h  22864 pins_types.h
+ *  22930 pins_nulls.h  23111 pins_capacitance.h  23377 pins_rows.h  23497 pins_balance.h
+ *  23659 pins_held.h  23887 pins_choose.h  23953 pins_rebuild.h  24176 pins_matrix.h  24327 pins.h
+ *  24589 pins_solve.h  24864 subset.h  25017 restrict_kept.h  25215 restrict_analysis.h
+ *  25460 restrict_symbolic.h  25655 restrict.h  25886 edit_match.h  26085 edit_place.h
+ *  26334 edit_separate.h  26648 edit_order.h  26803 edit_graph.h  26885 edit_join.h  27161 edit.h
+ *  27324 edit_factor.h
  * (io: files that are written and mapped)
- *  27527 output_file.h  27736 file_map.h
+ *  27612 output_file.h  27821 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  27837 csc64.h  27908 text_reader.h  28089 matrix_market.h
+ *  27922 csc64.h  27993 text_reader.h  28174 matrix_market.h
  * (save: factors in files)
- *  28359 format.h  28656 decode.h  28804 check.h  29134 write.h  29442 load.h  29711 load_inverse.h
- *  30041 load_calls.h
+ *  28444 format.h  28741 decode.h  28889 check.h  29219 write.h  29527 load.h  29796 load_inverse.h
+ *  30126 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  30244 matrix_sum.h  30326 scatter.h  30484 combination.h  30544 batch_solve.h
- *  30752 batch_factor.h
+ *  30329 matrix_sum.h  30411 scatter.h  30569 combination.h  30629 batch_solve.h
+ *  30837 batch_factor.h
  * (batch: diagonals of many inverses)
- *  30956 batch_diagonal.h
+ *  31041 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31098 complex_kernels.h  31210 complex_storage.h  31331 hermitian.h  31493 complex_rows.h
+ *  31183 complex_kernels.h  31295 complex_storage.h  31416 hermitian.h  31578 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  31662 storage_types.h
+ *  31747 storage_types.h
  * (last: undefine every internal macro)
- *  31689 undef.h
+ *  31774 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31999 words_scalar.inl.h  32095 change.inl.h  32351 lanes_scalar.inl.h  32383 products.inl.h
- *  32421 inverse_front.inl.h  32726 inverse_set.inl.h  32739 front.inl.h  32741 product.inl.h
- *  33229 complex_groups.inl.h  33320 copy_rows.inl.h  33358 sweeps.inl.h  33360 unit_triangle.inl.h
- *  33397 two_rhs.inl.h  33567 small_supernode.inl.h  33769 single_rhs.inl.h  34009 multi_rhs.inl.h
- *  34072 multi_rhs_small.inl.h  34251 multi_rhs_tiles.inl.h  34490 complex_small.inl.h
- *  34686 complex_rows.inl.h  34909 complex_set.inl.h  34927 float_set.inl.h  34945 kernel_set.inl.h
- *  34947 row.inl.h  34979 interleave.inl.h  35081 lanes_undef.inl.h  35108 words_undef.inl.h
- *  35191 words_avx2.inl.h  35323 lanes_avx2.inl.h  35385 words_avx512.inl.h
- *  35494 lanes_avx512.inl.h  35541 words_neon.inl.h  35690 lanes_neon.inl.h  35769 fronts.inl.h
- *  36000 fronts_undef.inl.h
+ *  32084 words_scalar.inl.h  32180 change.inl.h  32436 lanes_scalar.inl.h  32468 products.inl.h
+ *  32506 inverse_front.inl.h  32811 inverse_set.inl.h  32824 front.inl.h  32826 product.inl.h
+ *  33314 complex_groups.inl.h  33405 copy_rows.inl.h  33443 sweeps.inl.h  33445 unit_triangle.inl.h
+ *  33482 two_rhs.inl.h  33652 small_supernode.inl.h  33854 single_rhs.inl.h  34094 multi_rhs.inl.h
+ *  34157 multi_rhs_small.inl.h  34336 multi_rhs_tiles.inl.h  34575 complex_small.inl.h
+ *  34771 complex_rows.inl.h  34994 complex_set.inl.h  35012 float_set.inl.h  35030 kernel_set.inl.h
+ *  35032 row.inl.h  35064 interleave.inl.h  35166 lanes_undef.inl.h  35193 words_undef.inl.h
+ *  35276 words_avx2.inl.h  35408 lanes_avx2.inl.h  35470 words_avx512.inl.h
+ *  35579 lanes_avx512.inl.h  35626 words_neon.inl.h  35775 lanes_neon.inl.h  35854 fronts.inl.h
+ *  36085 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1839,6 +1839,17 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
                                                   const double *B, size_t ldb, sl_int nrhs,
                                                   sl_work *W);
 
+#else
+#define sl_factor_solve_part(...) sl_factor_solve_part_needs_SL_WITH_ACCURACY
+#define sl_factor_multiply_part(...) sl_factor_multiply_part_needs_SL_WITH_ACCURACY
+#define sl_plan_solve_part(...) sl_plan_solve_part_needs_SL_WITH_ACCURACY
+#define sl_plan_columns(...) sl_plan_columns_needs_SL_WITH_ACCURACY
+#define sl_work_reserve_part(...) sl_work_reserve_part_needs_SL_WITH_ACCURACY
+#define sl_work_reserve_plan_part(...) sl_work_reserve_plan_part_needs_SL_WITH_ACCURACY
+#define sl_factor_refine(...) sl_factor_refine_needs_SL_WITH_ACCURACY
+#define sl_plan_solve_refined(...) sl_plan_solve_refined_needs_SL_WITH_ACCURACY
+#define sl_factor_rcond(...) sl_factor_rcond_needs_SL_WITH_ACCURACY
+#define sl_factor_defects(...) sl_factor_defects_needs_SL_WITH_ACCURACY
 #endif
 #if defined(SL_WITH_INVERSE)
 /* src/public/inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
@@ -2201,6 +2212,27 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
                                                        const sl_factor *F);
 
+#else
+#define sl_inverse_diagonal(...) sl_inverse_diagonal_needs_SL_WITH_INVERSE
+#define sl_inverse_pairs(...) sl_inverse_pairs_needs_SL_WITH_INVERSE
+#define sl_inverse_block(...) sl_inverse_block_needs_SL_WITH_INVERSE
+#define sl_inverse_bilinear(...) sl_inverse_bilinear_needs_SL_WITH_INVERSE
+#define sl_work_reserve_inverse(...) sl_work_reserve_inverse_needs_SL_WITH_INVERSE
+#define sl_work_reserve_block(...) sl_work_reserve_block_needs_SL_WITH_INVERSE
+#define sl_selected_create(...) sl_selected_create_needs_SL_WITH_INVERSE
+#define sl_selected_refactor(...) sl_selected_refactor_needs_SL_WITH_INVERSE
+#define sl_selected_free(...) sl_selected_free_needs_SL_WITH_INVERSE
+#define sl_selected_diagonal(...) sl_selected_diagonal_needs_SL_WITH_INVERSE
+#define sl_selected_entries(...) sl_selected_entries_needs_SL_WITH_INVERSE
+#define sl_selected_view(...) sl_selected_view_needs_SL_WITH_INVERSE
+#define sl_selected_stats(...) sl_selected_stats_needs_SL_WITH_INVERSE
+#define sl_work_reserve_selected(...) sl_work_reserve_selected_needs_SL_WITH_INVERSE
+#define sl_region_create(...) sl_region_create_needs_SL_WITH_INVERSE
+#define sl_region_refactor(...) sl_region_refactor_needs_SL_WITH_INVERSE
+#define sl_region_free(...) sl_region_free_needs_SL_WITH_INVERSE
+#define sl_region_stats(...) sl_region_stats_needs_SL_WITH_INVERSE
+#define sl_region_view(...) sl_region_view_needs_SL_WITH_INVERSE
+#define sl_work_reserve_region(...) sl_work_reserve_region_needs_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_BATCH)
 /* src/public/batch.h: many independent solves by one call, distributed over threads */
@@ -2431,6 +2463,17 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
                                                   sl_work *const *works, sl_int *failed,
                                                   sl_stats *stats);
 
+#else
+#define sl_batch_solve(...) sl_batch_solve_needs_SL_WITH_BATCH
+#define sl_batch_solve_interleaved(...) sl_batch_solve_interleaved_needs_SL_WITH_BATCH
+#define sl_matrix_sum(...) sl_matrix_sum_needs_SL_WITH_BATCH
+#define sl_symbolic_entries(...) sl_symbolic_entries_needs_SL_WITH_BATCH
+#define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
+#define sl_factor_create_combination(...) sl_factor_create_combination_needs_SL_WITH_BATCH
+#define sl_factor_refactor_combination(...) sl_factor_refactor_combination_needs_SL_WITH_BATCH
+#define sl_batch_factor(...) sl_batch_factor_needs_SL_WITH_BATCH
+#define sl_batch_refactor(...) sl_batch_refactor_needs_SL_WITH_BATCH
+#define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH
 #endif
 #if defined(SL_WITH_SAVE)
 /* src/public/save.h: a factor in a file or in memory: saved, loaded, and mapped without a copy */
@@ -2690,6 +2733,22 @@ SL_API SL_WARN_UNUSED sl_status sl_map_set_file(sl_saved_set *set, const char *p
  *  object, set its pointer to NULL before. NULL is allowed. */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
+#else
+#define sl_save_bytes(...) sl_save_bytes_needs_SL_WITH_SAVE
+#define sl_save_memory(...) sl_save_memory_needs_SL_WITH_SAVE
+#define sl_save_file(...) sl_save_file_needs_SL_WITH_SAVE
+#define sl_load_memory(...) sl_load_memory_needs_SL_WITH_SAVE
+#define sl_load_file(...) sl_load_file_needs_SL_WITH_SAVE
+#define sl_map_memory(...) sl_map_memory_needs_SL_WITH_SAVE
+#define sl_map_file(...) sl_map_file_needs_SL_WITH_SAVE
+#define sl_save_set_bytes(...) sl_save_set_bytes_needs_SL_WITH_SAVE
+#define sl_save_set_memory(...) sl_save_set_memory_needs_SL_WITH_SAVE
+#define sl_save_set_file(...) sl_save_set_file_needs_SL_WITH_SAVE
+#define sl_load_set_memory(...) sl_load_set_memory_needs_SL_WITH_SAVE
+#define sl_load_set_file(...) sl_load_set_file_needs_SL_WITH_SAVE
+#define sl_map_set_memory(...) sl_map_set_memory_needs_SL_WITH_SAVE
+#define sl_map_set_file(...) sl_map_set_file_needs_SL_WITH_SAVE
+#define sl_saved_set_free(...) sl_saved_set_free_needs_SL_WITH_SAVE
 #endif
 #if defined(SL_WITH_CHANGE)
 /* src/public/change.h: a factor that follows small changes of its matrix */
@@ -3075,6 +3134,24 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
                                                const sl_int *new_of, const sl_options *opt,
                                                sl_stats *stats);
 
+#else
+#define sl_factor_update(...) sl_factor_update_needs_SL_WITH_CHANGE
+#define sl_factor_update_entries(...) sl_factor_update_entries_needs_SL_WITH_CHANGE
+#define sl_factor_change(...) sl_factor_change_needs_SL_WITH_CHANGE
+#define sl_pins_create(...) sl_pins_create_needs_SL_WITH_CHANGE
+#define sl_pins_free(...) sl_pins_free_needs_SL_WITH_CHANGE
+#define sl_pins_add(...) sl_pins_add_needs_SL_WITH_CHANGE
+#define sl_pins_add_rows(...) sl_pins_add_rows_needs_SL_WITH_CHANGE
+#define sl_pins_add_equality(...) sl_pins_add_equality_needs_SL_WITH_CHANGE
+#define sl_pins_release(...) sl_pins_release_needs_SL_WITH_CHANGE
+#define sl_pins_release_rows(...) sl_pins_release_rows_needs_SL_WITH_CHANGE
+#define sl_pins_set_matrix(...) sl_pins_set_matrix_needs_SL_WITH_CHANGE
+#define sl_pins_count(...) sl_pins_count_needs_SL_WITH_CHANGE
+#define sl_pins_refactor(...) sl_pins_refactor_needs_SL_WITH_CHANGE
+#define sl_pins_solve(...) sl_pins_solve_needs_SL_WITH_CHANGE
+#define sl_factor_restrict(...) sl_factor_restrict_needs_SL_WITH_CHANGE
+#define sl_symbolic_edit(...) sl_symbolic_edit_needs_SL_WITH_CHANGE
+#define sl_factor_edit(...) sl_factor_edit_needs_SL_WITH_CHANGE
 #endif
 #if defined(SL_WITH_COMPLEX)
 /* src/public/complex.h: complex Hermitian systems, solved as real ones of twice the size */
@@ -3208,6 +3285,14 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
 SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
                                                   double *sign);
 
+#else
+#define sl_matrix_from_hermitian(...) sl_matrix_from_hermitian_needs_SL_WITH_COMPLEX
+#define sl_matrix_refill_hermitian(...) sl_matrix_refill_hermitian_needs_SL_WITH_COMPLEX
+#define sl_complex_rows(...) sl_complex_rows_needs_SL_WITH_COMPLEX
+#define sl_complex_plan_create(...) sl_complex_plan_create_needs_SL_WITH_COMPLEX
+#define sl_complex_inverse_block(...) sl_complex_inverse_block_needs_SL_WITH_COMPLEX
+#define sl_complex_inverse_pairs(...) sl_complex_inverse_pairs_needs_SL_WITH_COMPLEX
+#define sl_complex_logdet(...) sl_complex_logdet_needs_SL_WITH_COMPLEX
 #endif
 #ifdef __cplusplus
 }

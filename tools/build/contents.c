@@ -1,0 +1,170 @@
+/* contents.c: the lines of the header and its table of contents */
+#include "job.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void emit(job *j, const char *line, size_t length) {
+    static const char *const names[3] = {"MAJOR", "MINOR", "PATCH"};
+    char name[16], value[16];
+    append(&j->body, line, length);
+    j->lines++;
+    if (sscanf(line, "#define SL_VERSION_%15s %15s", name, value) == 2) {
+        for (int k = 0; k < 3; k++) {
+            if (strcmp(name, names[k]) == 0) strcpy(j->version[k], value);
+        }
+    }
+}
+
+/* Follows comments and parentheses over a line of the implementation. */
+static void follow_text(job *j, const char *line, size_t length) {
+    for (size_t k = 0; k < length; k++) {
+        const char c = line[k], next = k + 1 < length ? line[k + 1] : '\n';
+        if (j->is_in_comment) {
+            if (c == '*' && next == '/') j->is_in_comment = 0, k++;
+        } else if (c == '/' && next == '*') {
+            j->is_in_comment = 1, k++;
+        } else if (c == '"' || c == '\'') {
+            for (k++; k < length && line[k] != c; k++)
+                k += line[k] == '\\';
+        } else if (c == '(') {
+            j->n_parentheses++;
+        } else if (c == ')' && j->n_parentheses > 0) {
+            j->n_parentheses--;
+        }
+    }
+}
+
+void emit_from(job *j, const char *path, const char *line, size_t length) {
+    if (j->is_selection && strncmp(line, "#define SL_HEADER ", 18) == 0) {
+        emit_format(j, "#define SL_HEADER \"%s\"\n", j->name);
+        return;
+    }
+    if (strncmp(path, "impl/", 5) == 0) {
+        const size_t blanks = strspn(line, " ");
+        const int continues = j->keeps_comments && (j->is_in_comment || j->n_parentheses > 0);
+        if (!continues || blanks == 0) {
+            j->dropped = blanks / 4 * 2;
+            if (!j->is_in_comment) j->n_parentheses = 0;
+        }
+        const size_t dropped = j->dropped < blanks ? j->dropped : blanks;
+        follow_text(j, line, length);
+        line += dropped;
+        length -= dropped;
+    }
+    emit(j, line, length);
+}
+
+void emit_lines(job *j, const char *lines) {
+    while (*lines) {
+        size_t length = strcspn(lines, "\n") + 1;
+        emit(j, lines, length);
+        lines += length;
+    }
+}
+
+void emit_format(job *j, const char *format, const char *name) {
+    const char *at = strstr(format, "%s");
+    text line = {NULL, 0, 0};
+    append(&line, format, (size_t)(at - format));
+    append_string(&line, name);
+    append_string(&line, at + 2);
+    emit(j, line.bytes, line.length);
+    free(line.bytes);
+}
+
+void enter(job *j, const char *path, const char *line) {
+    if (j->n_entries == ENTRIES_MAX)
+        fail(path, 0, "too many parts for the table of contents", NULL);
+    entry *e = &j->entries[j->n_entries++];
+    copy_path(e->name, path, strlen(path));
+    copy_path(e->condition, j->condition, strlen(j->condition));
+    e->line = j->lines + 1;
+    e->is_guarded = find_guard(line).ifndef != NULL;
+    if (strncmp(line, "/*", 2) == 0) line += 2;
+    size_t end = strcspn(line, "\n");
+    const char *close = strstr(line, "*/");
+    if (close && (size_t)(close - line) < end) end = (size_t)(close - line);
+    const char *colon = *path ? strstr(line, ": ") : NULL;
+    if (colon && (size_t)(colon - line) < end) {
+        end -= (size_t)(colon + 2 - line);
+        line = colon + 2;
+    }
+    while (end > 0 && strchr(" -", *line))
+        line++, end--;
+    while (end > 0 && strchr(" -", line[end - 1]))
+        end--;
+    copy_path(e->title, line, end);
+}
+
+entry *find_entry(job *j, const char *path) {
+    for (size_t k = 0; k < j->n_entries; k++) {
+        if (strcmp(j->entries[k].name, path) == 0) return &j->entries[k];
+    }
+    return NULL;
+}
+
+/* FNV-1a, 64 bits */
+static uint64_t hash(const text *t) {
+    uint64_t h = UINT64_C(0xcbf29ce484222325);
+    for (size_t k = 0; k < t->length; k++)
+        h = (h ^ (unsigned char)t->bytes[k]) * UINT64_C(0x100000001b3);
+    return h;
+}
+
+size_t banner(text *out, const job *j, size_t shift) {
+    char line[2 * PATH_SIZE + CONDITION_SIZE + 64];
+    uint64_t h = hash(&j->body);
+    size_t lines = 0;
+    snprintf(line, sizeof line, "/* %s %s.%s.%s, generated: edit src/, run make header\n", j->name,
+             j->version[0], j->version[1], j->version[2]);
+    append_string(out, line);
+    snprintf(line, sizeof line,
+             " * FNV-1a of the lines after this comment, without the license: %08lx%08lx\n",
+             (unsigned long)(h >> 32), (unsigned long)(h & 0xffffffffu));
+    append_string(out, line);
+    lines += 2;
+    if (j->is_selection) {
+        append_string(out, j->on.count ? " * with: " : " * without packs");
+        append_packs(out, &j->on, &j->known);
+        append_string(out, "\n");
+        lines++;
+    }
+    if (!j->keeps_comments) {
+        append_string(out, " * The comments of the implementation are in src/impl.\n");
+        lines++;
+    }
+    append_string(out, " *\n * Contents\n");
+    lines += 2;
+    size_t column = 0; /* of the last line, if that lists parts of the implementation */
+    for (size_t k = 0; k < j->n_entries; k++) {
+        const entry *e = &j->entries[k];
+        const char *slash = strrchr(e->name, '/'), *base = slash ? slash + 1 : e->name;
+        unsigned long at = (unsigned long)(e->line + shift);
+        if (strncmp(e->name, "impl/", 5) == 0) {
+            size_t width = strlen(base) + 8;
+            size_t is_new = column == 0 || column + width > 100;
+            snprintf(line, sizeof line, "%s%s%6lu %s", is_new && column > 0 ? "\n" : "",
+                     is_new ? " * " : " ", at, base);
+            lines += is_new;
+            column = (is_new ? 2 : column) + width;
+        } else {
+            if (column > 0) append_string(out, "\n");
+            column = 0;
+            lines++;
+            if (*e->name && *e->condition && !j->is_selection)
+                snprintf(line, sizeof line, " * %6lu %-12s %s (%s)\n", at, base, e->title,
+                         e->condition);
+            else if (*e->name)
+                snprintf(line, sizeof line, " * %6lu %-12s %s\n", at, base, e->title);
+            else
+                snprintf(line, sizeof line, " * (%s)\n", e->title);
+        }
+        append_string(out, line);
+    }
+    if (column > 0) append_string(out, "\n");
+    append_string(out, " */\n");
+    return lines + 1;
+}

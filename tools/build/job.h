@@ -1,0 +1,88 @@
+/* job.h: what amalgamate knows while it writes a header, and how it emits lines */
+#ifndef BUILD_JOB_H
+#define BUILD_JOB_H
+
+#include "packs.h"
+#include "part_text.h"
+
+enum { ENTRIES_MAX = 512, SECTIONS_MAX = 32, DEPTH_MAX = 16 };
+
+/* One line of the table of contents. */
+typedef struct entry {
+    /* path of the file, relative to the folder of the manifest; empty for a heading */
+    char name[PATH_SIZE];
+    char title[PATH_SIZE];
+    char condition[CONDITION_SIZE]; /* in words; empty for a file of the core */
+    size_t line;                    /* in the body */
+    int is_guarded;
+} entry;
+
+typedef struct job {
+    char folder[PATH_SIZE]; /* of the manifest, with a trailing slash; "" is the current folder */
+    const char *name;       /* of the header, without its folder */
+    int is_flat;
+    int keeps_comments;
+    int is_in_comment; /* the next line of the implementation begins there, */
+    int n_parentheses; /* or within as many parentheses */
+    size_t dropped;    /* columns of the last line that did not */
+    text body;
+    size_t lines;
+    entry entries[ENTRIES_MAX];
+    size_t n_entries;
+    char sections[SECTIONS_MAX][PATH_SIZE]; /* templates that parts include */
+    size_t n_sections;
+    char batch[SECTIONS_MAX][PATH_SIZE]; /* those of the next self-inclusion, in this order */
+    size_t n_batch;
+    int has_self_inclusion, has_check; /* has_check: outside the blocks of packs */
+    char version[3][16];
+
+    /* Packs. The manifest's blocks of packs do not nest. */
+    pack_set known;
+    int is_selection;               /* the header has the core and the packs `on` only */
+    pack_set on;                    /* those chosen and those that they imply */
+    char condition[CONDITION_SIZE]; /* of the block that is open, in words; empty outside */
+    int is_left_out;                /* the block that is open */
+    text calls;                     /* public functions that it declares, one a line */
+    text heading;                   /* of a selection: emitted if anything follows it */
+} job;
+
+void emit(job *j, const char *line, size_t length);
+
+/* Emits a line of the file `path`; in the implementation, with half of each four columns of its
+ * indentation. If comments are kept, lines that continue a comment or an expression in parentheses
+ * move with its first line, so that they stay aligned. */
+void emit_from(job *j, const char *path, const char *line, size_t length);
+
+void emit_lines(job *j, const char *lines);
+
+/* Emits a line that names a file or a macro. */
+void emit_format(job *j, const char *format, const char *name);
+
+/* Adds a line to the table of contents. `line` is the first line of a file, "/ * name: title * /",
+ * or a heading of the manifest. */
+void enter(job *j, const char *path, const char *line);
+
+entry *find_entry(job *j, const char *path);
+
+/* Appends the comment at the top of the header and returns its number of lines. shift: that number,
+ * which the line numbers in the contents include. Only public parts are listed with their titles.
+ * The titles of the others would be 8 kB; they are in the first lines of the parts. */
+size_t banner(text *out, const job *j, size_t shift);
+
+/* Emits a self-inclusion that selects the sections of the batch. The first one checks SL_HEADER: a
+ * section undefines its macro, so a macro that is still defined was seen by another file. If the
+ * first one is in a block of a pack, so does the first one of the core. */
+void self_include(job *j);
+
+/* Adds a template to the batch. Sections are compiled in the order in which they are in OUT: one
+ * that comes before the last of the batch begins another batch. */
+void add_to_batch(job *j, const char *path);
+
+/* Emits the templates, each in a section of its own. The file that is found by SL_HEADER may be
+ * another version of the header, which would be noticed late or never. */
+void emit_sections(job *j);
+
+/* Emits a file line by line. Depth 0 is the manifest, whose first line the banner replaces. */
+void expand(job *j, const char *path, int depth);
+
+#endif
