@@ -1,112 +1,111 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c8a8de892b98f669
+ * FNV-1a of the lines after this comment, without the license: 1d10996a94c41cbe
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *    114 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    183 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    216 config.h     macros that a user may define before the include, the version, and the integer types
- *    295 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    465 options.h    options of all calls, threads, and the allocator
- *    607 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    804 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    976 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1119 factor.h     the numerical factorization P A P' = L D L'
- *   1408 solve.h      full solves, and the workspace of all solves
- *   1521 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1616 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1729 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1855 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1991 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   2111 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2238 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2288 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2479 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
- *   2618 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
- *   2754 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2847 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2999 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   3054 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   3157 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *    113 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    182 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    215 config.h     macros that a user may define before the include, the version, and the integer types
+ *    293 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    463 options.h    options of all calls, threads, and the allocator
+ *    603 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    800 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1110 factor.h     the numerical factorization P A P' = L D L'
+ *   1399 solve.h      full solves, and the workspace of all solves
+ *   1512 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1607 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1720 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1846 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1982 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   2102 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2229 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2279 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2470 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
+ *   2609 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
+ *   2745 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2838 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2990 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   3045 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   3148 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3307 base.h   3603 status.h   3664 options.h   3723 alloc.h   3886 hash.h   4016 sort.h
- *   4081 parallel.h
+ *   3298 base.h   3594 status.h   3655 options.h   3716 alloc.h   3879 hash.h   4009 sort.h
+ *   4074 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4271 panel.h   4296 step.h   4375 pivot_rule.h   4449 front.h   4509 pairs.h   4716 table.h
- *   4732 simd.h   4835 simd_scalar.h   4862 simd_avx2.h   4929 simd_avx512.h   4961 simd_neon.h
- *   4991 dispatch.h
+ *   4264 panel.h   4289 step.h   4368 pivot_rule.h   4442 front.h   4502 pairs.h   4709 table.h
+ *   4725 simd.h   4828 simd_scalar.h   4855 simd_avx2.h   4922 simd_avx512.h   4954 simd_neon.h
+ *   4984 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5105 csc.h   5248 csc_build.h   5382 csc_triangle.h   5447 csc_products.h   5564 permute.h
+ *   5098 csc.h   5241 csc_build.h   5375 csc_triangle.h   5440 csc_products.h   5557 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5631 graph.h   5750 contract.h   5931 coarsen.h   6145 labels.h   6371 subgraph.h   6565 heap.h
- *   6627 bisect.h   6835 separator.h   7097 mindeg.h   7280 dissection.h   7390 weigh.h
- *   7457 dissect.h   7754 tree_cost.h   7817 levelset.h   7902 geometric.h   8077 cells.h
- *   8257 septree.h   8333 metis.h   8482 metis_refined.h   8597 thin.h   8851 nd.h
- *   9068 compress.h   9220 levels.h   9273 border.h   9326 forest.h   9413 peel.h   9613 quotient.h
- *   9947 quotient_order.h  10041 graph_kind.h  10130 order.h
+ *   5624 graph.h   5743 contract.h   5924 coarsen.h   6138 labels.h   6364 subgraph.h   6558 heap.h
+ *   6620 bisect.h   6828 separator.h   7090 mindeg.h   7273 dissection.h   7382 weigh.h
+ *   7449 dissect.h   7739 tree_cost.h   7793 levelset.h   7878 septree.h   7954 metis.h
+ *   8050 thin.h   8319 nd.h   8516 compress.h   8666 levels.h   8719 border.h   8772 forest.h
+ *   8859 peel.h   9059 quotient.h   9393 quotient_order.h   9487 graph_kind.h   9576 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *  10458 symbolic_types.h  10501 etree.h  10698 supernodes.h  10956 pattern.h  11037 structure.h
- *  11208 schedule.h  11539 symbolic.h  12015 reach.h
+ *   9877 symbolic_types.h   9920 etree.h  10117 supernodes.h  10375 pattern.h  10456 structure.h
+ *  10627 schedule.h  10958 symbolic.h  11434 reach.h
  * (factor: the numbers of L and D)
- *  12291 factor_types.h  12481 storage_type.h  12546 panel_load.h  12587 pivot_check.h
- *  12691 null_product.h  12895 null_dense.h  12972 null_basis.h  13292 null_vectors.h
- *  13419 multifrontal.h  13562 uplooking.h  13636 front_tasks.h  13950 null_center.h
- *  14074 nullspace.h  14281 growth.h  14359 factor_setup.h  14695 factor.h  14910 factor_query.h
+ *  11710 factor_types.h  11900 storage_type.h  11965 panel_load.h  12006 pivot_check.h
+ *  12110 null_product.h  12314 null_dense.h  12391 null_basis.h  12711 null_vectors.h
+ *  12838 multifrontal.h  12981 uplooking.h  13055 front_tasks.h  13369 null_center.h
+ *  13493 nullspace.h  13700 growth.h  13778 factor_setup.h  14114 factor.h  14329 factor_query.h
  * (solve: full and local solves)
- *  15046 work.h  15146 query.h  15385 singular.h  15645 backward.h  15675 sweep_tasks.h
- *  16006 sweep.h  16206 compile.h  16341 plan.h  16443 local.h
+ *  14465 work.h  14565 query.h  14804 singular.h  15064 backward.h  15094 sweep_tasks.h
+ *  15425 sweep.h  15625 compile.h  15760 plan.h  15862 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  16597 parts.h  16886 refine.h  17065 refine_local.h  17281 rcond.h  17440 defects.h
+ *  16016 parts.h  16305 refine.h  16484 refine_local.h  16700 rcond.h  16859 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  17501 pivot_search.h  17847 pivoted.h
+ *  16920 pivot_search.h  17266 pivoted.h
  * (float: L and fronts in single precision)
- *  17919 simd_scalar_single.h  17950 simd_avx2_single.h  18007 simd_avx512_single.h
- *  18062 simd_neon_single.h  18107 float_kernels.h  18205 float_storage.h
+ *  17338 simd_scalar_single.h  17369 simd_avx2_single.h  17426 simd_avx512_single.h
+ *  17481 simd_neon_single.h  17526 float_kernels.h  17624 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  18370 inverse_front.h  18442 inverse_kernels.h  18514 traversal.h  18768 traversal_run.h
- *  18977 row_sets.h  19011 unit_vectors.h  19232 bilinear.h  19404 entries.h  19681 block.h
- *  19916 reserve.h  20108 selected.h  20318 selected_query.h  20420 region_types.h
- *  20520 region_choose.h  20747 region_ending.h  20863 region.h
+ *  17789 inverse_front.h  17861 inverse_kernels.h  17933 traversal.h  18187 traversal_run.h
+ *  18396 row_sets.h  18430 unit_vectors.h  18651 bilinear.h  18823 entries.h  19100 block.h
+ *  19335 reserve.h  19527 selected.h  19737 selected_query.h  19839 region_types.h
+ *  19939 region_choose.h  20166 region_ending.h  20282 region.h
  * (change: a factor that follows changes of its matrix)
- *  21114 change_kernels.h  21187 gather.h  21235 kept.h  21392 leftlooking.h  21561 update_pivots.h
- *  21732 update.h  21966 path.h  22068 rank.h  22460 edges.h  22614 choose.h  22864 pins_types.h
- *  22930 pins_nulls.h  23111 pins_capacitance.h  23377 pins_rows.h  23497 pins_balance.h
- *  23659 pins_held.h  23887 pins_choose.h  23953 pins_rebuild.h  24176 pins_matrix.h  24327 pins.h
- *  24589 pins_solve.h  24864 subset.h  25017 restrict_kept.h  25215 restrict_analysis.h
- *  25460 restrict_symbolic.h  25655 restrict.h  25886 edit_match.h  26085 edit_place.h
- *  26334 edit_separate.h  26648 edit_order.h  26803 edit_graph.h  26885 edit_join.h  27161 edit.h
- *  27324 edit_factor.h
+ *  20533 change_kernels.h  20606 gather.h  20654 kept.h  20811 leftlooking.h  20980 update_pivots.h
+ *  21151 update.h  21385 path.h  21487 rank.h  21879 edges.h  22033 choose.h  22283 pins_types.h
+ *  22349 pins_nulls.h  22530 pins_capacitance.h  22796 pins_rows.h  22916 pins_balance.h
+ *  23078 pins_held.h  23306 pins_choose.h  23372 pins_rebuild.h  23595 pins_matrix.h  23746 pins.h
+ *  24008 pins_solve.h  24283 subset.h  24436 restrict_kept.h  24634 restrict_analysis.h
+ *  24879 restrict_symbolic.h  25074 restrict.h  25305 edit_match.h  25504 edit_place.h
+ *  25753 edit_separate.h  26067 edit_order.h  26222 edit_graph.h  26304 edit_join.h  26580 edit.h
+ *  26743 edit_factor.h
  * (io: files that are written and mapped)
- *  27612 output_file.h  27821 file_map.h
+ *  27031 output_file.h  27240 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  27922 csc64.h  27993 text_reader.h  28174 matrix_market.h
+ *  27341 csc64.h  27412 text_reader.h  27593 matrix_market.h
  * (save: factors in files)
- *  28444 format.h  28741 decode.h  28889 check.h  29219 write.h  29527 load.h  29796 load_inverse.h
- *  30126 load_calls.h
+ *  27863 format.h  28160 decode.h  28308 check.h  28638 write.h  28946 load.h  29215 load_inverse.h
+ *  29545 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  30329 matrix_sum.h  30411 scatter.h  30569 combination.h  30629 batch_solve.h
- *  30837 batch_factor.h
+ *  29748 matrix_sum.h  29830 scatter.h  29988 combination.h  30048 batch_solve.h
+ *  30256 batch_factor.h
  * (batch: diagonals of many inverses)
- *  31041 batch_diagonal.h
+ *  30460 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  31183 complex_kernels.h  31295 complex_storage.h  31416 hermitian.h  31578 complex_rows.h
+ *  30602 complex_kernels.h  30714 complex_storage.h  30835 hermitian.h  30997 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  31747 storage_types.h
+ *  31166 storage_types.h
  * (last: undefine every internal macro)
- *  31774 undef.h
+ *  31193 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  32084 words_scalar.inl.h  32180 change.inl.h  32436 lanes_scalar.inl.h  32468 products.inl.h
- *  32506 inverse_front.inl.h  32811 inverse_set.inl.h  32824 front.inl.h  32826 product.inl.h
- *  33314 complex_groups.inl.h  33405 copy_rows.inl.h  33443 sweeps.inl.h  33445 unit_triangle.inl.h
- *  33482 two_rhs.inl.h  33652 small_supernode.inl.h  33854 single_rhs.inl.h  34094 multi_rhs.inl.h
- *  34157 multi_rhs_small.inl.h  34336 multi_rhs_tiles.inl.h  34575 complex_small.inl.h
- *  34771 complex_rows.inl.h  34994 complex_set.inl.h  35012 float_set.inl.h  35030 kernel_set.inl.h
- *  35032 row.inl.h  35064 interleave.inl.h  35166 lanes_undef.inl.h  35193 words_undef.inl.h
- *  35276 words_avx2.inl.h  35408 lanes_avx2.inl.h  35470 words_avx512.inl.h
- *  35579 lanes_avx512.inl.h  35626 words_neon.inl.h  35775 lanes_neon.inl.h  35854 fronts.inl.h
- *  36085 fronts_undef.inl.h
+ *  31491 words_scalar.inl.h  31587 change.inl.h  31843 lanes_scalar.inl.h  31875 products.inl.h
+ *  31913 inverse_front.inl.h  32218 inverse_set.inl.h  32231 front.inl.h  32233 product.inl.h
+ *  32721 complex_groups.inl.h  32812 copy_rows.inl.h  32850 sweeps.inl.h  32852 unit_triangle.inl.h
+ *  32889 two_rhs.inl.h  33059 small_supernode.inl.h  33261 single_rhs.inl.h  33501 multi_rhs.inl.h
+ *  33564 multi_rhs_small.inl.h  33743 multi_rhs_tiles.inl.h  33982 complex_small.inl.h
+ *  34178 complex_rows.inl.h  34401 complex_set.inl.h  34419 float_set.inl.h  34437 kernel_set.inl.h
+ *  34439 row.inl.h  34471 interleave.inl.h  34573 lanes_undef.inl.h  34600 words_undef.inl.h
+ *  34683 words_avx2.inl.h  34815 lanes_avx2.inl.h  34877 words_avx512.inl.h
+ *  34986 lanes_avx512.inl.h  35033 words_neon.inl.h  35182 lanes_neon.inl.h  35261 fronts.inl.h
+ *  35492 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -223,8 +222,7 @@
  *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include, which
  *                                then compiles the library.
  *  SL_STATIC                     makes everything static: a private copy in one source file.
- *  SL_METIS                      adds SL_ORDERING_METIS and SL_ORDERING_METIS_REFINED: needs
- *                                <metis.h> and -lmetis.
+ *  SL_METIS                      adds SL_ORDERING_METIS: needs <metis.h> and -lmetis.
  *  SL_NO_METIS                   overrides SL_METIS.
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.
@@ -362,14 +360,14 @@ typedef enum sl_reading {
     SL_AS_STORED         /* as a general matrix: every entry counts once, where it is */
 } sl_reading;
 
-/** Fill-reducing orderings. Rows with equal neighborhoods are ordered as one. */
+/** Fill-reducing orderings. Rows with equal neighborhoods are ordered as one. 2 is no ordering: its
+ *  number is not used again, so that programs compiled with an earlier header get an error. */
 typedef enum sl_ordering {
-    SL_ORDERING_ND = 0,        /* nested dissection by this header; needs no library */
-    SL_ORDERING_METIS,         /* METIS_NodeND on every connected component [KK98] */
-    SL_ORDERING_METIS_REFINED, /* METIS's separators, improved: the best order, in twice its time */
-    SL_ORDERING_GIVEN,         /* options.perm, or equivalent: see sl_symbolic_create */
-    SL_ORDERING_NATURAL,       /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
-    SL_ORDERING_MINDEG         /* approximate minimum degree, the quickest [ADD96] */
+    SL_ORDERING_ND = 0,      /* nested dissection by this header; needs no library */
+    SL_ORDERING_METIS = 1,   /* METIS_NodeND on every connected component [KK98] */
+    SL_ORDERING_GIVEN = 3,   /* options.perm, or equivalent: see sl_symbolic_create */
+    SL_ORDERING_NATURAL = 4, /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
+    SL_ORDERING_MINDEG = 5   /* approximate minimum degree, the quickest [ADD96] */
 } sl_ordering;
 
 /** What the analysis is for. */
@@ -525,11 +523,9 @@ typedef struct sl_options {
     /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
      * numbering and debug level are ignored */
     const sl_int *metis_options;
-    /* n / block_size x dimensions, row-major: the position of each row in space, for
-     * SL_ORDERING_ND, which halves space in flat grids with diagonals, in half the time, and in
-     * volumes; other meshes are ordered as without; NULL: unknown */
-    const double *coordinates;
-    sl_int dimensions; /* of coordinates: 2 or 3 */
+    /* must be NULL and 0: their place is kept, so that the other fields stay where they are */
+    const void *reserved_pointer;
+    sl_int reserved_int;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;
@@ -995,10 +991,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  degree are in one dense block, and on KKT systems with a diagonal Hessian and paths as short as
  *  those of plane meshes.
  *
- *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
- *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
- *  are left. Paths in a tree or a chain of n rows then have O(log n) columns, and with minimum
- *  degree a tree has no fill.
+ *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND and SL_ORDERING_MINDEG
+ *  eliminate such rows first. This repeats while rows with at most two neighbors are left. Paths in
+ *  a tree or a chain of n rows then have O(log n) columns, and with minimum degree a tree has no
+ *  fill.
  *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
@@ -1008,29 +1004,25 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates are used
- *                by SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
- *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
+ *                block_size, purpose; may be NULL. block_size is used by all but
+ *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), an unknown ordering, purpose, relaxation or triangle,
- *           metis_options that METIS would refuse, a block_size that does not divide n, dimensions
- *           other than 2 or 3;
- *           SL_ERR_NOT_FINITE: a coordinate (error.row is the first row of its block);
+ *           metis_options that METIS would refuse, a block_size that does not divide n;
  *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
- *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
- *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A, with
- *           the same result for any number of them. The call is one call of the pool; any of its
- *           threads may call the allocator, one at a time. Small systems use fewer threads.
- *           Any number of calls at once, with the same result for the same pattern however it is
- *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
- *           draws from rand() of the C library and prints a line if it runs out of memory. During
- *           SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process; during
- *           SL_ORDERING_METIS_REFINED it raises SIGABRT if it runs out of memory. Concurrent calls
- *           with METIS are safe only if rand() is, and may then order differently from run to run.
+ *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and, except with
+ *           SL_ORDERING_METIS, the entries of A, with the same result for any number of them. The
+ *           call is one call of the pool; any of its threads may call the allocator, one at a time.
+ *           Small systems use fewer threads. Any number of calls at once, with the same result for
+ *           the same pattern however it is stored, on every processor and with every compiler,
+ *           except with METIS: METIS seeds and draws from rand() of the C library and prints a line
+ *           if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the
+ *           whole process. Concurrent calls with METIS are safe only if rand() is, and may then
+ *           order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
@@ -1087,12 +1079,11 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree. With other orderings,
- *  with minimum degree, if rows with few neighbors were eliminated first, and if a constraint was
- *  moved, n_nodes = 0 and the arrays are NULL. A node
- *  is a separator, or a subgraph that was not divided further. An entry of A joins two nodes only
- *  if one is an ancestor of the other. Nodes are numbered in elimination order, so that a separator
- *  follows the subgraphs that it separates.
+ *  SL_ORDERING_ND keeps its separator tree. With other orderings, with minimum degree, if rows with
+ *  few neighbors were eliminated first, and if a constraint was moved, n_nodes = 0 and the arrays
+ *  are NULL. A node is a separator, or a subgraph that was not divided further. An entry of A joins
+ *  two nodes only if one is an ancestor of the other. Nodes are numbered in elimination order, so
+ *  that a separator follows the subgraphs that it separates.
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;
@@ -3683,8 +3674,7 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 #if defined(SL_VERIFY)
 static int sli_options_set(const sl_options *opt) {
   const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
-             opt->metis_options != NULL || opt->coordinates != NULL ||
-             opt->dimensions != 0 || opt->block_size != 0 || opt->purpose != 0;
+             opt->metis_options != NULL || opt->block_size != 0 || opt->purpose != 0;
   const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
              opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
              opt->regularization != 0.0 || opt->signs != NULL ||
@@ -3700,6 +3690,9 @@ static int sli_options_set(const sl_options *opt) {
 
 SLI_NOINLINE static int sli_options_hold(const sl_options *opt, int reads) {
   size_t k;
+  if (opt->reserved_pointer != NULL || opt->reserved_int != 0) {
+    return 0;
+  }
   for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
     if (opt->reserved[k] != NULL) {
       return 0;
@@ -6315,7 +6308,7 @@ static int sli_borders_take(sli_borders *l) {
   sli_lock(&p->lock);
   chunk = p->failed ? 0 : sli_border_chunk(p->count, &first);
   if (!p->failed && chunk == SLI_BORDERS_CHUNKS) { /* untested: 2^31 */
-    p->failed = 1; /* untested: the same */
+    p->failed = 1;                               /* untested: the same */
   }
   if (!p->failed && p->chunk[chunk] == NULL) {
     p->chunk[chunk] = (sli_border *)sli_alloc(p->a, ((size_t)SLI_BORDERS_FIRST << chunk) *
@@ -7348,9 +7341,8 @@ static sl_int *sli_dissect_by_label(const sli_dissection *d, sl_int item) {
 static void sli_dissect_loop(sli_dissection *d, sl_int n_labels, sli_range_body *body) {
   const sl_int n = d->levels[d->level].n;
   d->n_labels = n_labels;
-  d->n_ranges = SLI_SHARES * (int64_t)d->n_labels <= d->ranges.room
-            ? sli_shares_count(d->team, n)
-            : 1;
+  d->n_ranges =
+    SLI_SHARES * (int64_t)d->n_labels <= d->ranges.room ? sli_shares_count(d->team, n) : 1;
   sli_range_run(d->team, n, d->n_ranges, body, d);
 }
 
@@ -7457,7 +7449,6 @@ static void sli_weigh_edges(sli_dissection *d) {
 /* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
 
 #define SLI_DISSECT_LEAF 160
-#define SLI_DISSECT_LEAF_REFINED 140
 #define SLI_DISSECT_BISECT_MIN 70
 #define SLI_DISSECT_BISECT_MIN_VOLUME 200
 #define SLI_DISSECT_SHRINK 10
@@ -7477,10 +7468,7 @@ static void sli_weigh_edges(sli_dissection *d) {
 
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
   const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
-  sli_subgraph_bisect(sub,
-            few           ? SLI_DISSECT_TRIES_FIRST
-            : sub->n > 50 ? SLI_DISSECT_TRIES
-                    : 1);
+  sli_subgraph_bisect(sub, few ? SLI_DISSECT_TRIES_FIRST : sub->n > 50 ? SLI_DISSECT_TRIES : 1);
 }
 
 static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
@@ -7656,7 +7644,7 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
   return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
 }
 
-static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
+static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
   const sl_int n = d->levels[0].n;
   int shrunk = 1, has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
   sl_status status = SL_OK;
@@ -7677,16 +7665,13 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
     }
     if (last == 1) {
       d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
-      d->may_be_seven_point =
-        !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-        sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
+      d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
+                  sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
     }
     most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
     if (*working == -1 && last > 0 && g->n <= most) {
       *working = last;
-      if (weigh) {
-        sli_weigh_edges(d);
-      }
+      sli_weigh_edges(d);
     }
     if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
       break;
@@ -7710,9 +7695,9 @@ static void sli_dissect_free_levels(sli_dissection *d) {
   d->n_levels = 1;
 }
 
-static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
+static sl_status sli_dissect_levels(sli_dissection *d) {
   int working;
-  const sl_status status = sli_dissect_coarsen(d, weigh, &working);
+  const sl_status status = sli_dissect_coarsen(d, &working);
   if (status != SL_OK) {
     return status;
   }
@@ -7743,7 +7728,7 @@ static void sli_dissect_swap(sli_dissection *d) {
 static sl_status sli_dissect_multilevel(sli_dissection *d) {
   sl_status status;
   d->n_levels = 1;
-  status = sli_dissect_levels(d, 1);
+  status = sli_dissect_levels(d);
   while (status == SL_OK && d->level > 0) {
     sli_dissect_project(d);
   }
@@ -7761,13 +7746,6 @@ SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
   c->low += (a & 0xffffffffu) * b;
   c->high += (a >> 32) * b + (c->low >> 32);
   c->low &= 0xffffffffu;
-}
-
-SLI_INLINE sli_tree_cost sli_tree_cost_times(sli_tree_cost c, uint64_t factor) {
-  c.low *= factor;
-  c.high = c.high * factor + (c.low >> 32);
-  c.low &= 0xffffffffu;
-  return c;
 }
 
 SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
@@ -7794,12 +7772,11 @@ static void sli_tree_cost_count(void *data, const sli_range *r) {
   }
 }
 
-static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
+static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
   sl_int k, item;
   sli_tree_cost cost = {0, 0};
   SLI_ASSERT(d->level == 0);
   sli_dissect_loop(d, d->tree.count, sli_tree_cost_count);
-  *flat = cost;
   for (k = 0; k < d->tree.count; k++) {
     const uint64_t weight = (uint64_t)d->tree.weight[k];
     uint64_t across = 0;
@@ -7808,7 +7785,6 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
     }
     if (!sli_label_tree_is_leaf(&d->tree, k)) {
       sli_tree_cost_add(&cost, weight * across, across);
-      sli_tree_cost_add(flat, weight, weight);
     }
   }
   return cost;
@@ -7883,375 +7859,20 @@ static void sli_dissect_levelset(sli_dissection *d) {
 }
 
 static sl_status sli_dissect_graph(sli_dissection *d) {
-  sli_tree_cost multilevel, flat;
+  sli_tree_cost multilevel;
   const sl_status status = sli_dissect_multilevel(d);
   if (status != SL_OK || !d->may_be_seven_point) {
     return status;
   }
-  multilevel = sli_dissect_cost(d, &flat);
+  multilevel = sli_dissect_cost(d);
   sli_dissect_swap(d);
   sli_dissect_levelset(d);
-  if (sli_tree_cost_is_less(sli_dissect_cost(d, &flat), multilevel)) {
+  if (sli_tree_cost_is_less(sli_dissect_cost(d), multilevel)) {
     d->band_growth = 0;
   } else {
     sli_dissect_swap(d);
   }
   return SL_OK;
-}
-
-/* src/impl/ordering/geometric.h: nested dissection by coordinates, used where its estimated cost is lower */
-
-typedef struct sli_points {
-  const double *xyz;
-  sl_int dimensions;
-  const sl_int *row;
-  double unit;
-} sli_points;
-
-SLI_INLINE double sli_points_unit(const double *xyz, size_t count) {
-  double largest = 0.0;
-  int exponent;
-  size_t k;
-  for (k = 0; k < count; k++) {
-    largest = fabs(xyz[k]) > largest ? fabs(xyz[k]) : largest;
-  }
-  (void)frexp(largest, &exponent);
-  return ldexp(1.0, exponent > 60 - DBL_MAX_EXP ? 60 - exponent : DBL_MAX_EXP - 1);
-}
-
-static const signed char sli_directions[9][3] = {{1, 0, 0},  {0, 1, 0}, {1, 1, 0},
-                         {1, -1, 0}, {0, 0, 1}, {1, 0, 1},
-                         {1, 0, -1}, {0, 1, 1}, {0, 1, -1}};
-
-#define SLI_POINTS_MANY 16384
-#define SLI_POINTS_TRIED 512
-#define SLI_POINTS_FEW 128
-
-SLI_INLINE int64_t sli_point_along(const sli_points *p, sl_int v, int direction) {
-  const double *x = p->xyz + (size_t)p->row[v] * (size_t)p->dimensions;
-  const signed char *along = sli_directions[direction];
-  return along[0] * (int64_t)(x[0] * p->unit) + along[1] * (int64_t)(x[1] * p->unit) +
-       (p->dimensions == 3 ? along[2] * (int64_t)(x[2] * p->unit) : 0);
-}
-
-static int sli_points_axis(const sli_points *p, const sl_int *vertices, sl_int count,
-               int64_t *spread) {
-  static const int sli_axes[3] = {0, 1, 4};
-  const sl_int step = count / SLI_POINTS_FEW + 1;
-  sl_int axis, k;
-  int best = 0;
-  *spread = -1;
-  for (axis = 0; axis < p->dimensions; axis++) {
-    int64_t low = sli_point_along(p, vertices[0], sli_axes[axis]), high = low;
-    for (k = step; k < count; k = k < count - step ? k + step : count) {
-      const int64_t x = sli_point_along(p, vertices[k], sli_axes[axis]);
-      low = x < low ? x : low;
-      high = x > high ? x : high;
-    }
-    if (high - low > *spread) {
-      *spread = high - low;
-      best = sli_axes[axis];
-    }
-  }
-  return best;
-}
-
-typedef struct sli_projection {
-  int64_t x;
-  sl_int v;
-} sli_projection;
-
-SLI_INLINE int sli_projection_is_less(const sli_projection *a, const sli_projection *b) {
-  return a->x < b->x || (a->x == b->x && a->v < b->v);
-}
-
-static void sli_projection_halve(sli_projection *a, sl_int count) {
-  sl_int low = 0, high = count - 1;
-  const sl_int half = count / 2;
-  uint32_t turn = 1;
-  while (low < high) {
-    const uint32_t span = (uint32_t)(high - low) + 1u;
-    const sli_projection pivot = a[low + (sl_int)(sli_hash32(turn++) % span)];
-    sl_int i = low, j = high;
-    while (i <= j) {
-      while (sli_projection_is_less(&a[i], &pivot)) {
-        i++;
-      }
-      while (sli_projection_is_less(&pivot, &a[j])) {
-        j--;
-      }
-      if (i <= j) {
-        const sli_projection keep = a[i];
-        a[i++] = a[j];
-        a[j--] = keep;
-      }
-    }
-    if (half <= j) {
-      high = j;
-    } else if (half >= i) {
-      low = i;
-    } else {
-      break;
-    }
-  }
-}
-
-static int sli_points_direction(const sli_points *p, const sl_int *vertices, sl_int count,
-                sli_projection *projections) {
-  int64_t spread;
-  const int axis = sli_points_axis(p, vertices, count, &spread);
-  int direction, best = axis;
-  const int directions = p->dimensions == 3 ? 9 : 4;
-  sl_int fewest = INT32_MAX, k;
-  if (count < SLI_POINTS_MANY) {
-    return best;
-  }
-  for (direction = 0; direction < directions; direction++) {
-    const int is_diagonal = direction == 2 || direction == 3 || direction > 4;
-    const int64_t close = spread / 1000 * (is_diagonal ? 141 : 100);
-    int64_t middle;
-    sl_int n_close = 0;
-    for (k = 0; k < SLI_POINTS_TRIED; k++) {
-      const sl_int v = vertices[(int64_t)k * count / SLI_POINTS_TRIED];
-      projections[k].x = sli_point_along(p, v, direction);
-      projections[k].v = v;
-    }
-    sli_projection_halve(projections, SLI_POINTS_TRIED);
-    middle = projections[SLI_POINTS_TRIED / 2].x;
-    for (k = 0; k < SLI_POINTS_TRIED; k++) {
-      const int64_t away = projections[k].x - middle;
-      n_close += (away < 0 ? -away : away) < close;
-    }
-    n_close += direction == axis ? 0 : n_close / 3;
-    if (n_close < fewest) {
-      fewest = n_close;
-      best = direction;
-    }
-  }
-  return best;
-}
-
-static void sli_points_sort(const sli_points *points, sl_int *vertices, sl_int count, sl_int small,
-              sli_projection *projections) {
-  while (count > small) {
-    const int direction = sli_points_direction(points, vertices, count, projections);
-    sl_int k;
-    for (k = 0; k < count; k++) {
-      projections[k].x = sli_point_along(points, vertices[k], direction);
-      projections[k].v = vertices[k];
-    }
-    sli_projection_halve(projections, count);
-    for (k = 0; k < count; k++) {
-      vertices[k] = projections[k].v;
-    }
-    sli_points_sort(points, vertices, count / 2, small, projections);
-    vertices += count / 2;
-    count -= count / 2;
-  }
-}
-
-static void sli_dissect_points(sli_dissection *d, const sl_int *sorted, sl_int leaf) {
-  const sl_int n = d->levels[0].n;
-  sl_int *begin = d->begin, *end = d->nodes, node, k;
-  d->level = 0;
-  sli_dissect_start(d);
-  begin[0] = 0;
-  end[0] = n;
-  for (node = 0; node < d->tree.count; node++) {
-    const sl_int first = begin[node], count = end[node] - first;
-    d->tree.weight[node] = count;
-    if (count <= leaf) {
-      for (k = first; k < end[node]; k++) {
-        d->label[sorted[k]] = node;
-      }
-      continue;
-    }
-    sli_label_tree_split(&d->tree, node);
-    begin[d->tree.left[node]] = first;
-    end[d->tree.left[node]] = begin[d->tree.right[node]] = first + count / 2;
-    end[d->tree.right[node]] = first + count;
-  }
-  sli_label_tree_number(&d->tree, n, d->label);
-}
-
-/* src/impl/ordering/cells.h: are halves of space as good subgraphs as any? decided in a coarse graph of cells */
-
-#define SLI_CELLS 1024
-#define SLI_CELL_LEAST 64
-#define SLI_CELLS_DEPTH 3
-
-#define SLI_CELLS_SHARE 4
-
-#define SLI_CELLS_AS_GOOD 105
-
-#define SLI_CELLS_FLAT 110
-
-#define SLI_LATTICE_SHARE 75
-#define SLI_LATTICE_DEGREE 6
-#define SLI_LATTICE_DEGREES 32
-
-static int sli_is_lattice(const sli_level *g, sl_off least) {
-  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
-  for (v = 0; v < g->n; v++) {
-    const sl_off degree = g->begin[v + 1] - g->begin[v];
-    if (degree >= least && degree < SLI_LATTICE_DEGREES) {
-      count[degree]++;
-      most = sli_max(most, count[degree]);
-    }
-  }
-  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
-}
-
-static sl_int sli_cells_find(const sli_level *g, const sl_int *sorted, sl_int most, sl_int *cell,
-               sli_clusters *parts) {
-  sl_int end[SLI_LEVELS_MAX], depth = 1, first = 0, k, count = 0, head = 0, tail = 0;
-  sl_off e;
-  end[0] = g->n;
-  while (depth > 0) {
-    const sl_int size = end[depth - 1] - first;
-    if (size > most) {
-      end[depth++] = first + size / 2;
-      continue;
-    }
-    for (k = first; k < first + size; k++) {
-      cell[sorted[k]] = first;
-      g->coarse[sorted[k]] = -1;
-    }
-    first = end[--depth];
-  }
-  for (k = 0; k < g->n; k++) {
-    if (g->coarse[sorted[k]] != -1) {
-      continue;
-    }
-    parts->start[count] = tail;
-    g->coarse[sorted[k]] = count;
-    parts->member[tail++] = sorted[k];
-    for (; head < tail; head++) {
-      const sl_int v = parts->member[head];
-      for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-        const sl_int u = g->to[e];
-        if (g->coarse[u] == -1 && cell[u] == cell[v]) {
-          g->coarse[u] = count;
-          parts->member[tail++] = u;
-        }
-      }
-    }
-    count++;
-  }
-  parts->start[count] = tail;
-  return count;
-}
-
-static sli_tree_cost sli_cells_cost(sli_dissection *d, const sl_int *label, sli_tree_cost *flat) {
-  const sli_level *g = &d->levels[1];
-  const sl_int n = d->levels[0].n;
-  const sl_off edges = d->levels[0].begin[n] / 2;
-  const uint64_t across = (uint64_t)(edges - n);
-  sli_tree_cost cost = {0, 0};
-  sl_int *cut = d->nodes, k;
-  sl_off e;
-  memset(cut, 0, (size_t)d->tree.count * sizeof(sl_int));
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      if (label[k] < label[g->to[e]]) {
-        cut[sli_label_tree_lca(&d->tree, label[k], label[g->to[e]])] += g->edge[e];
-      }
-    }
-  }
-  *flat = cost;
-  for (k = 0; k < d->tree.count; k++) {
-    const uint64_t weight = (uint64_t)d->tree.weight[k];
-    const uint64_t border = (uint64_t)cut[k] * (uint64_t)n / across;
-    if (!sli_label_tree_is_leaf(&d->tree, k)) {
-      sli_tree_cost_add(&cost, weight * border, border);
-      sli_tree_cost_add(flat, weight, weight);
-    }
-  }
-  return cost;
-}
-
-static sl_status sli_cells_compare(sli_dissection *d, const sl_int *sorted, int *is_good) {
-  const sl_int n = d->levels[0].n, leaf = d->leaf_size;
-  sl_int k, top = n;
-  sli_tree_cost halves, graph, flat;
-  sl_status status;
-  for (k = 0; k < SLI_CELLS_DEPTH && top > leaf; k++) {
-    top = top / 2 + 1;
-  }
-  sli_dissect_points(d, sorted, top);
-  for (k = 0; k < n; k++) {
-    d->other[d->levels[0].coarse[k]] = d->label[k];
-  }
-  halves = sli_cells_cost(d, d->other, &flat);
-  *is_good = !sli_tree_cost_is_less(sli_tree_cost_times(flat, SLI_CELLS_FLAT),
-                    sli_tree_cost_times(halves, 100));
-  if (!*is_good) {
-    return SL_OK;
-  }
-  d->leaf_size = top;
-  status = sli_dissect_levels(d, 0);
-  d->leaf_size = leaf;
-  if (status == SL_OK) {
-    graph = sli_cells_cost(d, d->label, &flat);
-    *is_good = !sli_tree_cost_is_less(sli_tree_cost_times(graph, SLI_CELLS_AS_GOOD),
-                      sli_tree_cost_times(halves, 100));
-  }
-  return status;
-}
-
-static sl_status sli_dissect_try_points(sli_dissection *d, const sl_int *sorted, sl_int cell,
-                    int *is_good) {
-  const sli_level *g = &d->levels[0];
-  sli_clusters parts;
-  sl_int count;
-  sl_status status;
-  parts.member = d->other;
-  parts.start = d->begin;
-  *is_good = 0;
-  count = sli_cells_find(g, sorted, cell, d->label, &parts);
-  if (count > g->n / SLI_CELLS_SHARE) {
-    return SL_OK;
-  }
-  status = sli_coarsen_clusters(g, count, &parts, &d->levels[1], &d->ranges, d->a);
-  if (status == SL_OK) {
-    d->n_levels = 2;
-    status = sli_cells_compare(d, sorted, is_good);
-    sli_dissect_free_levels(d);
-  }
-  return status;
-}
-
-static sl_status sli_dissect_geometric(sli_dissection *d, const sli_points *points,
-                     sli_projection *projections) {
-  const sl_int n = d->levels[0].n, cell = sli_max(SLI_CELL_LEAST, n / SLI_CELLS);
-  sl_int *sorted = (sl_int *)(void *)projections, k;
-  sli_tree_cost graph, flat;
-  sl_status status;
-  int is_good;
-  if (!sli_is_lattice(&d->levels[0], SLI_LATTICE_DEGREE)) {
-    return sli_dissect_graph(d);
-  }
-  for (k = 0; k < n; k++) {
-    d->order[k] = k;
-  }
-  sli_points_sort(points, d->order, n, sli_min(cell, d->leaf_size), projections);
-  memcpy(sorted, d->order, (size_t)n * sizeof(sl_int));
-  status = sli_dissect_try_points(d, sorted, cell, &is_good);
-  if (status == SL_OK && !is_good) {
-    status = sli_dissect_graph(d);
-    if (status != SL_OK || (!d->is_volume && !d->may_be_seven_point)) {
-      return status;
-    }
-    graph = sli_dissect_cost(d, &flat);
-    sli_dissect_points(d, sorted, d->leaf_size);
-    if (!sli_tree_cost_is_less(sli_dissect_cost(d, &flat), graph)) {
-      return sli_dissect_graph(d);
-    }
-  } else if (status == SL_OK) {
-    sli_dissect_points(d, sorted, d->leaf_size);
-  }
-  d->band_growth = 0;
-  return status;
 }
 
 /* src/impl/ordering/septree.h: from labels to the elimination order and the separator tree of all rows */
@@ -8330,7 +7951,7 @@ static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *per
   }
 }
 
-/* src/impl/ordering/metis.h: the calls to METIS: the order of a connected component, and nested separators */
+/* src/impl/ordering/metis.h: the call to METIS: the order of a connected component */
 
 #if defined(SLI_METIS)
 
@@ -8424,174 +8045,6 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
                       : SL_ERR_ORDERING;
 }
 
-static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_int *order,
-                    sl_int *sizes, const sl_allocator *a) {
-  const sl_off edges = g->begin[g->n];
-  idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
-                   *size = NULL, *weight = NULL;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_off e;
-  sl_int k;
-  int pass, result;
-  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
-    return SL_ERR_TOO_LARGE;                               /* untested: the same */
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    xadj = SLI_TAKE(&b, idx_t, (size_t)g->n + 1);
-    adjncy = SLI_TAKE(&b, idx_t, edges);
-    perm = SLI_TAKE(&b, idx_t, g->n);
-    iperm = SLI_TAKE(&b, idx_t, g->n);
-    size = SLI_TAKE(&b, idx_t, 2 * (size_t)n_leaves);
-    weight = SLI_TAKE(&b, idx_t, g->weight != NULL ? g->n : 0);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  memset(size, 0, 2 * (size_t)n_leaves * sizeof(idx_t));
-  for (k = 0; k <= g->n; k++) {
-    xadj[k] = (idx_t)g->begin[k];
-  }
-  for (e = 0; e < edges; e++) {
-    adjncy[e] = g->to[e];
-  }
-  for (k = 0; k < g->n && g->weight != NULL; k++) {
-    weight[k] = g->weight[k];
-  }
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NSEPS] = 2;
-  result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
-               (idx_t)n_leaves, options, perm, iperm, size);
-  if (result == METIS_OK) {
-    for (k = 0; k < g->n; k++) {
-      order[k] = (sl_int)perm[k];
-    }
-    for (k = 0; k < 2 * n_leaves - 1; k++) {
-      sizes[k] = (sl_int)size[k];
-    }
-  }
-  sli_free(a, b.base);
-  return result == METIS_OK             ? SL_OK
-       : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
-                      : SL_ERR_ORDERING;
-}
-
-#endif
-
-/* src/impl/ordering/metis_refined.h: a separator tree from METIS_NodeNDP, whose separators are refined later */
-
-#if defined(SLI_METIS)
-
-static void sli_metis_refined_tree(sli_dissection *d, sl_int n_leaves) {
-  sl_int node;
-  for (node = 0; node < n_leaves - 1; node++) {
-    sli_label_tree_split(&d->tree, node);
-  }
-}
-
-static sl_int sli_metis_refined_adjacent_leaf(const sli_dissection *d, sl_int node, sl_int v) {
-  const sli_level *g = &d->levels[0];
-  sl_off e;
-  for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
-    const sl_int other = d->label[g->to[e]];
-    if (sli_label_tree_is_leaf(&d->tree, other) &&
-      sli_label_tree_is_below(&d->tree, node, other)) {
-      return other;
-    }
-  }
-  return -1;
-}
-
-static void sli_metis_refined_dissolve(sli_dissection *d, sl_int node, sl_int *vertices,
-                     sl_int count) {
-  sl_int k, left;
-  do {
-    left = 0;
-    for (k = 0; k < count; k++) {
-      const sl_int v = vertices[k], leaf = sli_metis_refined_adjacent_leaf(d, node, v);
-      if (leaf != -1) {
-        d->label[v] = leaf;
-      } else {
-        vertices[left++] = v;
-      }
-    }
-    if (left == count) {
-      for (k = 0; k < count; k++) {
-        d->label[vertices[k]] = d->tree.low[node];
-      }
-      return;
-    }
-    count = left;
-  } while (count > 0);
-}
-
-static sl_status sli_dissect_metis(sli_dissection *d) {
-  const sli_level *g = &d->levels[0];
-  sl_int n_leaves = 1, v, node, k, *sizes = d->begin, *size = d->nodes;
-  sl_status status;
-  while (d->total / n_leaves > d->leaf_size && n_leaves < g->n / 8 &&
-       4 * (sl_off)n_leaves <= d->tree.room) {
-    n_leaves *= 2;
-  }
-  d->level = 0;
-  status = sli_metis_separators(g, n_leaves, d->order, sizes, d->a);
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_dissect_start(d);
-  sli_metis_refined_tree(d, n_leaves);
-  for (k = n_leaves, v = 0; k > 0; v += k, k /= 2) {
-    for (node = 0; node < k; node++) {
-      size[k - 1 + node] = sizes[v + node];
-    }
-  }
-  node = sli_label_tree_first(&d->tree);
-  for (k = 0; k < g->n; k++) {
-    while (size[node] <= 0 && node != d->tree.root) {
-      node = sli_label_tree_next(&d->tree, node);
-    }
-    d->label[d->order[k]] = node;
-    size[node] -= sli_level_weight(g, d->order[k]);
-  }
-  memset(d->tree.weight, 0, (size_t)d->tree.count * sizeof(sl_int));
-  sli_label_tree_number(&d->tree, g->n, d->label);
-  sli_dissect_sort(d, d->tree.count);
-  for (node = sli_label_tree_first(&d->tree); node != -1;
-     node = sli_label_tree_next(&d->tree, node)) {
-    if (!sli_label_tree_is_leaf(&d->tree, node)) {
-      sli_metis_refined_dissolve(d, node, d->order + d->begin[node],
-                     d->begin[node + 1] - d->begin[node]);
-    }
-  }
-  for (v = 0; v < g->n; v++) {
-    for (node = d->label[v]; node != -1; node = d->tree.parent[node]) {
-      d->tree.weight[node] += sli_level_weight(g, v);
-    }
-  }
-  return SL_OK;
-}
-
-#define SLI_METIS_REFINED_SHARE 80
-
-static sl_status sli_dissect_metis_refined(sli_dissection *d) {
-  sli_tree_cost own, flat;
-  sl_status status = sli_dissect_graph(d);
-  if (status != SL_OK) {
-    return status;
-  }
-  own = sli_dissect_cost(d, &flat);
-  d->band_growth = 1;
-  status = sli_dissect_metis(d);
-  if (status == SL_OK && sli_tree_cost_is_less(sli_tree_cost_times(own, 100),
-                         sli_tree_cost_times(sli_dissect_cost(d, &flat),
-                                   SLI_METIS_REFINED_SHARE))) {
-    d->band_growth = 2;
-    status = sli_dissect_graph(d);
-  }
-  return status;
-}
-
 #endif
 
 /* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
@@ -8605,6 +8058,21 @@ static sl_status sli_dissect_metis_refined(sli_dissection *d) {
 #define SLI_THIN_LEAF_MIN 64
 #define SLI_THIN_LEAF_MAX 250
 #define SLI_THIN_BALANCE 65
+
+#define SLI_LATTICE_SHARE 75
+#define SLI_LATTICE_DEGREES 32
+
+static int sli_is_lattice(const sli_level *g) {
+  sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
+  for (v = 0; v < g->n; v++) {
+    const sl_off degree = g->begin[v + 1] - g->begin[v];
+    if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
+      count[degree]++;
+      most = sli_max(most, count[degree]);
+    }
+  }
+  return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
+}
 
 typedef struct sli_thin_part {
   sl_int first, end, levels;
@@ -8689,7 +8157,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
   even = n + n / 200 + ends;
   return t->is_narrow ||
        (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-      sli_is_lattice(t->g, SLI_THIN_DEGREE));
+      sli_is_lattice(t->g));
 }
 
 static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
@@ -8857,14 +8325,11 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
 typedef struct sli_nd {
   const sli_graph *G;
   const sl_int *weight;
-  sli_points points;
-  int by_metis;
   sl_int *local;
   sl_int *row;
   sl_off *begin;
   sl_int *to;
   sl_int *weights;
-  sli_projection *projections;
   sli_dissection d;
 } sli_nd;
 
@@ -8876,7 +8341,6 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
   w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
   w->to = SLI_TAKE(b, sl_int, edges);
   w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
-  w->projections = SLI_TAKE(b, sli_projection, w->points.xyz != NULL ? n : 0);
   sli_dissection_layout(&w->d, b, n, edges);
 }
 
@@ -8938,16 +8402,6 @@ static sl_status sli_nd_label(sli_nd *w) {
   if (d->has_labels) {
     return SL_OK;
   }
-  if (w->by_metis) {
-#if defined(SLI_METIS)
-    return sli_dissect_metis_refined(d);
-#else
-    return SL_ERR_UNSUPPORTED;
-#endif
-  }
-  if (w->points.xyz != NULL) {
-    return sli_dissect_geometric(d, &w->points, w->projections);
-  }
   return sli_dissect_graph(d);
 }
 
@@ -9005,8 +8459,8 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
       }
       sli_nd_graph(w, count);
       w->d.has_labels = 0;
-      if (!w->by_metis && w->points.xyz == NULL && w->weight == NULL &&
-        count > w->d.leaf_size && sli_order_thin(&w->d, w->row, perm, at, septree)) {
+      if (w->weight == NULL && count > w->d.leaf_size &&
+        sli_order_thin(&w->d, w->row, perm, at, septree)) {
         at += count;
         continue;
       }
@@ -9029,8 +8483,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   return status;
 }
 
-static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_metis,
-                const double *xyz, sl_int dimensions, sl_int *perm,
+static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, sl_int *perm,
                 sli_septree *septree, sli_team *team, const sl_allocator *a) {
   sli_nd w;
   sli_block b = {NULL, 0, 0};
@@ -9040,18 +8493,13 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
   memset(&w, 0, sizeof w);
   w.G = G;
   w.weight = weight;
-  w.points.xyz = xyz;
-  w.points.dimensions = dimensions;
-  w.points.unit = xyz != NULL ? sli_points_unit(xyz, (size_t)G->n * (size_t)dimensions) : 1.0;
-  w.by_metis = by_metis;
-  w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
+  w.d.leaf_size = SLI_DISSECT_LEAF;
   w.d.team = team;
   w.d.a = w.d.pool.a = a;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_nd_layout(&w, &b);
     status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
-  w.points.row = w.row;
   if (status == SL_OK) {
     const int has_avx2 =
       G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
@@ -9129,8 +8577,7 @@ static void sli_compress_firsts(void *data, const sli_range *r) {
   w->count[r->item] = count;
 }
 
-static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key,
-                sli_team *team) {
+static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key, sli_team *team) {
   const sl_int ranges = sli_shares_count(team, G->n);
   sl_int item, count = 0;
   sli_compress_search w;
@@ -9184,9 +8631,8 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
   }
 }
 
-static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
-                    sl_int *scratch, sli_septree *septree, sli_team *team,
-                    const sl_allocator *a) {
+static sl_status sli_order_compressed(const sli_graph *G, sl_int *perm, sl_int *scratch,
+                    sli_septree *septree, sli_team *team, const sl_allocator *a) {
   sli_compressed c;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -9194,7 +8640,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
   memset(&c, 0, sizeof c);
   c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm, team);
   if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-    return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, team, a);
+    return sli_order_nd(G, NULL, perm, septree, team, a);
   }
   c.first = scratch;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -9209,7 +8655,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
     return status;
   }
   sli_compress_fill(&c, G);
-  status = sli_order_nd(&c.G, c.weight, by_metis, NULL, 0, c.perm, septree, team, a);
+  status = sli_order_nd(&c.G, c.weight, c.perm, septree, team, a);
   if (status == SL_OK) {
     sli_compress_expand(&c, G->n, perm, septree, (sl_int *)(void *)c.G.begin);
   }
@@ -10228,8 +9674,7 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
 
 static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
   return ordering == SL_ORDERING_MINDEG ||
-       (ordering == SL_ORDERING_ND && opt != NULL && opt->coordinates == NULL &&
-      opt->purpose == SL_PURPOSE_ONE_FACTOR);
+       (ordering == SL_ORDERING_ND && opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR);
 }
 
 typedef struct sli_order_choice {
@@ -10242,9 +9687,7 @@ typedef struct sli_order_choice {
 
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                 sli_order_choice *choice, sli_team *team,
-                 const sl_allocator *a) {
-  const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
+                 sli_order_choice *choice, sli_team *team, const sl_allocator *a) {
   const int is_hurried = sli_order_is_hurried(ordering, opt);
 #if defined(SLI_METIS)
   if (ordering == SL_ORDERING_METIS) {
@@ -10264,9 +9707,7 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
       return status;
     }
   }
-  return xyz != NULL ? sli_order_nd(G, NULL, 0, xyz, opt->dimensions, perm, septree, team, a)
-             : sli_order_compressed(G, ordering == SL_ORDERING_METIS_REFINED, perm,
-                        scratch, septree, team, a);
+  return sli_order_compressed(G, perm, scratch, septree, team, a);
 }
 
 static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering ordering,
@@ -10299,8 +9740,7 @@ static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering o
 
 static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                   sl_int *perm, sl_int *scratch, sli_septree *septree,
-                  sli_order_choice *choice, sli_team *team,
-                  const sl_allocator *a) {
+                  sli_order_choice *choice, sli_team *team, const sl_allocator *a) {
   sli_peel p;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -10338,8 +9778,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
                   sl_int *scratch, sli_septree *septree, sli_order_choice *choice,
                   sli_team *team, const sl_allocator *a) {
   const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
-  const int may_peel = ordering == SL_ORDERING_MINDEG ||
-             (ordering == SL_ORDERING_ND && (opt == NULL || opt->coordinates == NULL));
+  const int may_peel = ordering == SL_ORDERING_MINDEG || ordering == SL_ORDERING_ND;
   sli_graph G;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
@@ -10364,10 +9803,10 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
   status = sli_order_canonical(&G, a);
   choice->is_wanted &= block == 1;
   if (status == SL_OK) {
-    status = may_peel && sli_peel_is_worthwhile(&G)
-           ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
-           : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team,
-                    a);
+    status =
+      may_peel && sli_peel_is_worthwhile(&G)
+        ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
+        : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team, a);
   }
   if (status == SL_OK && block > 1) {
     choice->entries = 0;
@@ -10383,31 +9822,14 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
   return status;
 }
 
-static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *bad) {
-  sl_int v, k;
-  *bad = -1;
-  if (opt == NULL) {
-    return 1;
-  }
-  if ((opt->purpose != SL_PURPOSE_MANY_SOLVES && opt->purpose != SL_PURPOSE_ONE_FACTOR) ||
-    opt->block_size < 0 || (opt->block_size > 1 && n % opt->block_size != 0) ||
-    (opt->coordinates != NULL && opt->dimensions != 2 && opt->dimensions != 3)) {
-    return 0;
-  }
-  for (v = 0; opt->coordinates != NULL && v < n / sli_max(opt->block_size, 1); v++) {
-    for (k = 0; k < opt->dimensions; k++) {
-      if (!sli_is_finite(opt->coordinates[(size_t)v * (size_t)opt->dimensions + (size_t)k])) {
-        *bad = v * sli_max(opt->block_size, 1);
-        return 0;
-      }
-    }
-  }
-  return 1;
+static int sli_order_options_are_valid(const sl_options *opt, sl_int n) {
+  return opt == NULL ||
+       ((opt->purpose == SL_PURPOSE_MANY_SOLVES || opt->purpose == SL_PURPOSE_ONE_FACTOR) &&
+      opt->block_size >= 0 && (opt->block_size <= 1 || n % opt->block_size == 0));
 }
 
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
-  const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
-                      opt->ordering == SL_ORDERING_METIS_REFINED);
+  const int is_shared = opt != NULL && opt->ordering == SL_ORDERING_ND;
   const double share = is_shared && sli_order_is_hurried(opt->ordering, opt) ? 0.06 : 0.5;
   const double flops = share * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
   return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
@@ -10418,16 +9840,14 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
                sli_septree *septree, sli_order_choice *choice, sli_team *team,
                const sl_allocator *a, sl_stats *stats) {
   const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
-  sl_int bad;
   septree->count = 0;
   choice->is_there = 0;
   choice->entries = 0;
   choice->has_tree = 0;
   choice->is_wanted =
-    ordering == SL_ORDERING_ND &&
-    (opt == NULL || (opt->coordinates == NULL && opt->purpose == SL_PURPOSE_MANY_SOLVES));
-  if (!sli_order_options_are_valid(opt, A->n_cols, &bad)) {
-    return bad == -1 ? SL_ERR_ARGUMENT : sli_fail_at(stats, SL_ERR_NOT_FINITE, bad, -1, 0.0);
+    ordering == SL_ORDERING_ND && (opt == NULL || opt->purpose == SL_PURPOSE_MANY_SOLVES);
+  if (!sli_order_options_are_valid(opt, A->n_cols)) {
+    return SL_ERR_ARGUMENT;
   }
   switch (ordering) {
   case SL_ORDERING_GIVEN:
@@ -10440,11 +9860,10 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
     return sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
                   choice, team, a);
   case SL_ORDERING_METIS:
-  case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
     return SL_ERR_UNSUPPORTED;
 #else
-    return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
+    return !sli_metis_options_are_valid(opt->metis_options)
            ? SL_ERR_ARGUMENT
            : sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
                     choice, team, a);
@@ -26785,7 +26204,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   if (status == SL_OK) {
     status = sli_order_is_irregular(&G, 0)
            ? sli_order_mindeg(&G, perm, &cost, a)
-           : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
+           : sli_order_compressed(&G, perm, scratch, &septree, &alone, a);
   }
   if (status == SL_OK) {
     for (k = 0; k < count; k++) {
@@ -31981,7 +31400,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_MINDEG_MAX
 #undef SLI_MINDEG_ELIMINATED
 #undef SLI_DISSECT_LEAF
-#undef SLI_DISSECT_LEAF_REFINED
 #undef SLI_DISSECT_BISECT_MIN
 #undef SLI_DISSECT_BISECT_MIN_VOLUME
 #undef SLI_DISSECT_SHRINK
@@ -31996,12 +31414,9 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_DISSECT_LAYERS
 #undef SLI_DISSECT_BAND
 #undef SLI_DISSECT_BAND_FROM
-#undef SLI_POINTS_MANY
-#undef SLI_POINTS_TRIED
 #undef SLI_ND_DENSE_ROW
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_ND_RESPLITS
-#undef SLI_METIS_REFINED_SHARE
 #undef SLI_PEEL_SHARE
 #undef SLI_PEEL_SEARCH
 #undef SLI_PEEL_LEAVES
@@ -32030,13 +31445,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_CHANGE_VISIT
 #undef SLI_CHANGE_INPUT
 #undef SLI_CHANGE_DRIFT
-#undef SLI_CELLS
-#undef SLI_CELLS_AS_GOOD
-#undef SLI_CELLS_DEPTH
-#undef SLI_CELLS_FLAT
-#undef SLI_CELLS_SHARE
-#undef SLI_CELL_LEAST
-#undef SLI_LATTICE_DEGREE
 #undef SLI_LATTICE_DEGREES
 #undef SLI_LATTICE_SHARE
 #undef SLI_NULL_ANCHOR
@@ -32060,7 +31468,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_PINS_OTHER
 #undef SLI_PINS_OTHER_FLOAT
 #undef SLI_NULL_VECTORS_MAX
-#undef SLI_POINTS_FEW
 #undef SLI_READ_VERSION_DOUBLE
 #undef SLI_RESTRICT_AHEAD
 #undef SLI_RESTRICT_IN_PLACE

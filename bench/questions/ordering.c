@@ -23,13 +23,9 @@ typedef struct quality {
 typedef struct variant {
     const char *name;
     sl_ordering ordering;
-    int has_points;
 } variant;
 
-static const variant variants[] = {{"ND", SL_ORDERING_ND, 0},
-                                   {"ND, coordinates", SL_ORDERING_ND, 1},
-                                   {"MINDEG", SL_ORDERING_MINDEG, 0},
-                                   {"METIS refined", SL_ORDERING_METIS_REFINED, 0}};
+static const variant variants[] = {{"ND", SL_ORDERING_ND}, {"MINDEG", SL_ORDERING_MINDEG}};
 
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
@@ -92,30 +88,17 @@ static void add_row(bench_report *report, const bench_system *system, const char
     bench_report_row(report, system, &row);
 }
 
-/* Runs every ordering on one matrix. points: n x 3, or NULL. */
+/* Runs every ordering on one matrix. */
 static void one_matrix(bench_run *run, bench_report *report, const bench_system *system,
-                       const sl_csc *A, const double *points, const char *what, sums *all) {
+                       const sl_csc *A, const char *what, sums *all) {
     const quality metis = metis_quality(run, A);
     add_row(report, system, what, "METIS_NodeND", &metis, metis.seconds);
     for (int k = 0; k < VARIANTS; k++) {
         sl_options opt;
         memset(&opt, 0, sizeof opt);
         opt.ordering = variants[k].ordering;
-        if (opt.ordering == SL_ORDERING_METIS_REFINED && is_short(run, A)) {
-            continue;
-        }
-        if (variants[k].has_points) {
-            opt.coordinates = points;
-            opt.dimensions = 3;
-            if (!points) {
-                continue;
-            }
-        }
         quality y = quality_of(A, &opt);
-        const int repeats =
-            variants[k].ordering == SL_ORDERING_METIS_REFINED || run->size == BENCH_QUICK ? 1
-            : A->n_cols > BIG                                                             ? 2
-                              : MAX_REPEATS;
+        const int repeats = run->size == BENCH_QUICK ? 1 : A->n_cols > BIG ? 2 : MAX_REPEATS;
         for (int r = 1; r < repeats; r++) {
             const quality again = quality_of(A, &opt);
             bench_expect(run, again.nnz == y.nnz && again.path_mean == y.path_mean,
@@ -190,23 +173,9 @@ static void one_shuffled(bench_run *run, bench_report *report, const bench_syste
     }
     bench_must(sl_matrix_permute(&M, &system->A, perm, NULL), "permuting");
     const sl_csc A = sl_matrix_view(M);
-    one_matrix(run, report, system, &A, NULL, "order, shuffled", all);
+    one_matrix(run, report, system, &A, "order, shuffled", all);
     sl_matrix_free(M);
     free(perm);
-}
-
-/* The points of a grid of systems.c. */
-static double *grid_points(sl_int n) {
-    sl_int side = 1;
-    mesh m;
-    while (side * side < n) {
-        side++;
-    }
-    if (side * side != n || !mesh_grid(&m, side, side, 0.2, 1)) {
-        return NULL;
-    }
-    free(m.faces);
-    return m.xyz;
 }
 
 static void print_means(bench_report *report, const sums *all) {
@@ -240,7 +209,7 @@ static void data_meshes(bench_run *run, bench_report *report, sums *all) {
             m.n_faces >= m.n_vertices) {
             const bench_system *system = bench_mesh(files.paths[k]);
             if (system) {
-                one_matrix(run, report, system, &system->A, m.xyz, "order", all);
+                one_matrix(run, report, system, &system->A, "order", all);
             }
         }
         mesh_free(&m);
@@ -257,19 +226,17 @@ void bench_ordering(bench_run *run) {
     bench_report *report =
         bench_report_open(run, "ordering", "orderings against METIS_NodeND", "METIS_NodeND");
     for (int k = 0; k < count; k++) {
-        double *points = run->mesh_path ? NULL : grid_points(systems[k]->n);
-        one_matrix(run, report, systems[k], &systems[k]->A, points, "order", &all);
+        one_matrix(run, report, systems[k], &systems[k]->A, "order", &all);
         if (!is_short(run, &systems[k]->A)) {
             one_shuffled(run, report, systems[k], &all);
         }
         time_order_to_factor(run, report, systems[k]);
-        free(points);
     }
     if (!run->mesh_path) {
         const bench_system *volume = bench_volume(run->size == BENCH_QUICK ? 20 : 40);
         sums volume_sums; /* the printed means are over meshes only */
         memset(&volume_sums, 0, sizeof volume_sums);
-        one_matrix(run, report, volume, &volume->A, NULL, "order", &volume_sums);
+        one_matrix(run, report, volume, &volume->A, "order", &volume_sums);
         data_meshes(run, report, &all);
     }
     print_means(report, &all);

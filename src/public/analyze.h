@@ -25,10 +25,10 @@
  *  degree are in one dense block, and on KKT systems with a diagonal Hessian and paths as short as
  *  those of plane meshes.
  *
- *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND without coordinates and
- *  SL_ORDERING_MINDEG eliminate such rows first. This repeats while rows with at most two neighbors
- *  are left. Paths in a tree or a chain of n rows then have O(log n) columns, and with minimum
- *  degree a tree has no fill.
+ *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND and SL_ORDERING_MINDEG
+ *  eliminate such rows first. This repeats while rows with at most two neighbors are left. Paths in
+ *  a tree or a chain of n rows then have O(log n) columns, and with minimum degree a tree has no
+ *  fill.
  *
  *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
  *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
@@ -38,29 +38,25 @@
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
  *  opt    [in]   allocator, threads, ordering, relaxation, triangle, perm, metis_options,
- *                coordinates, dimensions, block_size, purpose; may be NULL. coordinates are used
- *                by SL_ORDERING_ND only, and block_size by all but SL_ORDERING_GIVEN and
- *                SL_ORDERING_NATURAL; every ordering refuses invalid ones.
+ *                block_size, purpose; may be NULL. block_size is used by all but
+ *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
  *           offending position), an unknown ordering, purpose, relaxation or triangle,
- *           metis_options that METIS would refuse, a block_size that does not divide n, dimensions
- *           other than 2 or 3;
- *           SL_ERR_NOT_FINITE: a coordinate (error.row is the first row of its block);
+ *           metis_options that METIS would refuse, a block_size that does not divide n;
  *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
- *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and
- *           SL_ORDERING_METIS_REFINED, and, except with SL_ORDERING_METIS, the entries of A, with
- *           the same result for any number of them. The call is one call of the pool; any of its
- *           threads may call the allocator, one at a time. Small systems use fewer threads.
- *           Any number of calls at once, with the same result for the same pattern however it is
- *           stored, on every processor and with every compiler, except with METIS: METIS seeds and
- *           draws from rand() of the C library and prints a line if it runs out of memory. During
- *           SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the whole process; during
- *           SL_ORDERING_METIS_REFINED it raises SIGABRT if it runs out of memory. Concurrent calls
- *           with METIS are safe only if rand() is, and may then order differently from run to run.
+ *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and, except with
+ *           SL_ORDERING_METIS, the entries of A, with the same result for any number of them. The
+ *           call is one call of the pool; any of its threads may call the allocator, one at a time.
+ *           Small systems use fewer threads. Any number of calls at once, with the same result for
+ *           the same pattern however it is stored, on every processor and with every compiler,
+ *           except with METIS: METIS seeds and draws from rand() of the C library and prints a line
+ *           if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the
+ *           whole process. Concurrent calls with METIS are safe only if rand() is, and may then
+ *           order differently from run to run.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
@@ -117,12 +113,11 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND and SL_ORDERING_METIS_REFINED keep their separator tree. With other orderings,
- *  with minimum degree, if rows with few neighbors were eliminated first, and if a constraint was
- *  moved, n_nodes = 0 and the arrays are NULL. A node
- *  is a separator, or a subgraph that was not divided further. An entry of A joins two nodes only
- *  if one is an ancestor of the other. Nodes are numbered in elimination order, so that a separator
- *  follows the subgraphs that it separates.
+ *  SL_ORDERING_ND keeps its separator tree. With other orderings, with minimum degree, if rows with
+ *  few neighbors were eliminated first, and if a constraint was moved, n_nodes = 0 and the arrays
+ *  are NULL. A node is a separator, or a subgraph that was not divided further. An entry of A joins
+ *  two nodes only if one is an ancestor of the other. Nodes are numbered in elimination order, so
+ *  that a separator follows the subgraphs that it separates.
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;

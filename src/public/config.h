@@ -10,8 +10,7 @@
  *  SPARSE_LOCAL_IMPLEMENTATION   define it in exactly one source file before the include, which
  *                                then compiles the library.
  *  SL_STATIC                     makes everything static: a private copy in one source file.
- *  SL_METIS                      adds SL_ORDERING_METIS and SL_ORDERING_METIS_REFINED: needs
- *                                <metis.h> and -lmetis.
+ *  SL_METIS                      adds SL_ORDERING_METIS: needs <metis.h> and -lmetis.
  *  SL_NO_METIS                   overrides SL_METIS.
  *  SL_NO_SIMD                    compiles only the kernels in plain C: smallest object, fastest
  *                                compilation, easiest to debug.

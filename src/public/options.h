@@ -65,11 +65,9 @@ typedef struct sl_options {
     /* 40 entries as in METIS's options array, -1 = METIS's default; NULL: all default. The
      * numbering and debug level are ignored */
     const sl_int *metis_options;
-    /* n / block_size x dimensions, row-major: the position of each row in space, for
-     * SL_ORDERING_ND, which halves space in flat grids with diagonals, in half the time, and in
-     * volumes; other meshes are ordered as without; NULL: unknown */
-    const double *coordinates;
-    sl_int dimensions; /* of coordinates: 2 or 3 */
+    /* must be NULL and 0: their place is kept, so that the other fields stay where they are */
+    const void *reserved_pointer;
+    sl_int reserved_int;
     /* rows k block_size .. (k+1) block_size - 1 stay together in the order, such as x, y, z of a
      * vertex; divides n; 0 or 1: no blocks */
     sl_int block_size;

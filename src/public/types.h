@@ -72,14 +72,14 @@ typedef enum sl_reading {
     SL_AS_STORED         /* as a general matrix: every entry counts once, where it is */
 } sl_reading;
 
-/** Fill-reducing orderings. Rows with equal neighborhoods are ordered as one. */
+/** Fill-reducing orderings. Rows with equal neighborhoods are ordered as one. 2 is no ordering: its
+ *  number is not used again, so that programs compiled with an earlier header get an error. */
 typedef enum sl_ordering {
-    SL_ORDERING_ND = 0,        /* nested dissection by this header; needs no library */
-    SL_ORDERING_METIS,         /* METIS_NodeND on every connected component [KK98] */
-    SL_ORDERING_METIS_REFINED, /* METIS's separators, improved: the best order, in twice its time */
-    SL_ORDERING_GIVEN,         /* options.perm, or equivalent: see sl_symbolic_create */
-    SL_ORDERING_NATURAL,       /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
-    SL_ORDERING_MINDEG         /* approximate minimum degree, the quickest [ADD96] */
+    SL_ORDERING_ND = 0,      /* nested dissection by this header; needs no library */
+    SL_ORDERING_METIS = 1,   /* METIS_NodeND on every connected component [KK98] */
+    SL_ORDERING_GIVEN = 3,   /* options.perm, or equivalent: see sl_symbolic_create */
+    SL_ORDERING_NATURAL = 4, /* 0, 1, 2, ..., or equivalent: see sl_symbolic_create */
+    SL_ORDERING_MINDEG = 5   /* approximate minimum degree, the quickest [ADD96] */
 } sl_ordering;
 
 /** What the analysis is for. */

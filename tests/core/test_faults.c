@@ -1,4 +1,4 @@
-/* test_faults.c: METIS that fails or lies, separators of no flow, processors without popcnt, sizes
+/* test_faults.c: METIS that fails, separators of no flow, processors without popcnt, sizes
  * beyond memory: what calls cannot reach on this machine, by replaced functions and direct calls */
 #define SPARSE_LOCAL_IMPLEMENTATION
 #define SLI_FLOW_ROUNDS 1           /* no flow ends in time: each separator is a border */
@@ -7,34 +7,10 @@ static int marks_begin = 2;
 
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
 #include <metis.h>
-#include <string.h>
 
-/* Lies about sizes: none; a small first leaf and a root; all the same. */
-enum { METIS_TELLS_NO_SIZES = 77, METIS_TELLS_TWO_SIZES, METIS_TELLS_EQUAL_SIZES };
-static int metis_fault; /* 0: none, one of these, or the status that is returned */
-
-static int metis_separators(idx_t n, idx_t *begin, idx_t *to, idx_t *weight, idx_t parts,
-                            idx_t *options, idx_t *perm, idx_t *iperm, idx_t *sizes) {
-    const idx_t nodes = 2 * parts - 1;
-    if (metis_fault != 0 && metis_fault < METIS_TELLS_NO_SIZES) {
-        return metis_fault;
-    }
-    const int status = METIS_NodeNDP(n, begin, to, weight, parts, options, perm, iperm, sizes);
-    if (metis_fault != 0) {
-        memset(sizes, 0, (size_t)nodes * sizeof *sizes);
-    }
-    if (metis_fault > METIS_TELLS_NO_SIZES) {
-        for (idx_t k = 0; k + 1 < nodes; k++) {
-            sizes[k] = metis_fault == METIS_TELLS_EQUAL_SIZES ? n / nodes : 10 * (k == 0);
-            sizes[nodes - 1] -= sizes[k];
-        }
-        sizes[nodes - 1] += n;
-    }
-    return status;
-}
+static int metis_fault; /* 0: none, or the status that is returned */
 
 #define METIS_NodeND(...) (metis_fault != 0 ? metis_fault : (METIS_NodeND)(__VA_ARGS__))
-#define METIS_NodeNDP metis_separators
 #endif
 
 #include "tests/lib/check_factor.h"
@@ -61,26 +37,12 @@ static sl_status order(gen_kind_t kind, sl_int size, sl_ordering ordering) {
 
 static void errors_of_metis_are_reported(void **state) {
     (void)state;
-    for (int ordering = SL_ORDERING_METIS; ordering <= SL_ORDERING_METIS_REFINED; ordering++) {
-        metis_fault = METIS_ERROR_MEMORY;
-        SL_EXPECT(SL_ERR_MEMORY, order(GEN_GRID2, 900, (sl_ordering)ordering));
-        metis_fault = METIS_ERROR;
-        SL_EXPECT(SL_ERR_ORDERING, order(GEN_GRID2, 900, (sl_ordering)ordering));
-        metis_fault = 0;
-        SL_CHECK(order(GEN_GRID2, 900, (sl_ordering)ordering));
-    }
-}
-
-/* Sizes that do not add up, and separators that do not separate, give another order, not a wrong
- * one. */
-static void sizes_of_metis_are_not_trusted(void **state) {
-    (void)state;
-    for (int lie = METIS_TELLS_NO_SIZES; lie <= METIS_TELLS_EQUAL_SIZES; lie++) {
-        metis_fault = lie;
-        SL_CHECK(order(GEN_GRID2, 900, SL_ORDERING_METIS_REFINED));
-        SL_CHECK(order(GEN_GRID3, 5000, SL_ORDERING_METIS_REFINED));
-        metis_fault = 0;
-    }
+    metis_fault = METIS_ERROR_MEMORY;
+    SL_EXPECT(SL_ERR_MEMORY, order(GEN_GRID2, 900, SL_ORDERING_METIS));
+    metis_fault = METIS_ERROR;
+    SL_EXPECT(SL_ERR_ORDERING, order(GEN_GRID2, 900, SL_ORDERING_METIS));
+    metis_fault = 0;
+    SL_CHECK(order(GEN_GRID2, 900, SL_ORDERING_METIS));
 }
 
 #endif
@@ -175,7 +137,7 @@ static void levels_end(void **state) {
     d.n_levels = most;
     d.levels[0].n = d.total = 4000;
     d.levels[most - 1].n = 1000;
-    SL_CHECK(sli_dissect_coarsen(&d, 0, &working));
+    SL_CHECK(sli_dissect_coarsen(&d, &working));
     assert_int_equal(d.n_levels, most);
     assert_int_equal(working, most - 1);
 }
@@ -225,22 +187,18 @@ static void the_processor_is_that_of_the_start(void **state) {
     sli_cpuid(1, one);
     sli_cpuid(7, seven);
     const int has_xgetbv = (one[2] & 1u << 27) != 0;
-    assert_int_equal(sli_cpu_best(),
-                     sli_isa_of(7, one[2], seven[1], has_xgetbv ? sli_xcr0() : 0));
+    assert_int_equal(sli_cpu_best(), sli_isa_of(7, one[2], seven[1], has_xgetbv ? sli_xcr0() : 0));
 }
 
 #endif
 
-/* A graph of triangles or tetrahedra, w rows in each direction, and the coordinates of its rows. */
-static gen_list_t lattice(sl_int w, int dimensions, double *xyz) {
+/* A graph of triangles or tetrahedra, w rows in each direction. */
+static gen_list_t lattice(sl_int w, int dimensions) {
     const sl_int n = dimensions == 2 ? w * w : w * w * w, step[3] = {1, w, w * w};
     gen_list_t t = gen_list(n);
     for (sl_int k = 0; k < n; k++) {
         const sl_int at[3] = {k % w, k / w % w, k / (w * w)};
         gen_add(&t, k, k, 1.0);
-        for (int c = 0; c < dimensions; c++) {
-            xyz[dimensions * k + c] = at[c];
-        }
         for (int way = 1; way < 1 << dimensions; way++) {
             sl_int other = k;
             for (int c = 0; c < dimensions; c++) {
@@ -258,8 +216,7 @@ static gen_list_t lattice(sl_int w, int dimensions, double *xyz) {
 
 /* Each allocation of an ordering fails once, also of those that otherwise use borrowed memory.
  * Returns how many there are. */
-static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering, const double *xyz,
-                          int dimensions) {
+static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering) {
     gen_matrix_t M = gen_store(t, gen_style(style), 1);
     const sl_csc *A = &M.view;
     const sl_int n = A->n_cols;
@@ -279,8 +236,6 @@ static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering, 
         sl_options opt = options_counted(&counter);
         sli_team alone = sli_team_of(1);
         opt.ordering = ordering;
-        opt.coordinates = xyz;
-        opt.dimensions = xyz != NULL ? dimensions : 0;
         counter.fail_at = k;
         status = sli_order(A, column, gen_style(style).triangle, &opt, perm, scratch, &septree,
                            &choice, &alone, &opt.allocator, NULL);
@@ -312,28 +267,22 @@ static void orderings_may_lack_memory(void **state) {
         gen_kind_t kind;
         sl_int size;
     } kinds[4] = {{GEN_GRID2, 900}, {GEN_FOREST, 300}, {GEN_COMPONENTS, 900}, {GEN_STAR, 300}};
-    static const sl_ordering orderings[4] = {SL_ORDERING_ND, SL_ORDERING_MINDEG, SL_ORDERING_METIS,
-                                             SL_ORDERING_METIS_REFINED};
+    static const sl_ordering orderings[3] = {SL_ORDERING_ND, SL_ORDERING_MINDEG, SL_ORDERING_METIS};
     for (int k = 0; k < 4; k++) {
         gen_list_t t = gen_make(kinds[k].kind, kinds[k].size, 1, 3);
         for (sl_int row = 1; row < t.n && k == 0; row++) { /* a dense row */
             gen_add(&t, row, 0, 1.0);
         }
-        for (int m = 0; m < 4; m++) {
+        for (int m = 0; m < 3; m++) {
             if (ordering_is_present(orderings[m])) {
-                assert_true(allocations_of(&t, 11 * (m % 2), orderings[m], NULL, 0) > 0);
+                assert_true(allocations_of(&t, 11 * (m % 2), orderings[m]) > 0);
             }
         }
         gen_list_free(&t);
     }
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
-        const sl_int w = dimensions == 2 ? 100 : 26;
-        double *xyz = test_reals((size_t)(3 * w * w * w));
-        gen_list_t t = lattice(w, dimensions, xyz);
-        assert_true(allocations_of(&t, 0, SL_ORDERING_ND, xyz, dimensions) > 0);
-        gen_reals(xyz, (size_t)(dimensions * t.n), 4); /* coordinates that mislead */
-        assert_true(allocations_of(&t, 0, SL_ORDERING_ND, xyz, dimensions) > 0);
-        free(xyz);
+        gen_list_t t = lattice(dimensions == 2 ? 100 : 26, dimensions);
+        assert_true(allocations_of(&t, 0, SL_ORDERING_ND) > 0);
         gen_list_free(&t);
     }
 }
@@ -362,7 +311,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
 #if defined(SL_METIS) && !defined(SL_NO_METIS)
         cmocka_unit_test(errors_of_metis_are_reported),
-        cmocka_unit_test(sizes_of_metis_are_not_trusted),
 #endif
         cmocka_unit_test(borders_separate),
         cmocka_unit_test(minimum_degree_on_any_processor),

@@ -9,14 +9,11 @@
 static void metis_is_unsupported(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_GRID2, 900, 1, 2);
-    static const sl_ordering orderings[2] = {SL_ORDERING_METIS, SL_ORDERING_METIS_REFINED};
-    for (int k = 0; k < 2; k++) {
-        sl_options opt = options_none();
-        sl_symbolic *S = (sl_symbolic *)(void *)&M;
-        opt.ordering = orderings[k];
-        SL_EXPECT(SL_ERR_UNSUPPORTED, sl_symbolic_create(&S, &M.view, &opt, NULL));
-        assert_null(S);
-    }
+    sl_options opt = options_none();
+    sl_symbolic *S = (sl_symbolic *)(void *)&M;
+    opt.ordering = SL_ORDERING_METIS;
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_symbolic_create(&S, &M.view, &opt, NULL));
+    assert_null(S);
     gen_matrix_free(&M);
 }
 
@@ -144,45 +141,8 @@ static void options_out_of_range_are_refused(void **state) {
     }
 }
 
-/* A grid of 8208 blocks of 18 rows: by their weight, leaves would have three blocks, and the tree
- * more nodes than there is room for. Builds with SL_VERIFY compare. */
-static void heavy_blocks_have_room_for_the_tree(void **state) {
-    (void)state;
-    enum { NX = 72, NY = 114, ROWS = 18, N = NX * NY * ROWS };
-    sl_int *p = test_ints(N + 1), *i = test_ints((size_t)N * 3 * ROWS), entries = 0;
-    for (sl_int j = 0; j < N; j++) {
-        const sl_int block = j / ROWS;
-        const sl_int first[3] = {j, block % NX < NX - 1 ? (block + 1) * ROWS : N,
-                                 block / NX < NY - 1 ? (block + NX) * ROWS : N};
-        p[j] = entries;
-        for (int k = 0; k < 3; k++) {
-            for (sl_int r = first[k]; r < N && r / ROWS == first[k] / ROWS; r++) {
-                i[entries++] = r;
-            }
-        }
-    }
-    p[N] = entries;
-    const sl_csc A = {N, N, p, i, NULL};
-    sl_options opt = options_none();
-    opt.ordering = SL_ORDERING_METIS_REFINED;
-    sl_symbolic *S = NULL;
-    SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    sl_int *seen = test_ints(N);
-    for (sl_int k = 0; k < N; k++) {
-        seen[sl_symbolic_view(S).perm[k]]++;
-    }
-    for (sl_int k = 0; k < N; k++) {
-        assert_int_equal(seen[k], 1);
-    }
-    sl_symbolic_free(S);
-    free(seen);
-    free(i);
-    free(p);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heavy_blocks_have_room_for_the_tree),
         cmocka_unit_test(metis_options_are_handed_on),
         cmocka_unit_test(nothing_is_printed),
         cmocka_unit_test(options_out_of_range_are_refused),

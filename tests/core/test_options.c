@@ -47,6 +47,13 @@ static void a_reserved_field_is_refused_by_every_call(void **state) {
         opt.reserved[k] = &opt;
         assert_refused_by_every_call(f, &opt);
     }
+    for (int k = 0; k < 2; k++) {
+        sl_options opt;
+        sl_options_init(&opt, sizeof opt);
+        opt.reserved_pointer = k == 0 ? &opt : NULL;
+        opt.reserved_int = k;
+        assert_refused_by_every_call(f, &opt);
+    }
     option_fixture_free(f);
 }
 
@@ -116,11 +123,11 @@ static void unknown_enum_values_are_refused(void **state) {
     option_fixture_t *f = option_fixture_make();
     double X[25] = {1}, Y[25] = {7};
     assert_int_equal(f->pair.n, 25);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         const sl_reading reading = (sl_reading)unknown(k, SL_AS_STORED);
         sl_options opt = options_none();
         opt.perm = f->perm;
-        opt.ordering = (sl_ordering)unknown(k, SL_ORDERING_MINDEG);
+        opt.ordering = (sl_ordering)(k == 3 ? 2 : unknown(k, SL_ORDERING_MINDEG));
         SL_EXPECT(SL_ERR_ARGUMENT, option_symbolic(f, &opt));
         opt = options_none();
         opt.purpose = (sl_purpose)unknown(k, SL_PURPOSE_ONE_FACTOR);

@@ -79,57 +79,10 @@ static void supernodes_merge_alike(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-/* Points of a grid, exact in doubles: at integers; turned by 45 degrees, tiny and off the origin;
- * shaken. From 16,384 points on, directions are compared. */
-static void coordinates_give_one_order(void **state) {
-    (void)state;
-    static const uint64_t expected[7] = {
-        0x2fe64e88bd258dcdu, 0xe87b5c172b8eb11du, 0xe87b5c172b8eb11du, 0xe87b5c172b8eb11du,
-        0xe7c1a990d3164272u, 0x39feb7682731bb1du, 0x2fe64e88bd258dcdu}; /* tiny: as the first */
-    const sl_int side = 150;
-    int wrong = 0;
-    gen_list_t t = gen_list(side * side);
-    uint64_t seed = 3;
-    gen_edges_grid(&t, side, side, 1, &seed);
-    /* with a diagonal: five points alone are ordered without coordinates */
-    for (sl_int v = side + 1; v < t.n; v++) {
-        if (v % side > 0) {
-            gen_add(&t, v, v - side - 1, 1.0);
-        }
-    }
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-    double *xyz = test_reals(3 * (size_t)t.n);
-    for (int kind = 0; kind < 7; kind++) {
-        sl_options opt = options_none();
-        opt.coordinates = xyz;
-        opt.dimensions = kind % 2 == 0 ? 2 : 3;
-        for (sl_int k = 0; k < t.n; k++) {
-            double *at = xyz + (size_t)opt.dimensions * (size_t)k;
-            const sl_int x = k % side, y = k / side;
-            const double shake = ldexp((double)gen_below(&seed, 1 << 30), -30);
-            at[0] = kind < 2 ? x : kind < 4 ? ldexp(x + y + 12345, -70) : x + shake;
-            at[1] = kind < 2 ? y : kind < 4 ? ldexp(x - y, -70) : y - shake;
-            if (kind == 6) {
-                at[0] = ldexp(x, -1000);
-                at[1] = ldexp(y, -1000);
-            }
-            if (opt.dimensions == 3) {
-                at[2] = kind == 1 ? x + y : kind == 3 ? ldexp(y, -72) : shake;
-            }
-        }
-        wrong += differs("coordinates", kind, hash_of(&M.view, &opt), expected[kind]);
-    }
-    assert_int_equal(wrong, 0);
-    free(xyz);
-    gen_matrix_free(&M);
-    gen_list_free(&t);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patterns_have_one_order),
         cmocka_unit_test(supernodes_merge_alike),
-        cmocka_unit_test(coordinates_give_one_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

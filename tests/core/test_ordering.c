@@ -1,4 +1,4 @@
-/* test_ordering.c: nested dissection: validity, hostile graphs, fill, blocks, coordinates */
+/* test_ordering.c: nested dissection: validity, hostile graphs, fill, blocks, memory */
 #include "tests/lib/check_factor.h"
 #include "tests/lib/hard_graphs.h"
 
@@ -43,11 +43,8 @@ static void hard_graphs_beside_metis(void **state) {
             }
             if (ordering_is_present(SL_ORDERING_METIS)) {
                 const double metis = fill_of(&M.view, opt, SL_ORDERING_METIS);
-                const double refined = fill_of(&M.view, opt, SL_ORDERING_METIS_REFINED);
-                if (nd > 1.5 * metis || refined > 1.5 * metis) {
-                    print_error(
-                        "graph %d: %g entries of L by ND, %g by METIS_REFINED, %g by METIS\n", kind,
-                        nd, refined, metis);
+                if (nd > 1.5 * metis) {
+                    print_error("graph %d: %g entries of L by ND, %g by METIS\n", kind, nd, metis);
                     fail();
                 }
             }
@@ -68,9 +65,6 @@ static void every_size(void **state) {
             }
             gen_matrix_t M = gen_matrix((gen_kind_t)kind, sizes[size], 1, 3 + size);
             (void)fill_of(&M.view, options_none(), SL_ORDERING_ND);
-            if (ordering_is_present(SL_ORDERING_METIS_REFINED)) {
-                (void)fill_of(&M.view, options_none(), SL_ORDERING_METIS_REFINED);
-            }
             gen_matrix_free(&M);
         }
     }
@@ -120,7 +114,7 @@ static void blocks_stay_together(void **state) {
     for (sl_int block = 2; block <= 3; block++) {
         gen_list_t b = in_blocks(&t, block);
         gen_matrix_t M = gen_store(&b, gen_style((int)block), 1);
-        for (int ordering = SL_ORDERING_ND; ordering <= SL_ORDERING_METIS_REFINED; ordering++) {
+        for (int ordering = SL_ORDERING_ND; ordering <= SL_ORDERING_METIS; ordering++) {
             if (!ordering_is_present((sl_ordering)ordering)) {
                 continue;
             }
@@ -140,82 +134,18 @@ static void blocks_stay_together(void **state) {
     gen_list_free(&t);
 }
 
-static void wrong_blocks_and_points_are_refused(void **state) {
+static void wrong_blocks_are_refused(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_GRID2, 100, 1, 1);
-    double xyz[300] = {0};
-    static const sl_int blocks[3] = {-1, 3, 101}, dimensions[4] = {0, 1, 4, -2};
-    for (int k = 0; k < 4; k++) {
+    static const sl_int blocks[3] = {-1, 3, 101};
+    for (int k = 0; k < 3; k++) {
         sl_options opt = options_none();
         sl_symbolic *S = (sl_symbolic *)(void *)&M;
-        if (k < 3) {
-            opt.block_size = blocks[k];
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, NULL));
-            assert_null(S);
-        }
-        opt = options_none();
-        opt.coordinates = xyz;
-        opt.dimensions = dimensions[k];
+        opt.block_size = blocks[k];
         SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &M.view, &opt, NULL));
         assert_null(S);
     }
-    for (int k = 0; k < 2; k++) {
-        sl_options opt = options_none();
-        sl_stats stats;
-        sl_symbolic *S = (sl_symbolic *)(void *)&M;
-        opt.coordinates = xyz;
-        opt.dimensions = 3;
-        opt.block_size = k ? 2 : 0;
-        xyz[3 * 40 + 2] = k ? (double)INFINITY : (double)NAN;
-        SL_EXPECT(SL_ERR_NOT_FINITE, sl_symbolic_create(&S, &M.view, &opt, &stats));
-        assert_null(S);
-        assert_int_equal(stats.error.row, k ? 80 : 40);
-    }
     gen_matrix_free(&M);
-}
-
-/* ---- coordinates ---- */
-
-/* On a flat grid, halves of space are good subgraphs. Useless or misleading coordinates do not make
- * the order much worse. */
-static void points_help_or_do_no_harm(void **state) {
-    (void)state;
-    const sl_int side = 60;
-    gen_list_t t = hard_graph(HARD_TRIANGLES);
-    gen_rename(&t, 9);
-    sl_int *name = test_ints((size_t)t.n);
-    gen_permutation(name, t.n, 9);
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-    double *xyz = test_reals(3 * (size_t)t.n);
-    const double plain = fill_of(&M.view, options_none(), SL_ORDERING_ND);
-    for (int kind = 0; kind < 6; kind++) {
-        const sl_int d = kind == 0 ? 2 : 3;
-        uint64_t seed = 3;
-        for (sl_int k = 0; k < t.n; k++) {
-            double *at = xyz + (size_t)d * (size_t)name[k];
-            at[0] = k % side;
-            at[1] = (double)(k / side);
-            if (d == 3) {
-                at[2] = 0;
-            }
-            for (sl_int c = 0; c < d; c++) {
-                at[c] = kind == 2   ? 1.0 /* all points coincide */
-                        : kind == 3 ? gen_real(&seed)
-                        : kind == 4 ? at[c] * 1e300
-                        : kind == 5 ? (c == 0 ? -at[c] * 1e-300 : at[c] * 1e300)
-                                    : at[c];
-            }
-        }
-        sl_options opt = options_none();
-        opt.coordinates = xyz;
-        opt.dimensions = d;
-        const double fill = fill_of(&M.view, opt, SL_ORDERING_ND);
-        assert_true(fill <= (kind < 2 ? 1.05 : 1.25) * plain);
-    }
-    free(xyz);
-    free(name);
-    gen_matrix_free(&M);
-    gen_list_free(&t);
 }
 
 /* ---- memory ---- */
@@ -224,42 +154,31 @@ static void memory_may_end_anywhere(void **state) {
     (void)state;
     static const int kinds[4] = {HARD_TRIANGLES, HARD_DENSE_ROWS, HARD_COMPONENTS, HARD_CLIQUES};
     for (int k = 0; k < 4; k++) {
-        for (int points = 0; points < 2; points++) {
-            gen_list_t t = hard_graph(kinds[k]);
-            gen_matrix_t M = gen_store(&t, gen_style(3 + 6), 1); /* unsorted, with duplicates */
-            double *xyz = test_reals(2 * (size_t)t.n);
-            gen_reals(xyz, 2 * (size_t)t.n, 4);
-            sl_status status = SL_ERR_MEMORY;
-            for (int64_t fail_at = 0; status != SL_OK; fail_at++) {
-                counter_t counter = counter_make();
-                sl_options opt = options_counted(&counter);
-                sl_symbolic *S = (sl_symbolic *)(void *)&M;
-                counter.fail_at = fail_at;
-                opt.coordinates = points ? xyz : NULL;
-                opt.dimensions = 2;
-                status = sl_symbolic_create(&S, &M.view, &opt, NULL);
-                assert_true(status == SL_OK || status == SL_ERR_MEMORY);
-                assert_true((S != NULL) == (status == SL_OK));
-                assert_true(fail_at < 200);
-                sl_symbolic_free(S);
-                COUNTER_CLEAN(&counter);
-            }
-            free(xyz);
-            gen_matrix_free(&M);
-            gen_list_free(&t);
+        gen_list_t t = hard_graph(kinds[k]);
+        gen_matrix_t M = gen_store(&t, gen_style(3 + 6), 1); /* unsorted, with duplicates */
+        sl_status status = SL_ERR_MEMORY;
+        for (int64_t fail_at = 0; status != SL_OK; fail_at++) {
+            counter_t counter = counter_make();
+            sl_options opt = options_counted(&counter);
+            sl_symbolic *S = (sl_symbolic *)(void *)&M;
+            counter.fail_at = fail_at;
+            status = sl_symbolic_create(&S, &M.view, &opt, NULL);
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            assert_true((S != NULL) == (status == SL_OK));
+            assert_true(fail_at < 200);
+            sl_symbolic_free(S);
+            COUNTER_CLEAN(&counter);
         }
+        gen_matrix_free(&M);
+        gen_list_free(&t);
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hard_graphs_beside_metis),
-        cmocka_unit_test(every_size),
-        cmocka_unit_test(one_matrix_has_one_order),
-        cmocka_unit_test(blocks_stay_together),
-        cmocka_unit_test(wrong_blocks_and_points_are_refused),
-        cmocka_unit_test(points_help_or_do_no_harm),
-        cmocka_unit_test(memory_may_end_anywhere),
+        cmocka_unit_test(hard_graphs_beside_metis), cmocka_unit_test(every_size),
+        cmocka_unit_test(one_matrix_has_one_order), cmocka_unit_test(blocks_stay_together),
+        cmocka_unit_test(wrong_blocks_are_refused), cmocka_unit_test(memory_may_end_anywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

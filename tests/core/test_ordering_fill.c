@@ -1,4 +1,4 @@
-/* test_ordering_fill.c: entries of L and of its paths, against METIS, and with points */
+/* test_ordering_fill.c: entries of L and of its paths, against METIS */
 #include "tests/lib/ordering_meshes.h"
 
 #define SIZES 3
@@ -240,94 +240,6 @@ static void rings_are_near_metis(void **state) {
     assert_int_equal(failures, 0);
 }
 
-/* The points of a grid. */
-static double *grid_points(grid_t kind, sl_int side, sl_int n) {
-    const sl_int square = side * side;
-    double *xyz = test_reals(3 * (size_t)n);
-    for (sl_int v = 0; v < n; v++) {
-        xyz[3 * v] = v % side;
-        xyz[3 * v + 1] = (double)(v % square / side);
-        xyz[3 * v + 2] = kind == VOLUME ? (double)(v / square) : 0.0;
-    }
-    return xyz;
-}
-
-/* Adds what the default ordering costs with points and without. */
-static void add_points(const sl_csc *A, const double *xyz, order_quality *with,
-                       order_quality *without) {
-    sl_options opt = options_none();
-    order_quality q = order_quality_of(A, &opt);
-    without->fill += q.fill;
-    without->path += q.path;
-    opt.coordinates = xyz;
-    opt.dimensions = 3;
-    q = order_quality_of(A, &opt);
-    with->fill += q.fill;
-    with->path += q.path;
-}
-
-/* Points may cost 2 % of fill and of path weight. Halves of space would cost up to 1.2 times the
- * fill and 4 times the path weight of these meshes, and of a jittered grid 1.08 times both. Summed
- * over three sizes. */
-static void points_cost_next_to_nothing(void **state) {
-    (void)state;
-    static const sl_int sides[2][SIZES] = {{70, 110, 160}, {16, 18, 22}};
-    int failures = 0;
-    for (int m = 0; m < MESHES + GRIDS; m++) {
-        const grid_t kind = (grid_t)(m - MESHES);
-        order_quality with = {0, 0}, without = {0, 0};
-        for (int size = 0; size < SIZES; size++) {
-            const sl_int side = sides[m >= MESHES && kind == VOLUME][size];
-            if (m < MESHES) {
-                double *xyz;
-                gen_matrix_t M = mesh_pattern(meshes[m].kind, side, &xyz);
-                add_points(&M.view, xyz, &with, &without);
-                gen_matrix_free(&M);
-                free(xyz);
-            } else {
-                gen_list_t t = grid(kind, side);
-                gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-                double *xyz = grid_points(kind, side, t.n);
-                add_points(&M.view, xyz, &with, &without);
-                gen_matrix_free(&M);
-                gen_list_free(&t);
-                free(xyz);
-            }
-        }
-        failures += is_worse(m < MESHES ? meshes[m].name : "grid", with, without, 1.02, 1.02);
-    }
-    assert_int_equal(failures, 0);
-}
-
-/* The points of a lattice of space with 12 neighbors are halved by planes: 0.97 times the entries,
- * 0.92 times the path weight. */
-static void points_may_halve_volumes(void **state) {
-    (void)state;
-    enum { SIDE = 28, N = SIDE * SIDE * SIDE };
-    gen_list_t t = gen_list(N);
-    double *xyz = test_reals(3 * (size_t)N);
-    for (sl_int v = 0; v < N; v++) {
-        const sl_int at[3] = {v % SIDE, v / SIDE % SIDE, v / SIDE / SIDE};
-        gen_add(&t, v, v, 1.0);
-        for (int way = 1; way < 7; way++) { /* along one axis or two */
-            const sl_int x = at[0] + (way & 1), y = at[1] + (way >> 1 & 1), z = at[2] + (way >> 2);
-            if (x < SIDE && y < SIDE && z < SIDE) {
-                gen_add(&t, x + SIDE * (y + SIDE * z), v, 1.0);
-            }
-        }
-        for (int c = 0; c < 3; c++) {
-            xyz[3 * v + c] = at[c];
-        }
-    }
-    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
-    order_quality with = {0, 0}, without = {0, 0};
-    add_points(&M.view, xyz, &with, &without);
-    assert_false(is_worse("lattice", with, without, 0.99, 0.96));
-    gen_matrix_free(&M);
-    gen_list_free(&t);
-    free(xyz);
-}
-
 /* A chain of blocks of 12 equal rows, and three rows that know one block each, so numbered that no
  * pair of vertices of the compressed graph is light enough to become one: dissection has to do
  * without coarser levels. Minimum degree has no fill. */
@@ -373,9 +285,7 @@ int main(void) {
         cmocka_unit_test(fill_is_near_that_of_metis),
         cmocka_unit_test(meshes_are_near_metis),
         cmocka_unit_test(rings_are_near_metis),
-        cmocka_unit_test(points_cost_next_to_nothing),
         cmocka_unit_test(volumes_are_near_metis),
-        cmocka_unit_test(points_may_halve_volumes),
         cmocka_unit_test(blocks_that_cannot_be_paired_are_dissected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

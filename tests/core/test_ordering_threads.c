@@ -78,14 +78,12 @@ static void small_matrices_have_the_same_order(void **state) {
     }
 }
 
-static void points_and_blocks_have_the_same_order(void **state) {
+static void meshes_and_blocks_have_the_same_order(void **state) {
     (void)state;
     for (int kind = MESH_JITTERED; kind <= MESH_SCROLL; kind++) {
         double *xyz = NULL;
         gen_matrix_t M = mesh_pattern((ordering_mesh)kind, 40, &xyz);
         sl_options opt = options_none();
-        opt.coordinates = xyz;
-        opt.dimensions = 3;
         assert_same_order_for_any_thread_count(&M.view, &opt);
         free(xyz);
         gen_matrix_free(&M);
@@ -93,18 +91,6 @@ static void points_and_blocks_have_the_same_order(void **state) {
     gen_matrix_t M = pattern_matrix(ORDER_CLIQUES);
     sl_options opt = options_none();
     opt.block_size = 3;
-    assert_same_order_for_any_thread_count(&M.view, &opt);
-    gen_matrix_free(&M);
-}
-
-static void refined_separators_have_the_same_order(void **state) {
-    (void)state;
-    if (!ordering_is_present(SL_ORDERING_METIS_REFINED)) {
-        skip();
-    }
-    gen_matrix_t M = pattern_matrix(ORDER_GRID);
-    sl_options opt = options_none();
-    opt.ordering = SL_ORDERING_METIS_REFINED;
     assert_same_order_for_any_thread_count(&M.view, &opt);
     gen_matrix_free(&M);
 }
@@ -225,8 +211,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(patterns_have_the_same_order),
         cmocka_unit_test(small_matrices_have_the_same_order),
-        cmocka_unit_test(points_and_blocks_have_the_same_order),
-        cmocka_unit_test(refined_separators_have_the_same_order),
+        cmocka_unit_test(meshes_and_blocks_have_the_same_order),
         cmocka_unit_test(other_orderings_give_the_same_analysis),
         cmocka_unit_test(metis_is_run_by_the_caller),
         cmocka_unit_test(pivoted_analyses_are_the_same),

@@ -31,7 +31,6 @@ static void every_allocation_may_fail(void **state) {
         {"sl_csc_triangle", triangle},
         {"sl_symbolic_create, default", symbolic_default},
         {"sl_symbolic_create, METIS", symbolic_metis},
-        {"sl_symbolic_create, quality", symbolic_metis_refined},
         {"sl_symbolic_create, natural", symbolic_natural},
         {"sl_symbolic_create, given", symbolic_given},
         {"sl_factor_create", factor},

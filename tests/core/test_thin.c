@@ -95,7 +95,7 @@ static int is_thin(const sl_csc *A) {
         sli_graph G = {A->n_cols, begin, to};
         sli_team alone = sli_team_of(1);
         sli_septree septree = {0, tree, tree + n};
-        SL_CHECK(sli_order_nd(&G, weighed ? weight : NULL, 0, NULL, 0, perm + (size_t)weighed * n,
+        SL_CHECK(sli_order_nd(&G, weighed ? weight : NULL, perm + (size_t)weighed * n,
                               &septree, &alone, &a));
     }
     const int thin = memcmp(perm, perm + n, n * sizeof *perm) != 0;

@@ -16,7 +16,6 @@ static const option_t options[] = {
     {"relaxation", READS_ANALYSIS},
     {"perm", READS_ANALYSIS},
     {"metis_options", READS_ANALYSIS},
-    {"coordinates, dimensions", READS_ANALYSIS},
     {"block_size", READS_ANALYSIS},
     {"purpose", READS_ANALYSIS},
     {"triangle", READS_TRIANGLE},
@@ -34,7 +33,6 @@ static const option_t options[] = {
     {"null_vector_count", READS_FACTOR},
     {"storage", READS_FACTOR},
     {"region", READS_REGION},
-    {"dimensions", READS_ANALYSIS},
     {"region_bytes", READS_REGION_BYTES},
 };
 
@@ -42,12 +40,10 @@ enum { OPTIONS = sizeof options / sizeof options[0], N = 25 };
 
 /* Sets option k to a value that is valid where it is read. */
 static sl_options with_option(const option_fixture_t *f, int k) {
-    static double coordinates[3 * N], mass[N];
+    static double mass[N];
     static sl_int signs[N], metis_options[40];
     sl_options opt = options_none();
     for (int q = 0; q < N; q++) {
-        coordinates[3 * q] = q % 5;
-        coordinates[3 * q + 1] = q / 5;
         mass[q] = 1;
         signs[q] = 1;
     }
@@ -68,62 +64,55 @@ static sl_options with_option(const option_fixture_t *f, int k) {
         opt.metis_options = metis_options;
         break;
     case 4:
-        opt.coordinates = coordinates;
-        opt.dimensions = 3;
-        break;
-    case 5:
         opt.block_size = 5;
         break;
-    case 6:
+    case 5:
         opt.purpose = SL_PURPOSE_ONE_FACTOR;
         break;
-    case 7:
+    case 6:
         opt.triangle = SL_TRIANGLE_LOWER;
         break;
-    case 8:
+    case 7:
         opt.isa = SL_ISA_SCALAR;
         break;
-    case 9:
+    case 8:
         opt.method = SL_METHOD_SUPERNODAL;
         break;
-    case 10:
+    case 9:
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
         break;
-    case 11:
+    case 10:
         opt.null_tolerance = 1e-12;
         break;
-    case 12:
+    case 11:
         opt.mass = mass;
         break;
-    case 13:
+    case 12:
         opt.consistency_tolerance = 1e-5;
         break;
-    case 14:
+    case 13:
         opt.regularization = 1e-8;
         break;
-    case 15:
+    case 14:
         opt.signs = signs;
         break;
-    case 16:
+    case 15:
         opt.growth_limit = 1e12;
         break;
-    case 17:
+    case 16:
         opt.error_limit = 1e-6;
         break;
-    case 18:
+    case 17:
         opt.null_vector = mass;
         break;
-    case 19:
+    case 18:
         opt.null_vector_count = 1;
         break;
-    case 20:
+    case 19:
         opt.storage = SL_STORAGE_FLOAT;
         break;
-    case 21:
+    case 20:
         opt.region = f->region;
-        break;
-    case 22:
-        opt.dimensions = 3;
         break;
     default:
         opt.region_bytes = (size_t)1 << 20;

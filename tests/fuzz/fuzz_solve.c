@@ -149,11 +149,14 @@ static void take_options(case_t *c, input_t *in) {
     static const sl_isa isas[10] = {SL_ISA_SCALAR, SL_ISA_SCALAR, SL_ISA_AVX2, SL_ISA_AVX512,
                                     SL_ISA_SCALAR, SL_ISA_AUTO,   SL_ISA_AUTO, SL_ISA_NEON,
                                     SL_ISA_NEON,   SL_ISA_AUTO};
+    static const sl_ordering orderings[6] = {SL_ORDERING_ND,      SL_ORDERING_METIS,
+                                             SL_ORDERING_ND,      SL_ORDERING_GIVEN,
+                                             SL_ORDERING_NATURAL, SL_ORDERING_MINDEG};
     const int choices = take(in), more = take(in);
     const sl_int n = c->A.n_cols;
     memset(&c->for_analysis, 0, sizeof c->for_analysis);
     memset(&c->for_factor, 0, sizeof c->for_factor);
-    c->for_analysis.ordering = (sl_ordering)(choices % 6);
+    c->for_analysis.ordering = orderings[choices % 6];
     c->for_analysis.relaxation = (sl_relaxation)(choices / 4 % 2);
     c->for_factor.isa = isas[choices / 8 % 5 + (more == 9 ? 5 : 0)];
     c->for_factor.method = (sl_method)(choices / 40 % 3);

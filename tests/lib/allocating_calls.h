@@ -85,12 +85,6 @@ static sl_status symbolic_metis(fixture_t *f, const sl_options *opt) {
         f, opt, ordering_is_present(SL_ORDERING_METIS) ? SL_ORDERING_METIS : SL_ORDERING_NATURAL);
 }
 
-static sl_status symbolic_metis_refined(fixture_t *f, const sl_options *opt) {
-    return symbolic_with(f, opt,
-                         ordering_is_present(SL_ORDERING_METIS_REFINED) ? SL_ORDERING_METIS_REFINED
-                                                                        : SL_ORDERING_NATURAL);
-}
-
 static sl_status symbolic_natural(fixture_t *f, const sl_options *opt) {
     return symbolic_with(f, opt, SL_ORDERING_NATURAL);
 }

@@ -178,8 +178,7 @@ static inline sl_options options_for_factor(const sl_options *from) {
         opt.relaxation = SL_RELAXATION_DEFAULT;
         opt.triangle = SL_TRIANGLE_NONE;
         opt.perm = opt.metis_options = NULL;
-        opt.coordinates = NULL;
-        opt.dimensions = opt.block_size = 0;
+        opt.block_size = 0;
         opt.purpose = SL_PURPOSE_MANY_SOLVES;
     }
     return opt;
@@ -205,13 +204,12 @@ static inline sl_options options_for_rest(const sl_options *from, int plan, int 
 
 /* ---- orderings ---- */
 
-/* Is this ordering compiled in? */
+/* Is this an ordering, and compiled in? */
 static inline int ordering_is_present(sl_ordering ordering) {
 #if !defined(SL_METIS) || defined(SL_NO_METIS)
-    return ordering != SL_ORDERING_METIS && ordering != SL_ORDERING_METIS_REFINED;
+    return ordering != SL_ORDERING_METIS && ordering != (sl_ordering)2;
 #else
-    (void)ordering;
-    return 1;
+    return ordering != (sl_ordering)2;
 #endif
 }
 

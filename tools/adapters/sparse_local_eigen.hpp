@@ -689,8 +689,7 @@ private:
     bool is_analyzed_as_wanted() const {
         const sl_options &a = analyzed_with_, &b = options_;
         return a.ordering == b.ordering && a.relaxation == b.relaxation && a.perm == b.perm &&
-               a.metis_options == b.metis_options && a.coordinates == b.coordinates &&
-               a.dimensions == b.dimensions && a.block_size == b.block_size;
+               a.metis_options == b.metis_options && a.block_size == b.block_size;
     }
     sl_status refuse_negative() {
         if (stats_.factor.negative == 0) return SL_OK;

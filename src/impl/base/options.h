@@ -27,8 +27,7 @@ SL_API void sl_options_init(sl_options *opt, size_t size) {
 /* The groups in which an option differs from its default. */
 static int sli_options_set(const sl_options *opt) {
     const int analysis = opt->ordering != 0 || opt->relaxation != 0 || opt->perm != NULL ||
-                         opt->metis_options != NULL || opt->coordinates != NULL ||
-                         opt->dimensions != 0 || opt->block_size != 0 || opt->purpose != 0;
+                         opt->metis_options != NULL || opt->block_size != 0 || opt->purpose != 0;
     const int factor = opt->method != 0 || opt->null_pivots != 0 || opt->null_tolerance != 0.0 ||
                        opt->mass != NULL || opt->consistency_tolerance != 0.0 ||
                        opt->regularization != 0.0 || opt->signs != NULL ||
@@ -47,6 +46,9 @@ static int sli_options_set(const sl_options *opt) {
  * is set but not read is a mistake of the caller; SL_VERIFY builds refuse it. */
 SLI_NOINLINE static int sli_options_hold(const sl_options *opt, int reads) {
     size_t k;
+    if (opt->reserved_pointer != NULL || opt->reserved_int != 0) {
+        return 0;
+    }
     for (k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++) {
         if (opt->reserved[k] != NULL) {
             return 0;

@@ -150,7 +150,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     if (status == SL_OK) {
         status = sli_order_is_irregular(&G, 0)
                      ? sli_order_mindeg(&G, perm, &cost, a)
-                     : sli_order_compressed(&G, 0, perm, scratch, &septree, &alone, a);
+                     : sli_order_compressed(&G, perm, scratch, &septree, &alone, a);
     }
     if (status == SL_OK) {
         for (k = 0; k < count; k++) {

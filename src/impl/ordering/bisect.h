@@ -190,7 +190,7 @@ static void sli_fm_grow(sli_fm *m, sl_int seed) {
         if (m->heap[1].count > 0) {
             v = m->heap[1].item[0].vertex;
             sli_heap_remove(&m->heap[1], v);
-        } else { /* the subgraph is not connected */
+        } else {                        /* the subgraph is not connected */
             while (m->locked[unseen]) { /* not all are, as side 1 has weight */
                 unseen++;
                 SLI_ASSERT(unseen < sub->n);

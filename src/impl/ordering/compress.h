@@ -34,7 +34,7 @@ static int sli_compress_is_indistinguishable(const sli_graph *G, sl_int u, sl_in
 typedef struct sli_compress_search {
     const sli_graph *G;
     sl_int *first;
-    uint32_t *key; /* n: hashes of the closed neighborhoods */
+    uint32_t *key;                /* n: hashes of the closed neighborhoods */
     sl_int count[SLI_SHARES_MAX]; /* first rows of each range */
 } sli_compress_search;
 
@@ -73,8 +73,7 @@ static void sli_compress_firsts(void *data, const sli_range *r) {
 
 /* Finds the first indistinguishable row of each row, in a graph with sorted lists. Returns the
  * number of first rows. key: n of scratch. */
-static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key,
-                                sli_team *team) {
+static sl_int sli_compress_find(const sli_graph *G, sl_int *first, uint32_t *key, sli_team *team) {
     const sl_int ranges = sli_shares_count(team, G->n);
     sl_int item, count = 0;
     sli_compress_search w;
@@ -132,9 +131,8 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
 }
 
 /* Orders a graph, compressed if that is worthwhile. scratch: n. */
-static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *perm,
-                                      sl_int *scratch, sli_septree *septree, sli_team *team,
-                                      const sl_allocator *a) {
+static sl_status sli_order_compressed(const sli_graph *G, sl_int *perm, sl_int *scratch,
+                                      sli_septree *septree, sli_team *team, const sl_allocator *a) {
     sli_compressed c;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -142,7 +140,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
     memset(&c, 0, sizeof c);
     c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm, team);
     if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-        return sli_order_nd(G, NULL, by_metis, NULL, 0, perm, septree, team, a);
+        return sli_order_nd(G, NULL, perm, septree, team, a);
     }
     c.first = scratch;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
@@ -157,7 +155,7 @@ static sl_status sli_order_compressed(const sli_graph *G, int by_metis, sl_int *
         return status;
     }
     sli_compress_fill(&c, G);
-    status = sli_order_nd(&c.G, c.weight, by_metis, NULL, 0, c.perm, septree, team, a);
+    status = sli_order_nd(&c.G, c.weight, c.perm, septree, team, a);
     if (status == SL_OK) {
         sli_compress_expand(&c, G->n, perm, septree, (sl_int *)(void *)c.G.begin);
     }

@@ -95,7 +95,7 @@ typedef struct sli_contraction {
     const sli_clusters *clusters;
     sli_level *c;
     sli_shares *ranges;
-    sl_int first[SLI_SHARES_MAX + 1]; /* the first cluster of each range */
+    sl_int first[SLI_SHARES_MAX + 1];                      /* the first cluster of each range */
     sl_off begin[SLI_SHARES_MAX + 1], end[SLI_SHARES_MAX]; /* the edges of each range */
 } sli_contraction;
 

@@ -6,9 +6,8 @@
 #include "weigh.h"
 
 /* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as
- * a further separator. With METIS's separators, smaller leaves save another 0.5 % of fill. */
+ * a further separator. */
 #define SLI_DISSECT_LEAF 160
-#define SLI_DISSECT_LEAF_REFINED 140
 /* A leaf is bisected on the coarsest level on which it has more vertices than BISECT_MIN. Leaves
  * are bisected only on levels of at most n / SHRINK vertices, in volumes on the first coarser one,
  * too: separators have a larger share of the vertices there, and clusters make them rougher. */
@@ -42,10 +41,7 @@
 /* Bisects a subgraph when the tree has so many nodes. */
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
     const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
-    sli_subgraph_bisect(sub,
-                        few           ? SLI_DISSECT_TRIES_FIRST
-                        : sub->n > 50 ? SLI_DISSECT_TRIES
-                                      : 1);
+    sli_subgraph_bisect(sub, few ? SLI_DISSECT_TRIES_FIRST : sub->n > 50 ? SLI_DISSECT_TRIES : 1);
 }
 
 /* Gives the two sides of the subgraph of a former leaf to the new leaves below it. */
@@ -240,9 +236,9 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
 }
 
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on
- * which leaves are bisected. weigh: its edges become what a separator costs. The first level is
- * made of balls; a level that shows a volume is made again of smaller clusters. */
-static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working) {
+ * which leaves are bisected: its edges become what a separator costs. The first level is made of
+ * balls; a level that shows a volume is made again of smaller clusters. */
+static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     const sl_int n = d->levels[0].n;
     int shrunk = 1, has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
     sl_status status = SL_OK;
@@ -265,16 +261,13 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int weigh, int *working)
         }
         if (last == 1) {
             d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
-            d->may_be_seven_point =
-                !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-                sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
+            d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
+                                    sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
         }
         most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
         if (*working == -1 && last > 0 && g->n <= most) {
             *working = last;
-            if (weigh) {
-                sli_weigh_edges(d);
-            }
+            sli_weigh_edges(d);
         }
         if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
             break;
@@ -300,10 +293,10 @@ static void sli_dissect_free_levels(sli_dissection *d) {
 
 /* Builds the separator tree on the finest level that has few enough vertices, in addition to the
  * levels that there are: each leaf is bisected on the coarsest level on which it is large enough,
- * and its border is then refined from level to level. weigh: see sli_dissect_coarsen. */
-static sl_status sli_dissect_levels(sli_dissection *d, int weigh) {
+ * and its border is then refined from level to level. */
+static sl_status sli_dissect_levels(sli_dissection *d) {
     int working;
-    const sl_status status = sli_dissect_coarsen(d, weigh, &working);
+    const sl_status status = sli_dissect_coarsen(d, &working);
     if (status != SL_OK) {
         return status;
     }
@@ -336,7 +329,7 @@ static void sli_dissect_swap(sli_dissection *d) {
 static sl_status sli_dissect_multilevel(sli_dissection *d) {
     sl_status status;
     d->n_levels = 1;
-    status = sli_dissect_levels(d, 1);
+    status = sli_dissect_levels(d);
     while (status == SL_OK && d->level > 0) {
         sli_dissect_project(d);
     }

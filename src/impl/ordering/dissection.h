@@ -27,7 +27,7 @@ typedef struct sli_dissection {
     sl_int total;                     /* weight of the finest level */
     sl_int leaf_size;                 /* most vertices of a leaf, if it can be bisected */
     int is_volume, may_be_seven_point;
-    int has_labels; /* by the levels of a search */
+    int has_labels;  /* by the levels of a search */
     int band_growth; /* additional band layers for each factor of 4 in the size of a subgraph */
     sli_label_tree tree, other_tree; /* other_tree and other: a dissection that is compared */
     sli_border_pool pool;
@@ -83,9 +83,8 @@ static sl_int *sli_dissect_by_label(const sli_dissection *d, sl_int item) {
 static void sli_dissect_loop(sli_dissection *d, sl_int n_labels, sli_range_body *body) {
     const sl_int n = d->levels[d->level].n;
     d->n_labels = n_labels;
-    d->n_ranges = SLI_SHARES * (int64_t)d->n_labels <= d->ranges.room
-                      ? sli_shares_count(d->team, n)
-                      : 1;
+    d->n_ranges =
+        SLI_SHARES * (int64_t)d->n_labels <= d->ranges.room ? sli_shares_count(d->team, n) : 1;
     sli_range_run(d->team, n, d->n_ranges, body, d);
 }
 

@@ -195,7 +195,7 @@ static int sli_borders_take(sli_borders *l) {
     sli_lock(&p->lock);
     chunk = p->failed ? 0 : sli_border_chunk(p->count, &first);
     if (!p->failed && chunk == SLI_BORDERS_CHUNKS) { /* untested: 2^31 */
-        p->failed = 1; /* untested: the same */
+        p->failed = 1;                               /* untested: the same */
     }
     if (!p->failed && p->chunk[chunk] == NULL) {
         p->chunk[chunk] = (sli_border *)sli_alloc(p->a, ((size_t)SLI_BORDERS_FIRST << chunk) *

@@ -84,15 +84,15 @@ static void sli_dissect_levelset(sli_dissection *d) {
  * largest of which has 3/4 of the vertices of a straight plane. They cost 0.41 to 0.53 of it in
  * cubes, and 0.66 to 0.83 in plates of 2 to 10 layers, where they save 9 to 22 % of the fill. */
 static sl_status sli_dissect_graph(sli_dissection *d) {
-    sli_tree_cost multilevel, flat;
+    sli_tree_cost multilevel;
     const sl_status status = sli_dissect_multilevel(d);
     if (status != SL_OK || !d->may_be_seven_point) {
         return status;
     }
-    multilevel = sli_dissect_cost(d, &flat);
+    multilevel = sli_dissect_cost(d);
     sli_dissect_swap(d);
     sli_dissect_levelset(d);
-    if (sli_tree_cost_is_less(sli_dissect_cost(d, &flat), multilevel)) {
+    if (sli_tree_cost_is_less(sli_dissect_cost(d), multilevel)) {
         d->band_growth = 0;
     } else {
         sli_dissect_swap(d);

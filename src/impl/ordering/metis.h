@@ -1,4 +1,4 @@
-/* metis.h: the calls to METIS: the order of a connected component, and nested separators */
+/* metis.h: the call to METIS: the order of a connected component */
 #ifndef SLI_ORDERING_METIS_H
 #define SLI_ORDERING_METIS_H
 
@@ -95,62 +95,6 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
         }
         for (k = 0; k < count; k++) {
             vertices[k] = (sl_int)xadj[perm[k]];
-        }
-    }
-    sli_free(a, b.base);
-    return result == METIS_OK             ? SL_OK
-           : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
-                                          : SL_ERR_ORDERING;
-}
-
-/* Finds nested separators of a graph. n_leaves: of the separator tree, a power of two. order := the
- * vertices, each subgraph before the separator above it. sizes := 2 n_leaves - 1 weights: those of
- * the leaf subgraphs, then those of the separators level by level, the root's last. */
-static sl_status sli_metis_separators(const sli_level *g, sl_int n_leaves, sl_int *order,
-                                      sl_int *sizes, const sl_allocator *a) {
-    const sl_off edges = g->begin[g->n];
-    idx_t options[METIS_NOPTIONS], *xadj = NULL, *adjncy = NULL, *perm = NULL, *iperm = NULL,
-                                   *size = NULL, *weight = NULL;
-    sli_block b = {NULL, 0, 0};
-    sl_status status = SL_OK;
-    sl_off e;
-    sl_int k;
-    int pass, result;
-    if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
-        return SL_ERR_TOO_LARGE;                               /* untested: the same */
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        xadj = SLI_TAKE(&b, idx_t, (size_t)g->n + 1);
-        adjncy = SLI_TAKE(&b, idx_t, edges);
-        perm = SLI_TAKE(&b, idx_t, g->n);
-        iperm = SLI_TAKE(&b, idx_t, g->n);
-        size = SLI_TAKE(&b, idx_t, 2 * (size_t)n_leaves);
-        weight = SLI_TAKE(&b, idx_t, g->weight != NULL ? g->n : 0);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    if (status != SL_OK) {
-        return status;
-    }
-    memset(size, 0, 2 * (size_t)n_leaves * sizeof(idx_t)); /* METIS skips empty subgraphs */
-    for (k = 0; k <= g->n; k++) {
-        xadj[k] = (idx_t)g->begin[k];
-    }
-    for (e = 0; e < edges; e++) {
-        adjncy[e] = g->to[e];
-    }
-    for (k = 0; k < g->n && g->weight != NULL; k++) {
-        weight[k] = g->weight[k];
-    }
-    METIS_SetDefaultOptions(options);
-    options[METIS_OPTION_NSEPS] = 2; /* the better of two tries for each separator */
-    result = METIS_NodeNDP((idx_t)g->n, xadj, adjncy, g->weight != NULL ? weight : NULL,
-                           (idx_t)n_leaves, options, perm, iperm, size);
-    if (result == METIS_OK) {
-        for (k = 0; k < g->n; k++) {
-            order[k] = (sl_int)perm[k];
-        }
-        for (k = 0; k < 2 * n_leaves - 1; k++) {
-            sizes[k] = (sl_int)size[k];
         }
     }
     sli_free(a, b.base);

@@ -3,9 +3,8 @@
 #define SLI_ORDERING_ND_H
 
 #include "graph.h"
-#include "cells.h"
+#include "levelset.h"
 #include "septree.h"
-#include "metis_refined.h"
 #include "thin.h"
 
 /* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
@@ -20,14 +19,11 @@
 typedef struct sli_nd {
     const sli_graph *G;
     const sl_int *weight; /* NULL: 1 each */
-    sli_points points;    /* points.xyz is NULL: none */
-    int by_metis;
-    sl_int *local;   /* n: number of a row in its component; -1 not yet visited, -2 dense */
-    sl_int *row;     /* n: the rows of the component */
-    sl_off *begin;   /* n + 1: graph of the component */
-    sl_int *to;      /* as many as edges of G */
-    sl_int *weights; /* n, if there are weights */
-    sli_projection *projections; /* n, if there are coordinates */
+    sl_int *local;        /* n: number of a row in its component; -1 not yet visited, -2 dense */
+    sl_int *row;          /* n: the rows of the component */
+    sl_off *begin;        /* n + 1: graph of the component */
+    sl_int *to;           /* as many as edges of G */
+    sl_int *weights;      /* n, if there are weights */
     sli_dissection d;
 } sli_nd;
 
@@ -39,7 +35,6 @@ static void sli_nd_layout(sli_nd *w, sli_block *b) {
     w->begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
     w->to = SLI_TAKE(b, sl_int, edges);
     w->weights = SLI_TAKE(b, sl_int, w->weight != NULL ? n : 0);
-    w->projections = SLI_TAKE(b, sli_projection, w->points.xyz != NULL ? n : 0);
     sli_dissection_layout(&w->d, b, n, edges);
 }
 
@@ -108,16 +103,6 @@ static sl_status sli_nd_label(sli_nd *w) {
     if (d->has_labels) {
         return SL_OK;
     }
-    if (w->by_metis) {
-#if defined(SLI_METIS)
-        return sli_dissect_metis_refined(d);
-#else
-        return SL_ERR_UNSUPPORTED;
-#endif
-    }
-    if (w->points.xyz != NULL) {
-        return sli_dissect_geometric(d, &w->points, w->projections);
-    }
     return sli_dissect_graph(d);
 }
 
@@ -178,8 +163,8 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
             }
             sli_nd_graph(w, count);
             w->d.has_labels = 0;
-            if (!w->by_metis && w->points.xyz == NULL && w->weight == NULL &&
-                count > w->d.leaf_size && sli_order_thin(&w->d, w->row, perm, at, septree)) {
+            if (w->weight == NULL && count > w->d.leaf_size &&
+                sli_order_thin(&w->d, w->row, perm, at, septree)) {
                 at += count;
                 continue;
             }
@@ -204,8 +189,7 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
 
 /* Orders a graph without repeated edges and builds its separator tree. weight: of each vertex, for
  * the balance of bisections; NULL: 1 each. */
-static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_metis,
-                              const double *xyz, sl_int dimensions, sl_int *perm,
+static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, sl_int *perm,
                               sli_septree *septree, sli_team *team, const sl_allocator *a) {
     sli_nd w;
     sli_block b = {NULL, 0, 0};
@@ -215,18 +199,13 @@ static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, int by_m
     memset(&w, 0, sizeof w);
     w.G = G;
     w.weight = weight;
-    w.points.xyz = xyz;
-    w.points.dimensions = dimensions;
-    w.points.unit = xyz != NULL ? sli_points_unit(xyz, (size_t)G->n * (size_t)dimensions) : 1.0;
-    w.by_metis = by_metis;
-    w.d.leaf_size = by_metis ? SLI_DISSECT_LEAF_REFINED : SLI_DISSECT_LEAF;
+    w.d.leaf_size = SLI_DISSECT_LEAF;
     w.d.team = team;
     w.d.a = w.d.pool.a = a;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_nd_layout(&w, &b);
         status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
-    w.points.row = w.row;
     if (status == SL_OK) {
         /* CPUID takes longer than what it saves in a small graph */
         const int has_avx2 =

@@ -122,14 +122,13 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
 /* Is the first factor wanted as early as possible? */
 static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
     return ordering == SL_ORDERING_MINDEG ||
-           (ordering == SL_ORDERING_ND && opt != NULL && opt->coordinates == NULL &&
-            opt->purpose == SL_PURPOSE_ONE_FACTOR);
+           (ordering == SL_ORDERING_ND && opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR);
 }
 
 /* A second order, by minimum degree, of a graph on which it may be the better one. The analysis
  * counts both. */
 typedef struct sli_order_choice {
-    sl_int *other; /* n rows */
+    sl_int *other;  /* n rows */
     sl_off entries; /* about those of L; 0: not known */
     sl_int *parent; /* n rows: the elimination tree of an order in postorder, if has_tree */
     int has_tree;   /* A is a forest, and L has no fill */
@@ -139,9 +138,7 @@ typedef struct sli_order_choice {
 /* Orders a graph of rows or of blocks of rows. perm and septree hold its vertices. */
 static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                                 sli_order_choice *choice, sli_team *team,
-                                 const sl_allocator *a) {
-    const double *xyz = ordering == SL_ORDERING_ND && opt != NULL ? opt->coordinates : NULL;
+                                 sli_order_choice *choice, sli_team *team, const sl_allocator *a) {
     const int is_hurried = sli_order_is_hurried(ordering, opt);
 #if defined(SLI_METIS)
     if (ordering == SL_ORDERING_METIS) {
@@ -161,9 +158,7 @@ static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const
             return status;
         }
     }
-    return xyz != NULL ? sli_order_nd(G, NULL, 0, xyz, opt->dimensions, perm, septree, team, a)
-                       : sli_order_compressed(G, ordering == SL_ORDERING_METIS_REFINED, perm,
-                                              scratch, septree, team, a);
+    return sli_order_compressed(G, perm, scratch, septree, team, a);
 }
 
 /* Orders a graph as sli_order_graph does, and *other by minimum degree if that is wanted and the
@@ -201,8 +196,7 @@ static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering o
 /* The same, after rows with at most two neighbors have been eliminated. */
 static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
                                   sl_int *perm, sl_int *scratch, sli_septree *septree,
-                                  sli_order_choice *choice, sli_team *team,
-                                  const sl_allocator *a) {
+                                  sli_order_choice *choice, sli_team *team, const sl_allocator *a) {
     sli_peel p;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -241,8 +235,7 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
                                     sl_int *scratch, sli_septree *septree, sli_order_choice *choice,
                                     sli_team *team, const sl_allocator *a) {
     const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
-    const int may_peel = ordering == SL_ORDERING_MINDEG ||
-                         (ordering == SL_ORDERING_ND && (opt == NULL || opt->coordinates == NULL));
+    const int may_peel = ordering == SL_ORDERING_MINDEG || ordering == SL_ORDERING_ND;
     sli_graph G;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -267,10 +260,10 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
     status = sli_order_canonical(&G, a);
     choice->is_wanted &= block == 1;
     if (status == SL_OK) {
-        status = may_peel && sli_peel_is_worthwhile(&G)
-                     ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
-                     : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team,
-                                      a);
+        status =
+            may_peel && sli_peel_is_worthwhile(&G)
+                ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
+                : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team, a);
     }
     if (status == SL_OK && block > 1) {
         choice->entries = 0; /* those counted are blocks */
@@ -286,36 +279,18 @@ static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_tr
     return status;
 }
 
-/* Returns whether purpose, block size and coordinates are valid for n rows. *bad := the first row
- * of a block with a coordinate that is not finite, otherwise -1. */
-static int sli_order_options_are_valid(const sl_options *opt, sl_int n, sl_int *bad) {
-    sl_int v, k;
-    *bad = -1;
-    if (opt == NULL) {
-        return 1;
-    }
-    if ((opt->purpose != SL_PURPOSE_MANY_SOLVES && opt->purpose != SL_PURPOSE_ONE_FACTOR) ||
-        opt->block_size < 0 || (opt->block_size > 1 && n % opt->block_size != 0) ||
-        (opt->coordinates != NULL && opt->dimensions != 2 && opt->dimensions != 3)) {
-        return 0;
-    }
-    for (v = 0; opt->coordinates != NULL && v < n / sli_max(opt->block_size, 1); v++) {
-        for (k = 0; k < opt->dimensions; k++) {
-            if (!sli_is_finite(opt->coordinates[(size_t)v * (size_t)opt->dimensions + (size_t)k])) {
-                *bad = v * sli_max(opt->block_size, 1);
-                return 0;
-            }
-        }
-    }
-    return 1;
+/* Are purpose and block size valid for n rows? */
+static int sli_order_options_are_valid(const sl_options *opt, sl_int n) {
+    return opt == NULL ||
+           ((opt->purpose == SL_PURPOSE_MANY_SOLVES || opt->purpose == SL_PURPOSE_ONE_FACTOR) &&
+            opt->block_size >= 0 && (opt->block_size <= 1 || n % opt->block_size == 0));
 }
 
 /* The workers that order A as the options say; those of METIS do not share. A hurried order of
  * fewer than 1e5 entries is that of one worker in nearly all cases, and takes 1 to 4 ms: waking
  * others would cost 2 % of that. */
 static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
-    const int is_shared = opt != NULL && (opt->ordering == SL_ORDERING_ND ||
-                                          opt->ordering == SL_ORDERING_METIS_REFINED);
+    const int is_shared = opt != NULL && opt->ordering == SL_ORDERING_ND;
     const double share = is_shared && sli_order_is_hurried(opt->ordering, opt) ? 0.06 : 0.5;
     const double flops = share * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
     return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
@@ -329,16 +304,14 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
                            sli_septree *septree, sli_order_choice *choice, sli_team *team,
                            const sl_allocator *a, sl_stats *stats) {
     const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
-    sl_int bad;
     septree->count = 0;
     choice->is_there = 0;
     choice->entries = 0;
     choice->has_tree = 0;
     choice->is_wanted =
-        ordering == SL_ORDERING_ND &&
-        (opt == NULL || (opt->coordinates == NULL && opt->purpose == SL_PURPOSE_MANY_SOLVES));
-    if (!sli_order_options_are_valid(opt, A->n_cols, &bad)) {
-        return bad == -1 ? SL_ERR_ARGUMENT : sli_fail_at(stats, SL_ERR_NOT_FINITE, bad, -1, 0.0);
+        ordering == SL_ORDERING_ND && (opt == NULL || opt->purpose == SL_PURPOSE_MANY_SOLVES);
+    if (!sli_order_options_are_valid(opt, A->n_cols)) {
+        return SL_ERR_ARGUMENT;
     }
     switch (ordering) {
     case SL_ORDERING_GIVEN:
@@ -351,11 +324,10 @@ static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle tr
         return sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
                                   choice, team, a);
     case SL_ORDERING_METIS:
-    case SL_ORDERING_METIS_REFINED:
 #if !defined(SLI_METIS)
         return SL_ERR_UNSUPPORTED;
 #else
-        return ordering == SL_ORDERING_METIS && !sli_metis_options_are_valid(opt->metis_options)
+        return !sli_metis_options_are_valid(opt->metis_options)
                    ? SL_ERR_ARGUMENT
                    : sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
                                         choice, team, a);

@@ -32,8 +32,8 @@ typedef struct sli_quotient_node {
  * that the graph stays within its first size, plus one front that is being formed. [ADD96] */
 typedef struct sli_quotient {
     sl_int n;
-    sl_off end, room;    /* of list: positions used, and available */
-    sl_int *list;        /* all lists */
+    sl_off end, room;        /* of list: positions used, and available */
+    sl_int *list;            /* all lists */
     sli_quotient_node *node; /* n */
     sl_int *weight;      /* n: rows of a variable; 0: merged; negated in the front being formed */
     sl_int *mark;        /* n: 0 for a dead element, otherwise see sli_quotient_overlaps */

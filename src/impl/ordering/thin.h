@@ -2,7 +2,6 @@
 #ifndef SLI_ORDERING_THIN_H
 #define SLI_ORDERING_THIN_H
 
-#include "cells.h"
 #include "septree.h"
 
 /* A graph is narrow if the sizes of its levels, weighed by themselves, have a mean of at most
@@ -28,6 +27,23 @@
 /* The largest percentage of a part that may be on one side of a separator, if there is a choice. */
 #define SLI_THIN_BALANCE 65
 
+/* In a lattice, at least this percentage of the vertices have equal degrees. */
+#define SLI_LATTICE_SHARE 75
+#define SLI_LATTICE_DEGREES 32
+
+/* Is the graph that of a grid, apart from its boundary, with at least SLI_THIN_DEGREE neighbors? */
+static int sli_is_lattice(const sli_level *g) {
+    sl_int count[SLI_LATTICE_DEGREES] = {0}, v, most = 0;
+    for (v = 0; v < g->n; v++) {
+        const sl_off degree = g->begin[v + 1] - g->begin[v];
+        if (degree >= SLI_THIN_DEGREE && degree < SLI_LATTICE_DEGREES) {
+            count[degree]++;
+            most = sli_max(most, count[degree]);
+        }
+    }
+    return 100 * (int64_t)most >= SLI_LATTICE_SHARE * (int64_t)g->n;
+}
+
 /* Positions first..end-1 of the queue. */
 typedef struct sli_thin_part {
     sl_int first, end, levels;
@@ -42,7 +58,7 @@ typedef struct sli_thin {
                       position on */
     sl_int *ahead; /* of each level: vertices next to the next one */
     sl_int *spare, *kept; /* n of scratch each */
-    sl_int *up; /* of each node: the one above; nodes are numbered from the root */
+    sl_int *up;           /* of each node: the one above; nodes are numbered from the root */
     sl_int marks, leaf, parts;
     int is_narrow;
     sli_thin_part *part; /* a stack of disjoint parts, none of them empty */
@@ -116,7 +132,7 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
     even = n + n / 200 + ends;
     return t->is_narrow ||
            (squares <= even * even / levels && 2 * (int64_t)levels >= squares / n * SLI_THIN_LONG &&
-            sli_is_lattice(t->g, SLI_THIN_DEGREE));
+            sli_is_lattice(t->g));
 }
 
 /* The level whose last vertices separate the levels before it, and the others of its own, from

@@ -16,13 +16,6 @@ SLI_INLINE void sli_tree_cost_add(sli_tree_cost *c, uint64_t a, uint64_t b) {
     c->low &= 0xffffffffu;
 }
 
-SLI_INLINE sli_tree_cost sli_tree_cost_times(sli_tree_cost c, uint64_t factor) {
-    c.low *= factor;
-    c.high = c.high * factor + (c.low >> 32);
-    c.low &= 0xffffffffu;
-    return c;
-}
-
 SLI_INLINE int sli_tree_cost_is_less(sli_tree_cost a, sli_tree_cost b) {
     return a.high < b.high || (a.high == b.high && a.low < b.low);
 }
@@ -51,13 +44,12 @@ static void sli_tree_cost_count(void *data, const sli_range *r) {
 /* Estimates the cost of local solves with the order of a tree, as path weight: the entries of L on
  * the paths from the columns to the root. The paths of about half of a subgraph's vertices contain
  * its separator, which has about as many columns as rows below. So each node counts its weight
- * times the square of its border. *flat := the same for square flat grids of that size. */
-static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
+ * times the square of its border. */
+static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
     sl_int k, item;
     sli_tree_cost cost = {0, 0};
     SLI_ASSERT(d->level == 0);
     sli_dissect_loop(d, d->tree.count, sli_tree_cost_count);
-    *flat = cost;
     for (k = 0; k < d->tree.count; k++) {
         const uint64_t weight = (uint64_t)d->tree.weight[k];
         uint64_t across = 0;
@@ -66,7 +58,6 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d, sli_tree_cost *flat) {
         }
         if (!sli_label_tree_is_leaf(&d->tree, k)) {
             sli_tree_cost_add(&cost, weight * across, across);
-            sli_tree_cost_add(flat, weight, weight);
         }
     }
     return cost;

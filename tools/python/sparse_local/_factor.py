@@ -10,8 +10,7 @@ from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib, new_options
 from ._plan import Plan, Region, choice, part_bits
 
-_ORDERINGS = {"nd": 0, "metis": 1, "metis-refined": 2, "given": 3, "natural": 4,
-              "mindeg": 5}
+_ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
 _STORAGES = {"double": 0, "float": 1}
 CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
@@ -25,9 +24,8 @@ class Factor:
               is checked.
     triangle  'lower' or 'upper': reads this triangle only, and ignores the other.
     ordering  'nd' (nested dissection), 'mindeg' (approximate minimum degree), 'natural', 'given'
-              (perm), 'metis' and 'metis-refined' if the library was compiled with METIS.
+              (perm), 'metis' if the library was compiled with METIS.
     perm      n row numbers: perm[k] is pivot k; implies 'given'.
-    coordinates     n x 2 or n x 3 positions of the rows in space, which improve 'nd'.
     block_size      rows of one node, such as 3 for x, y and z.
     null_pivots     'refuse' (PivotError), or 'skip': singular semidefinite matrices, Laplacians.
     null_tolerance  see sparse_local.h; 0 is its default, negative: only an exact 0 is null.
@@ -43,9 +41,9 @@ class Factor:
               release the global interpreter lock.
     """
 
-    def __init__(self, A, *, triangle=None, ordering="nd", perm=None, coordinates=None,
-                 block_size=0, null_pivots="refuse", null_tolerance=0.0, mass=None,
-                 null_vector=None, consistency_tolerance=0.0, regularization=0.0, signs=None,
+    def __init__(self, A, *, triangle=None, ordering="nd", perm=None, block_size=0,
+                 null_pivots="refuse", null_tolerance=0.0, mass=None, null_vector=None,
+                 consistency_tolerance=0.0, regularization=0.0, signs=None,
                  storage="double"):
         matrix = arrays.Matrix(A)
         options = new_options()
@@ -77,12 +75,6 @@ class Factor:
             null_vector = np.ravel(null_vector, order="F")
         set_array("null_vector", null_vector, n * max(options.null_vector_count, 1), np.float64)
         set_array("signs", signs, n, np.int32)
-        if coordinates is not None:
-            shape = np.shape(coordinates)
-            if len(shape) != 2:
-                raise ArgumentError("coordinates have two dimensions")
-            options.dimensions = shape[1]
-            set_array("coordinates", coordinates, n // max(block_size, 1) * shape[1], np.float64)
 
         stats = Stats()
         symbolic = ctypes.c_void_p()

@@ -100,14 +100,13 @@ def test_options(A):
     x = sl.Factor(A).solve(b)
     natural = sl.Factor(A, ordering="natural")
     given = sl.Factor(A, perm=np.random.default_rng(0).permutation(400))
-    spaced = sl.Factor(A, coordinates=np.indices((20, 20)).reshape(2, -1).T)
-    for F in (natural, given, spaced):
+    for F in (natural, given):
         assert np.allclose(F.solve(b), x, rtol=1e-11)
         assert sorted(F.perm) == list(range(400))
     assert F.stats["factor"]["positive"] == 400 and "400 rows" in repr(F)
     for wrong in ({"ordering": "best"}, {"ordering": "given"}, {"null_pivots": "x"},
                   {"triangle": "both"}, {"perm": [0, 1]}, {"perm": np.zeros(400, dtype=int)},
-                  {"coordinates": np.zeros((400, 5))}, {"mass": np.ones(3)}):
+                  {"mass": np.ones(3)}):
         with pytest.raises(sl.ArgumentError):
             sl.Factor(A, **wrong)
 
