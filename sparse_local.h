@@ -1,111 +1,110 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1d10996a94c41cbe
+ * FNV-1a of the lines after this comment, without the license: 51d1d51a77747838
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *    113 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    182 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    215 config.h     macros that a user may define before the include, the version, and the integer types
- *    293 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    463 options.h    options of all calls, threads, and the allocator
- *    603 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    800 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1110 factor.h     the numerical factorization P A P' = L D L'
- *   1399 solve.h      full solves, and the workspace of all solves
- *   1512 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1607 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1720 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1846 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1982 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   2102 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2229 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2279 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2470 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
- *   2609 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
- *   2745 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2838 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2990 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   3045 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   3148 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *    112 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    181 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    214 config.h     macros that a user may define before the include, the version, and the integer types
+ *    292 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    462 options.h    options of all calls, threads, and the allocator
+ *    602 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    799 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    971 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1109 factor.h     the numerical factorization P A P' = L D L'
+ *   1398 solve.h      full solves, and the workspace of all solves
+ *   1511 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1606 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1719 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1845 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1981 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   2101 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2228 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2278 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2469 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
+ *   2608 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
+ *   2744 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2837 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2989 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   3044 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   3147 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3298 base.h   3594 status.h   3655 options.h   3716 alloc.h   3879 hash.h   4009 sort.h
- *   4074 parallel.h
+ *   3297 base.h   3593 status.h   3654 options.h   3715 alloc.h   3878 hash.h   4008 sort.h
+ *   4073 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4264 panel.h   4289 step.h   4368 pivot_rule.h   4442 front.h   4502 pairs.h   4709 table.h
- *   4725 simd.h   4828 simd_scalar.h   4855 simd_avx2.h   4922 simd_avx512.h   4954 simd_neon.h
- *   4984 dispatch.h
+ *   4263 panel.h   4288 step.h   4367 pivot_rule.h   4441 front.h   4501 pairs.h   4708 table.h
+ *   4724 simd.h   4827 simd_scalar.h   4854 simd_avx2.h   4921 simd_avx512.h   4953 simd_neon.h
+ *   4983 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5098 csc.h   5241 csc_build.h   5375 csc_triangle.h   5440 csc_products.h   5557 permute.h
+ *   5097 csc.h   5240 csc_build.h   5374 csc_triangle.h   5439 csc_products.h   5556 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5624 graph.h   5743 contract.h   5924 coarsen.h   6138 labels.h   6364 subgraph.h   6558 heap.h
- *   6620 bisect.h   6828 separator.h   7090 mindeg.h   7273 dissection.h   7382 weigh.h
- *   7449 dissect.h   7739 tree_cost.h   7793 levelset.h   7878 septree.h   7954 metis.h
- *   8050 thin.h   8319 nd.h   8516 compress.h   8666 levels.h   8719 border.h   8772 forest.h
- *   8859 peel.h   9059 quotient.h   9393 quotient_order.h   9487 graph_kind.h   9576 order.h
+ *   5623 graph.h   5794 job.h   5830 reduce.h   6135 contract.h   6316 coarsen.h   6530 labels.h
+ *   6756 subgraph.h   6950 bisect.h   7218 separator.h   7480 mindeg.h   7663 dissection.h
+ *   7873 dissect.h   8127 levelset.h   8264 thin.h   8533 nd.h   8797 compress.h   8951 metis.h
+ *   9081 levels.h   9155 quotient.h   9489 quotient_order.h   9583 choice.h   9755 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9877 symbolic_types.h   9920 etree.h  10117 supernodes.h  10375 pattern.h  10456 structure.h
- *  10627 schedule.h  10958 symbolic.h  11434 reach.h
+ *   9959 symbolic_types.h  10002 etree.h  10199 supernodes.h  10457 pattern.h  10538 structure.h
+ *  10709 schedule.h  11040 symbolic.h  11528 reach.h
  * (factor: the numbers of L and D)
- *  11710 factor_types.h  11900 storage_type.h  11965 panel_load.h  12006 pivot_check.h
- *  12110 null_product.h  12314 null_dense.h  12391 null_basis.h  12711 null_vectors.h
- *  12838 multifrontal.h  12981 uplooking.h  13055 front_tasks.h  13369 null_center.h
- *  13493 nullspace.h  13700 growth.h  13778 factor_setup.h  14114 factor.h  14329 factor_query.h
+ *  11804 factor_types.h  11994 storage_type.h  12059 panel_load.h  12100 pivot_check.h
+ *  12204 null_product.h  12408 null_dense.h  12485 null_basis.h  12805 null_vectors.h
+ *  12932 multifrontal.h  13075 uplooking.h  13149 front_tasks.h  13463 null_center.h
+ *  13587 nullspace.h  13794 growth.h  13872 factor_setup.h  14208 factor.h  14423 factor_query.h
  * (solve: full and local solves)
- *  14465 work.h  14565 query.h  14804 singular.h  15064 backward.h  15094 sweep_tasks.h
- *  15425 sweep.h  15625 compile.h  15760 plan.h  15862 local.h
+ *  14559 work.h  14659 query.h  14898 singular.h  15158 backward.h  15188 sweep_tasks.h
+ *  15519 sweep.h  15719 compile.h  15854 plan.h  15956 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  16016 parts.h  16305 refine.h  16484 refine_local.h  16700 rcond.h  16859 defects.h
+ *  16110 parts.h  16399 refine.h  16578 refine_local.h  16794 rcond.h  16953 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  16920 pivot_search.h  17266 pivoted.h
+ *  17014 pivot_search.h  17360 pivoted.h
  * (float: L and fronts in single precision)
- *  17338 simd_scalar_single.h  17369 simd_avx2_single.h  17426 simd_avx512_single.h
- *  17481 simd_neon_single.h  17526 float_kernels.h  17624 float_storage.h
+ *  17432 simd_scalar_single.h  17463 simd_avx2_single.h  17520 simd_avx512_single.h
+ *  17575 simd_neon_single.h  17620 float_kernels.h  17718 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  17789 inverse_front.h  17861 inverse_kernels.h  17933 traversal.h  18187 traversal_run.h
- *  18396 row_sets.h  18430 unit_vectors.h  18651 bilinear.h  18823 entries.h  19100 block.h
- *  19335 reserve.h  19527 selected.h  19737 selected_query.h  19839 region_types.h
- *  19939 region_choose.h  20166 region_ending.h  20282 region.h
+ *  17883 inverse_front.h  17955 inverse_kernels.h  18027 traversal.h  18281 traversal_run.h
+ *  18490 row_sets.h  18524 unit_vectors.h  18745 bilinear.h  18917 entries.h  19194 block.h
+ *  19429 reserve.h  19621 selected.h  19831 selected_query.h  19933 region_types.h
+ *  20033 region_choose.h  20260 region_ending.h  20376 region.h
  * (change: a factor that follows changes of its matrix)
- *  20533 change_kernels.h  20606 gather.h  20654 kept.h  20811 leftlooking.h  20980 update_pivots.h
- *  21151 update.h  21385 path.h  21487 rank.h  21879 edges.h  22033 choose.h  22283 pins_types.h
- *  22349 pins_nulls.h  22530 pins_capacitance.h  22796 pins_rows.h  22916 pins_balance.h
- *  23078 pins_held.h  23306 pins_choose.h  23372 pins_rebuild.h  23595 pins_matrix.h  23746 pins.h
- *  24008 pins_solve.h  24283 subset.h  24436 restrict_kept.h  24634 restrict_analysis.h
- *  24879 restrict_symbolic.h  25074 restrict.h  25305 edit_match.h  25504 edit_place.h
- *  25753 edit_separate.h  26067 edit_order.h  26222 edit_graph.h  26304 edit_join.h  26580 edit.h
- *  26743 edit_factor.h
+ *  20627 change_kernels.h  20700 gather.h  20748 kept.h  20905 leftlooking.h  21074 update_pivots.h
+ *  21245 update.h  21479 path.h  21581 rank.h  21973 edges.h  22127 choose.h  22377 pins_types.h
+ *  22443 pins_nulls.h  22624 pins_capacitance.h  22890 pins_rows.h  23010 pins_balance.h
+ *  23172 pins_held.h  23400 pins_choose.h  23466 pins_rebuild.h  23689 pins_matrix.h  23840 pins.h
+ *  24102 pins_solve.h  24377 subset.h  24530 restrict_kept.h  24728 restrict_analysis.h
+ *  24973 restrict_symbolic.h  25168 restrict.h  25399 edit_match.h  25598 edit_place.h
+ *  25847 edit_separate.h  26161 edit_order.h  26324 edit_graph.h  26406 edit_join.h  26682 edit.h
+ *  26845 edit_factor.h
  * (io: files that are written and mapped)
- *  27031 output_file.h  27240 file_map.h
+ *  27133 output_file.h  27342 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  27341 csc64.h  27412 text_reader.h  27593 matrix_market.h
+ *  27443 csc64.h  27514 text_reader.h  27695 matrix_market.h
  * (save: factors in files)
- *  27863 format.h  28160 decode.h  28308 check.h  28638 write.h  28946 load.h  29215 load_inverse.h
- *  29545 load_calls.h
+ *  27965 format.h  28262 decode.h  28410 check.h  28740 write.h  29048 load.h  29317 load_inverse.h
+ *  29647 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  29748 matrix_sum.h  29830 scatter.h  29988 combination.h  30048 batch_solve.h
- *  30256 batch_factor.h
+ *  29850 matrix_sum.h  29932 scatter.h  30090 combination.h  30150 batch_solve.h
+ *  30358 batch_factor.h
  * (batch: diagonals of many inverses)
- *  30460 batch_diagonal.h
+ *  30562 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30602 complex_kernels.h  30714 complex_storage.h  30835 hermitian.h  30997 complex_rows.h
+ *  30704 complex_kernels.h  30816 complex_storage.h  30937 hermitian.h  31099 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  31166 storage_types.h
+ *  31268 storage_types.h
  * (last: undefine every internal macro)
- *  31193 undef.h
+ *  31295 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31491 words_scalar.inl.h  31587 change.inl.h  31843 lanes_scalar.inl.h  31875 products.inl.h
- *  31913 inverse_front.inl.h  32218 inverse_set.inl.h  32231 front.inl.h  32233 product.inl.h
- *  32721 complex_groups.inl.h  32812 copy_rows.inl.h  32850 sweeps.inl.h  32852 unit_triangle.inl.h
- *  32889 two_rhs.inl.h  33059 small_supernode.inl.h  33261 single_rhs.inl.h  33501 multi_rhs.inl.h
- *  33564 multi_rhs_small.inl.h  33743 multi_rhs_tiles.inl.h  33982 complex_small.inl.h
- *  34178 complex_rows.inl.h  34401 complex_set.inl.h  34419 float_set.inl.h  34437 kernel_set.inl.h
- *  34439 row.inl.h  34471 interleave.inl.h  34573 lanes_undef.inl.h  34600 words_undef.inl.h
- *  34683 words_avx2.inl.h  34815 lanes_avx2.inl.h  34877 words_avx512.inl.h
- *  34986 lanes_avx512.inl.h  35033 words_neon.inl.h  35182 lanes_neon.inl.h  35261 fronts.inl.h
- *  35492 fronts_undef.inl.h
+ *  31593 words_scalar.inl.h  31689 change.inl.h  31945 lanes_scalar.inl.h  31977 products.inl.h
+ *  32015 inverse_front.inl.h  32320 inverse_set.inl.h  32333 front.inl.h  32335 product.inl.h
+ *  32823 complex_groups.inl.h  32914 copy_rows.inl.h  32952 sweeps.inl.h  32954 unit_triangle.inl.h
+ *  32991 two_rhs.inl.h  33161 small_supernode.inl.h  33363 single_rhs.inl.h  33603 multi_rhs.inl.h
+ *  33666 multi_rhs_small.inl.h  33845 multi_rhs_tiles.inl.h  34084 complex_small.inl.h
+ *  34280 complex_rows.inl.h  34503 complex_set.inl.h  34521 float_set.inl.h  34539 kernel_set.inl.h
+ *  34541 row.inl.h  34573 interleave.inl.h  34675 lanes_undef.inl.h  34702 words_undef.inl.h
+ *  34785 words_avx2.inl.h  34917 lanes_avx2.inl.h  34979 words_avx512.inl.h
+ *  35088 lanes_avx512.inl.h  35135 words_neon.inl.h  35284 lanes_neon.inl.h  35363 fronts.inl.h
+ *  35594 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5621,7 +5620,7 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
 }
 
 /* ordering: fill-reducing orderings of a graph */
-/* src/impl/ordering/graph.h: adjacency graph, permuted triangles and hash of a symmetric pattern */
+/* src/impl/ordering/graph.h: adjacency graphs, permuted triangles and hash of a symmetric pattern; postorder */
 
 typedef struct sli_pattern {
   sl_int *begin;
@@ -5709,6 +5708,58 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
   G->begin[G->n] = count;
 }
 
+static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
+  const sl_off edges = G->begin[G->n];
+  sli_block b = {NULL, 0, 0};
+  sl_int *to = NULL;
+  sl_off *at = NULL;
+  sl_status status = SL_OK;
+  int pass;
+  if (sli_graph_is_sorted(G)) {
+    return SL_OK;
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    to = SLI_TAKE(&b, sl_int, edges);
+    at = SLI_TAKE(&b, sl_off, G->n);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  }
+  if (status == SL_OK) {
+    sli_graph_sort(G, to, at);
+    memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+    sli_graph_deduplicate(G);
+    sli_free(a, b.base);
+  }
+  return status;
+}
+
+SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
+  return G->begin[v + 1] - G->begin[v];
+}
+
+static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
+              sl_int *child, sl_int *sibling) {
+  sl_int k, j, at = 0, roots = -1;
+  for (k = 0; k < n; k++) {
+    child[sequence == NULL ? k : sequence[k]] = -1;
+  }
+  for (k = n - 1; k >= 0; k--) {
+    sl_int *list;
+    j = sequence == NULL ? k : sequence[k];
+    list = parent[j] == -1 ? &roots : &child[parent[j]];
+    sibling[j] = *list;
+    *list = j;
+  }
+  for (j = roots; j != -1;) {
+    while (child[j] != -1) {
+      const sl_int c = child[j];
+      child[j] = -1;
+      j = c;
+    }
+    post[at++] = j;
+    j = sibling[j] != -1 ? sibling[j] : parent[j];
+  }
+}
+
 static void sli_pattern_starts(sli_pattern *h, sl_int n, sl_int *at, sl_int ranges, size_t stride) {
   sl_int k, r, total = 0;
   for (k = 0; k < n; k++) {
@@ -5738,6 +5789,347 @@ static int sli_pattern_hash(const sl_csc *A, sli_hash *out) {
   }
   *out = sli_hash_ints(*out, A->p, n > 0 ? (sl_off)n + 1 : 0);
   return sli_hash_indices(out, A->i, nnz, A->n_rows);
+}
+
+/* src/impl/ordering/job.h: what an ordering is given, and what it finds */
+
+typedef struct sli_septree {
+  sl_int count;
+  sl_int *node_of;
+  sl_int *parent;
+} sli_septree;
+
+typedef struct sli_order_choice {
+  sl_int *other;
+  sl_int *parent;
+  int has_tree;
+  int is_there;
+} sli_order_choice;
+
+typedef struct sli_order_job {
+  const sl_csc *A;
+  const sl_int *column;
+  sl_triangle triangle;
+  const sl_options *opt;
+  sl_int *perm;
+  sl_int *scratch;
+  sli_septree *septree;
+  sli_order_choice *choice;
+  sli_team *team;
+  const sl_allocator *a;
+  sl_stats *stats;
+
+  sl_ordering ordering;
+  int is_hurried;
+  sl_int block;
+  const sli_graph *G;
+  int is_peeled;
+  const sl_int *weight;
+} sli_order_job;
+
+/* src/impl/ordering/reduce.h: rows ordered apart: those with few neighbors first, constraints last */
+
+static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
+  sl_int p = A->p[j];
+  while (p < A->p[j + 1] && A->i[p] != j) {
+    p++;
+  }
+  return p < A->p[j + 1];
+}
+
+SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
+  return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
+}
+
+static void sli_order_border(const sli_order_job *job, sl_int *perm) {
+  const sl_csc *A = job->A;
+  const sli_graph *G = job->G;
+  sl_int *position = job->scratch;
+  sl_int k, v, last;
+  sl_off e;
+  for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
+  }
+  if (v == G->n) {
+    return;
+  }
+  for (k = 0; k < G->n; k++) {
+    position[perm[k]] = k;
+  }
+  for (k = 0; k < G->n; k++) {
+    const sl_int row = perm[k];
+    if (!sli_order_is_constraint(A, row, sli_graph_degree(G, row))) {
+      continue;
+    }
+    last = -1;
+    for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
+      last = sli_max(last, position[G->to[e]]);
+    }
+    if (last > k) {
+      continue;
+    }
+    v = perm[last];
+    for (; last < k; last++) {
+      perm[last] = perm[last + 1];
+      position[perm[last]] = last;
+    }
+    perm[k] = v;
+    position[v] = k;
+    if (perm == job->perm) {
+      job->septree->count = 0;
+    }
+  }
+}
+
+static sl_int sli_forest_leaves(sl_int n, sl_int *degree, sl_int *only, sl_int *sequence) {
+  sl_int v, u, count = 0;
+  for (v = 0; v < n; v++) {
+    for (u = v; u != -1 && (degree[u] == 0 || degree[u] == 1); u = only[u]) {
+      sequence[count++] = u;
+      if (degree[u] == 1) {
+        degree[only[u]]--;
+        only[only[u]] ^= u;
+      } else {
+        only[u] = -1;
+      }
+      degree[u] = -1;
+    }
+  }
+  return count;
+}
+
+static int sli_order_forest(const sli_order_job *job) {
+  const sl_csc *A = job->A;
+  const sl_int n = A->n_cols, nnz = sli_nnz(A);
+  sl_int *perm = job->perm, *parent = job->choice->parent;
+  sl_int *degree = job->scratch, *only = degree + n, *more = degree + 2 * (size_t)n;
+  sl_int k, p, edges = 0;
+  if (nnz >= (job->triangle == SL_TRIANGLE_BOTH ? 3 : 2) * (int64_t)n) {
+    return 0;
+  }
+  memset(degree, 0, 2 * (size_t)n * sizeof(sl_int));
+  for (p = 0; p < nnz; p++) {
+    const sl_int i = A->i[p], j = job->column[p];
+    const int is_edge = i != j && sli_is_read(job->triangle, i, j);
+    degree[i] += is_edge;
+    degree[j] += is_edge;
+    only[i] ^= is_edge ? j : 0;
+    only[j] ^= is_edge ? i : 0;
+    edges += is_edge;
+  }
+  for (k = 0; k < n && edges < n; k++) {
+    if (sli_order_is_constraint(A, k, degree[k])) {
+      return 0;
+    }
+  }
+  if (edges >= n || sli_forest_leaves(n, degree, only, more) < n) {
+    return 0;
+  }
+  sli_postorder(only, more, n, perm, degree, more + n);
+  for (k = 0; k < n; k++) {
+    degree[perm[k]] = k;
+  }
+  for (k = 0; k < n; k++) {
+    const sl_int up = only[perm[k]];
+    parent[k] = up == -1 ? -1 : degree[up];
+  }
+  return 1;
+}
+
+#define SLI_PEEL_SHARE 8
+#define SLI_PEEL_SEARCH 32
+#define SLI_PEEL_LEAVES 8
+#define SLI_PEEL_ENDS 256
+
+typedef struct sli_peel {
+  sli_graph rest;
+  sl_int *length;
+  sl_int *degree;
+  sl_int *ends;
+  sl_int *stamp;
+  sl_int *now, *later;
+  sl_int *sequence;
+  sl_int count, n_later, round;
+  sl_int most;
+} sli_peel;
+
+static void sli_peel_layout(sli_peel *p, sli_block *b, sl_int n, sl_off edges) {
+  p->rest.begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
+  p->rest.to = SLI_TAKE(b, sl_int, edges);
+  p->length = SLI_TAKE(b, sl_int, n);
+  p->degree = SLI_TAKE(b, sl_int, n);
+  p->ends = SLI_TAKE(b, sl_int, 2 * (size_t)n);
+  p->stamp = SLI_TAKE(b, sl_int, n);
+  p->now = SLI_TAKE(b, sl_int, n);
+  p->later = SLI_TAKE(b, sl_int, n);
+  p->sequence = SLI_TAKE(b, sl_int, n);
+}
+
+static int sli_peel_is_worthwhile(const sli_graph *G) {
+  sl_int v, few = 0;
+  for (v = 0; v < G->n; v++) {
+    few += sli_graph_degree(G, v) <= 2;
+  }
+  return few > G->n / SLI_PEEL_SHARE;
+}
+
+SLI_INLINE sl_int sli_peel_follow(const sli_peel *p, sl_int v, sl_int u) {
+  while (u != -1 && p->degree[u] == -1) {
+    const sl_int *ends = p->ends + 2 * (size_t)u;
+    u = ends[0] == v ? ends[1] : ends[0];
+  }
+  return u;
+}
+
+static const sl_int *sli_peel_list(sli_peel *p, sl_int v) {
+  sl_int *list = p->rest.to + p->rest.begin[v], k, kept = 0;
+  for (k = 0; k < p->length[v]; k++) {
+    const sl_int u = sli_peel_follow(p, v, list[k]);
+    if (u != -1) {
+      list[kept++] = u;
+    }
+  }
+  p->length[v] = kept;
+  return list;
+}
+
+static int sli_peel_has_edge(sli_peel *p, sl_int u, sl_int v) {
+  const sl_int at = p->degree[u] < p->degree[v] ? u : v, other = at == u ? v : u;
+  const sl_int *list;
+  sl_int k = 0;
+  if (p->degree[at] > SLI_PEEL_SEARCH) {
+    return 0;
+  }
+  list = sli_peel_list(p, at);
+  while (k < p->length[at] && list[k] != other) {
+    k++;
+  }
+  return k < p->length[at];
+}
+
+SLI_INLINE void sli_peel_touch(sli_peel *p, sl_int u, sl_int fewer) {
+  const int was_listed = p->stamp[u] == p->round && p->degree[u] <= p->most;
+  p->degree[u] -= fewer;
+  p->stamp[u] = p->round;
+  if (p->degree[u] <= p->most && !was_listed) {
+    p->later[p->n_later++] = u;
+  }
+}
+
+static void sli_peel_eliminate(sli_peel *p, sl_int v) {
+  const sl_int *list = sli_peel_list(p, v);
+  sl_int *ends = p->ends + 2 * (size_t)v;
+  const sl_int count = p->length[v], a = count > 0 ? list[0] : -1, b = count > 1 ? list[1] : -1;
+  const int is_joined = b != -1 && a != b && !sli_peel_has_edge(p, a, b);
+  ends[0] = is_joined ? a : -1;
+  ends[1] = is_joined ? b : -1;
+  p->degree[v] = -1;
+  p->sequence[p->count++] = v;
+  if (b != -1 && a != b) {
+    sli_peel_touch(p, a, !is_joined);
+    sli_peel_touch(p, b, !is_joined);
+  } else if (a != -1) {
+    sli_peel_touch(p, a, count);
+  }
+}
+
+static void sli_peel_list_rows(sli_peel *p, sl_int n, sl_int most) {
+  sl_int v;
+  p->most = most;
+  p->n_later = 0;
+  for (v = 0; v < n; v++) {
+    p->later[p->n_later] = v;
+    p->n_later += p->degree[v] != -1 && p->degree[v] <= most;
+  }
+}
+
+static void sli_peel_round(sli_peel *p) {
+  const sl_int count = p->n_later;
+  sl_int k, *keep = p->now;
+  p->now = p->later;
+  p->later = keep;
+  p->n_later = 0;
+  p->round++;
+  for (k = 0; k < count; k++) {
+    if (p->stamp[p->now[k]] != p->round) {
+      sli_peel_eliminate(p, p->now[k]);
+    }
+  }
+}
+
+static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
+  sl_int *only = p->now, v;
+  sl_off e;
+  for (v = 0; v < G->n; v++) {
+    only[v] = 0;
+    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+      only[v] ^= G->to[e];
+    }
+  }
+  p->count = sli_forest_leaves(G->n, p->degree, only, p->sequence);
+  for (v = 0; v < p->count; v++) {
+    sl_int *ends = p->ends + 2 * (size_t)p->sequence[v];
+    ends[0] = ends[1] = -1;
+  }
+}
+
+static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
+  const sl_int n = G->n;
+  sl_int v;
+  p->count = p->round = 0;
+  for (v = 0; v < n; v++) {
+    p->length[v] = p->degree[v] = (sl_int)sli_graph_degree(G, v);
+    p->stamp[v] = 0;
+  }
+  if (for_little_fill) {
+    sli_peel_leaves(p, G);
+  }
+  if (p->count == n) {
+    return;
+  }
+  memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
+  memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
+  sli_peel_list_rows(p, n, 1);
+  while (!for_little_fill && p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
+    sli_peel_round(p);
+  }
+  sli_peel_list_rows(p, n, 2);
+  while (p->n_later > 0) {
+    sli_peel_round(p);
+  }
+}
+
+static void sli_peel_finish(sli_peel *p, sl_int n) {
+  sl_int v, k, *number = p->now, *seen = p->later, left = 0;
+  sl_off to = 0;
+  for (v = 0; v < n; v++) {
+    if (p->degree[v] != -1) {
+      sli_peel_list(p, v);
+      p->sequence[p->count + left] = v;
+      seen[left] = -1;
+      number[v] = left++;
+    }
+  }
+  for (k = 0; k < left; k++) {
+    sl_off e = p->rest.begin[p->sequence[p->count + k]];
+    const sl_off end = e + p->length[p->sequence[p->count + k]];
+    p->rest.begin[k] = to;
+    for (; e < end; e++) {
+      const sl_int u = number[p->rest.to[e]];
+      p->rest.to[to] = u;
+      to += seen[u] != k;
+      seen[u] = k;
+    }
+  }
+  p->rest.begin[left] = to;
+  p->rest.n = left;
+}
+
+static void sli_peel_expand(const sli_peel *p, sl_int *perm) {
+  sl_int k;
+  for (k = p->rest.n - 1; k >= 0; k--) {
+    perm[p->count + k] = p->sequence[p->count + perm[k]];
+  }
+  memcpy(perm, p->sequence, (size_t)p->count * sizeof(sl_int));
 }
 
 /* src/impl/ordering/contract.h: contraction of a graph, in loops that workers share */
@@ -6555,7 +6947,7 @@ static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_
   } while (count > 0);
 }
 
-/* src/impl/ordering/heap.h: a priority queue of vertices by gain, the largest gain first */
+/* src/impl/ordering/bisect.h: graph bisection: greedy graph growing, and Fiduccia-Mattheyses refinement of a cut */
 
 typedef struct sli_heap_item {
   sl_int key, vertex;
@@ -6616,8 +7008,6 @@ SLI_INLINE void sli_heap_remove(sli_heap *h, sl_int vertex) {
     sli_heap_set(h, last.vertex, last.key);
   }
 }
-
-/* src/impl/ordering/bisect.h: graph bisection: greedy graph growing, and Fiduccia-Mattheyses refinement of a cut */
 
 #define SLI_BISECT_BALANCE 60
 
@@ -7270,7 +7660,9 @@ static void sli_mindeg_order(sli_mindeg *m, const sli_level *g, sl_int *vertices
   memcpy(vertices, order, (size_t)count * sizeof(sl_int));
 }
 
-/* src/impl/ordering/dissection.h: the state of a dissection, and loops over the vertices of a level */
+/* src/impl/ordering/dissection.h: the state of a dissection, and loops over vertices, leaves and borders */
+
+#define SLI_DISSECT_TASKS 8
 
 typedef struct sli_dissect_worker {
   sli_borders borders;
@@ -7379,98 +7771,6 @@ static void sli_dissect_start(sli_dissection *d) {
   sli_label_tree_number(&d->tree, n, d->label);
 }
 
-/* src/impl/ordering/weigh.h: the edges of a coarse level as what a separator costs */
-
-static void sli_weigh_range(void *data, const sli_range *r) {
-  const sli_dissection *d = (const sli_dissection *)data;
-  const sli_level *finest = &d->levels[0], *g = &d->levels[d->n_levels - 1];
-  sl_off e, *at = sli_shares_scratch(&d->ranges, r->worker);
-  sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
-  memset(seen, -1, (size_t)g->n * sizeof(sl_int));
-  for (k = r->first; k < r->last; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      at[g->to[e]] = e;
-      g->edge[e] = 0;
-    }
-    for (i = d->begin[k]; i < d->begin[k + 1]; i++) {
-      const sl_int v = d->order[i];
-      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
-        const sl_int c = d->label[finest->to[e]];
-        if (c != k && seen[c] != v) {
-          seen[c] = v;
-          g->edge[at[c]]++;
-        }
-      }
-    }
-  }
-}
-
-static void sli_weigh_labels(void *data, const sli_range *r) {
-  const sli_dissection *d = (const sli_dissection *)data;
-  sl_int v;
-  int m;
-  for (v = r->first; v < r->last; v++) {
-    sl_int c = v;
-    for (m = 0; m < d->n_levels - 1; m++) {
-      c = d->levels[m].coarse[c];
-    }
-    d->label[v] = c;
-  }
-}
-
-static void sli_weigh_edges(sli_dissection *d) {
-  const sli_level *g = &d->levels[d->n_levels - 1];
-  const sl_int n = d->levels[0].n;
-  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
-  sl_off e, *at = d->ranges.scratch;
-  sl_int k;
-  sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
-  d->level = 0;
-  sli_dissect_sort(d, g->n);
-  sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
-  memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      const sl_off there = at[g->to[e]]++;
-      to[there] = k;
-      count[there] = g->edge[e];
-    }
-  }
-  for (k = 0; k < g->n; k++) {
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      at[g->to[e]] = e;
-    }
-    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
-      g->edge[at[to[e]]] += count[e];
-    }
-  }
-}
-
-/* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
-
-#define SLI_DISSECT_LEAF 160
-#define SLI_DISSECT_BISECT_MIN 70
-#define SLI_DISSECT_BISECT_MIN_VOLUME 200
-#define SLI_DISSECT_SHRINK 10
-#define SLI_DISSECT_SHRINK_VOLUME 2
-#define SLI_SEVEN_POINT_DEGREE 6
-#define SLI_SEVEN_POINT_DEGREE_COARSE 7
-#define SLI_VOLUME_DEGREE 10
-#define SLI_DISSECT_FIRST 64
-#define SLI_DISSECT_TRIES_FIRST 8
-#define SLI_DISSECT_TRIES 2
-#define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND 1
-#define SLI_DISSECT_BAND_FROM 1000
-#define SLI_SEPARATOR_BALANCE 70
-
-#define SLI_DISSECT_TASKS 8
-
-static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
-  const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
-  sli_subgraph_bisect(sub, few ? SLI_DISSECT_TRIES_FIRST : sub->n > 50 ? SLI_DISSECT_TRIES : 1);
-}
-
 static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
   sli_dissection *d = (sli_dissection *)data;
   sli_subgraph *sub = &d->workers[worker].subgraph;
@@ -7570,6 +7870,29 @@ static void sli_dissect_visit(sli_dissection *d,
   sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
 }
 
+/* src/impl/ordering/dissect.h: multilevel nested dissection of a connected graph */
+
+#define SLI_DISSECT_LEAF 160
+#define SLI_DISSECT_BISECT_MIN 70
+#define SLI_DISSECT_BISECT_MIN_VOLUME 200
+#define SLI_DISSECT_SHRINK 10
+#define SLI_DISSECT_SHRINK_VOLUME 2
+#define SLI_SEVEN_POINT_DEGREE 6
+#define SLI_SEVEN_POINT_DEGREE_COARSE 7
+#define SLI_VOLUME_DEGREE 10
+#define SLI_DISSECT_FIRST 64
+#define SLI_DISSECT_TRIES_FIRST 8
+#define SLI_DISSECT_TRIES 2
+#define SLI_DISSECT_LAYERS 3
+#define SLI_DISSECT_BAND 1
+#define SLI_DISSECT_BAND_FROM 1000
+#define SLI_SEPARATOR_BALANCE 70
+
+static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
+  const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
+  sli_subgraph_bisect(sub, few ? SLI_DISSECT_TRIES_FIRST : sub->n > 50 ? SLI_DISSECT_TRIES : 1);
+}
+
 static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
   const sli_level *g = &d->levels[d->level];
   sli_fm m;
@@ -7634,6 +7957,71 @@ static void sli_dissect_project(sli_dissection *d) {
   }
   d->label = d->other;
   d->other = coarser;
+}
+
+static void sli_weigh_range(void *data, const sli_range *r) {
+  const sli_dissection *d = (const sli_dissection *)data;
+  const sli_level *finest = &d->levels[0], *g = &d->levels[d->n_levels - 1];
+  sl_off e, *at = sli_shares_scratch(&d->ranges, r->worker);
+  sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
+  memset(seen, -1, (size_t)g->n * sizeof(sl_int));
+  for (k = r->first; k < r->last; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      at[g->to[e]] = e;
+      g->edge[e] = 0;
+    }
+    for (i = d->begin[k]; i < d->begin[k + 1]; i++) {
+      const sl_int v = d->order[i];
+      for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
+        const sl_int c = d->label[finest->to[e]];
+        if (c != k && seen[c] != v) {
+          seen[c] = v;
+          g->edge[at[c]]++;
+        }
+      }
+    }
+  }
+}
+
+static void sli_weigh_labels(void *data, const sli_range *r) {
+  const sli_dissection *d = (const sli_dissection *)data;
+  sl_int v;
+  int m;
+  for (v = r->first; v < r->last; v++) {
+    sl_int c = v;
+    for (m = 0; m < d->n_levels - 1; m++) {
+      c = d->levels[m].coarse[c];
+    }
+    d->label[v] = c;
+  }
+}
+
+static void sli_weigh_edges(sli_dissection *d) {
+  const sli_level *g = &d->levels[d->n_levels - 1];
+  const sl_int n = d->levels[0].n;
+  sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
+  sl_off e, *at = d->ranges.scratch;
+  sl_int k;
+  sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
+  d->level = 0;
+  sli_dissect_sort(d, g->n);
+  sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
+  memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      const sl_off there = at[g->to[e]]++;
+      to[there] = k;
+      count[there] = g->edge[e];
+    }
+  }
+  for (k = 0; k < g->n; k++) {
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      at[g->to[e]] = e;
+    }
+    for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+      g->edge[at[to[e]]] += count[e];
+    }
+  }
 }
 
 static int sli_level_exceeds(const sli_level *g, sl_off degree) {
@@ -7736,7 +8124,7 @@ static sl_status sli_dissect_multilevel(sli_dissection *d) {
   return status;
 }
 
-/* src/impl/ordering/tree_cost.h: the estimated cost of a separator tree */
+/* src/impl/ordering/levelset.h: bisection between level sets of a breadth-first search, cheaper in regular volumes */
 
 typedef struct sli_tree_cost {
   uint64_t high, low;
@@ -7789,8 +8177,6 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
   }
   return cost;
 }
-
-/* src/impl/ordering/levelset.h: bisection between level sets of a breadth-first search, cheaper in regular volumes */
 
 #define SLI_LEVELSET_SHARE 35
 
@@ -7874,178 +8260,6 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
   }
   return SL_OK;
 }
-
-/* src/impl/ordering/septree.h: from labels to the elimination order and the separator tree of all rows */
-
-#define SLI_SEPTREE_NODES 16
-
-typedef struct sli_septree {
-  sl_int count;
-  sl_int *node_of;
-  sl_int *parent;
-} sli_septree;
-
-static void sli_septree_sort_separator(const sli_dissection *d, sli_dissect_worker *w, sl_int node,
-                     sl_int *vertices, sl_int count) {
-  const sli_level *g = &d->levels[0];
-  uint64_t *list = (uint64_t *)(void *)w->next;
-  uint64_t *scratch = (uint64_t *)(void *)w->subgraph.begin;
-  sl_int k;
-  sl_off e;
-  for (k = 0; k < count; k++) {
-    int64_t sum = 0, touched = 0;
-    for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
-      const sl_int other = d->label[g->to[e]];
-      if (other < node && sli_label_tree_is_below(&d->tree, node, other)) {
-        sum += other;
-        touched++;
-      }
-    }
-    list[k] = sli_keyed(touched == 0 ? 0 : (sl_int)(sum / touched), vertices[k]);
-  }
-  sli_sort(list, count, scratch);
-  for (k = 0; k < count; k++) {
-    vertices[k] = sli_value(list[k]);
-  }
-}
-
-static void sli_septree_item(void *data, sl_int item, sl_int worker) {
-  sli_dissection *d = (sli_dissection *)data;
-  sli_dissect_worker *w = &d->workers[worker];
-  const sl_int last = sli_min(d->tree.count, (item + 1) * SLI_SEPTREE_NODES);
-  sl_int node;
-  for (node = item * SLI_SEPTREE_NODES; node < last; node++) {
-    const sl_int count = d->begin[node + 1] - d->begin[node];
-    sl_int *mine = d->order + d->begin[node];
-    if (!sli_label_tree_is_leaf(&d->tree, node)) {
-      sli_septree_sort_separator(d, w, node, mine, count);
-    } else if (count > 1) {
-      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
-               w->subgraph.scratch);
-    }
-  }
-}
-
-static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
-                 sli_septree *septree) {
-  const sli_label_tree *t = &d->tree;
-  sl_int node, k, up, *number = d->nodes;
-  sli_dissect_sort(d, t->count);
-  sli_team_loop(d->team, (t->count - 1) / SLI_SEPTREE_NODES + 1, NULL, sli_septree_item, d);
-  for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
-    const sl_int count = d->begin[node + 1] - d->begin[node];
-    const sl_int *mine = d->order + d->begin[node];
-    number[node] = count > 0 ? septree->count++ : -1;
-    for (k = 0; k < count; k++) {
-      perm[at++] = row[mine[k]];
-      septree->node_of[row[mine[k]]] = number[node];
-    }
-  }
-  for (node = 0; node < t->count; node++) {
-    if (number[node] != -1) {
-      for (up = t->parent[node]; up != -1 && number[up] == -1;) {
-        up = t->parent[up];
-      }
-      septree->parent[number[node]] = up == -1 ? -1 : number[up];
-    }
-  }
-}
-
-/* src/impl/ordering/metis.h: the call to METIS: the order of a connected component */
-
-#if defined(SLI_METIS)
-
-#include <metis.h>
-
-static int sli_metis_options_are_valid(const sl_int *options) {
-  static const struct {
-    int option, low, high;
-  } sli_ranges[] = {
-    {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
-    {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
-    {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
-    {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
-    {METIS_OPTION_NITER, 1, INT32_MAX},
-    {METIS_OPTION_COMPRESS, 0, 1},
-    {METIS_OPTION_CCORDER, 0, 1},
-    {METIS_OPTION_PFACTOR, 0, INT32_MAX},
-    {METIS_OPTION_NSEPS, 1, INT32_MAX},
-    {METIS_OPTION_UFACTOR, 1, 999},
-  };
-  size_t k;
-  for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
-    const sl_int value = options[sli_ranges[k].option];
-    if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
-      return 0;
-    }
-  }
-  return 1;
-}
-
-static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
-              const sl_int *local, idx_t *xadj, idx_t *adjncy) {
-  sl_int k;
-  idx_t edges = 0;
-  for (k = 0; k < count; k++) {
-    const sl_int v = vertices[k];
-    sl_off e;
-    xadj[k] = edges;
-    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-      adjncy[edges++] = local[G->to[e]];
-    }
-  }
-  xadj[count] = edges;
-}
-
-static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int count,
-                 const sl_int *local, const sl_int *metis_options,
-                 const sl_allocator *a) {
-  idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
-                   *iperm = NULL;
-  sli_block b = {NULL, 0, 0};
-  sl_off edges = 0;
-  sl_status status = SL_OK;
-  sl_int k;
-  int pass, result;
-  for (k = 0; k < count; k++) {
-    edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
-  }
-  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
-    return SL_ERR_TOO_LARGE;                               /* untested: the same */
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
-    adjncy = SLI_TAKE(&b, idx_t, edges);
-    perm = SLI_TAKE(&b, idx_t, count);
-    iperm = SLI_TAKE(&b, idx_t, count);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_metis_graph(G, vertices, count, local, xadj, adjncy);
-  METIS_SetDefaultOptions(options);
-  for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
-    options[k] = metis_options[k];
-  }
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_DBGLVL] = 0;
-  result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
-  if (result == METIS_OK) {
-    for (k = 0; k < count; k++) {
-      xadj[k] = vertices[k];
-    }
-    for (k = 0; k < count; k++) {
-      vertices[k] = (sl_int)xadj[perm[k]];
-    }
-  }
-  sli_free(a, b.base);
-  return result == METIS_OK             ? SL_OK
-       : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
-                      : SL_ERR_ORDERING;
-}
-
-#endif
 
 /* src/impl/ordering/thin.h: nested dissection of strips, tubes and bars along the levels of a breadth-first search */
 
@@ -8322,6 +8536,74 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
 
 #define SLI_ND_RESPLITS 12
 
+#define SLI_SEPTREE_NODES 16
+
+static void sli_septree_sort_separator(const sli_dissection *d, sli_dissect_worker *w, sl_int node,
+                     sl_int *vertices, sl_int count) {
+  const sli_level *g = &d->levels[0];
+  uint64_t *list = (uint64_t *)(void *)w->next;
+  uint64_t *scratch = (uint64_t *)(void *)w->subgraph.begin;
+  sl_int k;
+  sl_off e;
+  for (k = 0; k < count; k++) {
+    int64_t sum = 0, touched = 0;
+    for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
+      const sl_int other = d->label[g->to[e]];
+      if (other < node && sli_label_tree_is_below(&d->tree, node, other)) {
+        sum += other;
+        touched++;
+      }
+    }
+    list[k] = sli_keyed(touched == 0 ? 0 : (sl_int)(sum / touched), vertices[k]);
+  }
+  sli_sort(list, count, scratch);
+  for (k = 0; k < count; k++) {
+    vertices[k] = sli_value(list[k]);
+  }
+}
+
+static void sli_septree_item(void *data, sl_int item, sl_int worker) {
+  sli_dissection *d = (sli_dissection *)data;
+  sli_dissect_worker *w = &d->workers[worker];
+  const sl_int last = sli_min(d->tree.count, (item + 1) * SLI_SEPTREE_NODES);
+  sl_int node;
+  for (node = item * SLI_SEPTREE_NODES; node < last; node++) {
+    const sl_int count = d->begin[node + 1] - d->begin[node];
+    sl_int *mine = d->order + d->begin[node];
+    if (!sli_label_tree_is_leaf(&d->tree, node)) {
+      sli_septree_sort_separator(d, w, node, mine, count);
+    } else if (count > 1) {
+      sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
+               w->subgraph.scratch);
+    }
+  }
+}
+
+static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
+                 sli_septree *septree) {
+  const sli_label_tree *t = &d->tree;
+  sl_int node, k, up, *number = d->nodes;
+  sli_dissect_sort(d, t->count);
+  sli_team_loop(d->team, (t->count - 1) / SLI_SEPTREE_NODES + 1, NULL, sli_septree_item, d);
+  for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
+    const sl_int count = d->begin[node + 1] - d->begin[node];
+    const sl_int *mine = d->order + d->begin[node];
+    number[node] = count > 0 ? septree->count++ : -1;
+    for (k = 0; k < count; k++) {
+      perm[at++] = row[mine[k]];
+      septree->node_of[row[mine[k]]] = number[node];
+    }
+  }
+  for (node = 0; node < t->count; node++) {
+    if (number[node] != -1) {
+      for (up = t->parent[node]; up != -1 && number[up] == -1;) {
+        up = t->parent[up];
+      }
+      septree->parent[number[node]] = up == -1 ? -1 : number[up];
+    }
+  }
+}
+
 typedef struct sli_nd {
   const sli_graph *G;
   const sl_int *weight;
@@ -8483,32 +8765,31 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
   return status;
 }
 
-static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, sl_int *perm,
-                sli_septree *septree, sli_team *team, const sl_allocator *a) {
+static sl_status sli_order_nd(const sli_order_job *job) {
   sli_nd w;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int k;
   int pass;
   memset(&w, 0, sizeof w);
-  w.G = G;
-  w.weight = weight;
+  w.G = job->G;
+  w.weight = job->weight;
   w.d.leaf_size = SLI_DISSECT_LEAF;
-  w.d.team = team;
-  w.d.a = w.d.pool.a = a;
+  w.d.team = job->team;
+  w.d.a = w.d.pool.a = job->a;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_nd_layout(&w, &b);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status == SL_OK) {
     const int has_avx2 =
-      G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
-    for (k = 0; k < team->workers; k++) {
+      w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+    for (k = 0; k < job->team->workers; k++) {
       w.d.workers[k].mindeg.has_avx2 = has_avx2;
     }
-    status = sli_nd_run(&w, perm, septree);
+    status = sli_nd_run(&w, job->perm, job->septree);
     sli_border_pool_free(&w.d.pool);
-    sli_free(a, b.base);
+    sli_free(job->a, b.base);
   }
   return status;
 }
@@ -8631,50 +8912,194 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
   }
 }
 
-static sl_status sli_order_compressed(const sli_graph *G, sl_int *perm, sl_int *scratch,
-                    sli_septree *septree, sli_team *team, const sl_allocator *a) {
+static sl_status sli_order_compressed(const sli_order_job *job) {
+  const sli_graph *G = job->G;
+  sli_order_job inner = *job;
   sli_compressed c;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
   memset(&c, 0, sizeof c);
-  c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm, team);
+  c.G.n = sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
   if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-    return sli_order_nd(G, NULL, perm, septree, team, a);
+    return sli_order_nd(job);
   }
-  c.first = scratch;
+  c.first = job->scratch;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
     c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
     c.weight = SLI_TAKE(&b, sl_int, c.G.n);
     c.number = SLI_TAKE(&b, sl_int, G->n);
     c.perm = SLI_TAKE(&b, sl_int, c.G.n);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
   }
   sli_compress_fill(&c, G);
-  status = sli_order_nd(&c.G, c.weight, c.perm, septree, team, a);
+  inner.G = &c.G;
+  inner.weight = c.weight;
+  inner.perm = c.perm;
+  status = sli_order_nd(&inner);
   if (status == SL_OK) {
-    sli_compress_expand(&c, G->n, perm, septree, (sl_int *)(void *)c.G.begin);
+    sli_compress_expand(&c, G->n, job->perm, job->septree, (sl_int *)(void *)c.G.begin);
   }
-  sli_free(a, b.base);
+  sli_free(job->a, b.base);
   return status;
 }
 
-/* src/impl/ordering/levels.h: orders thin graphs by the levels of a breadth-first search, the last level first */
+/* src/impl/ordering/metis.h: the call to METIS, for each connected component */
+
+#if defined(SLI_METIS)
+
+#include <metis.h>
+
+static int sli_metis_options_are_valid(const sl_int *options) {
+  static const struct {
+    int option, low, high;
+  } sli_ranges[] = {
+    {METIS_OPTION_OBJTYPE, METIS_OBJTYPE_NODE, METIS_OBJTYPE_NODE},
+    {METIS_OPTION_CTYPE, METIS_CTYPE_RM, METIS_CTYPE_SHEM},
+    {METIS_OPTION_IPTYPE, METIS_IPTYPE_EDGE, METIS_IPTYPE_NODE},
+    {METIS_OPTION_RTYPE, METIS_RTYPE_SEP2SIDED, METIS_RTYPE_SEP1SIDED},
+    {METIS_OPTION_NITER, 1, INT32_MAX},
+    {METIS_OPTION_COMPRESS, 0, 1},
+    {METIS_OPTION_CCORDER, 0, 1},
+    {METIS_OPTION_PFACTOR, 0, INT32_MAX},
+    {METIS_OPTION_NSEPS, 1, INT32_MAX},
+    {METIS_OPTION_UFACTOR, 1, 999},
+  };
+  size_t k;
+  for (k = 0; options != NULL && k < sizeof sli_ranges / sizeof *sli_ranges; k++) {
+    const sl_int value = options[sli_ranges[k].option];
+    if (value != -1 && (value < sli_ranges[k].low || value > sli_ranges[k].high)) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int count,
+              const sl_int *local, idx_t *xadj, idx_t *adjncy) {
+  sl_int k;
+  idx_t edges = 0;
+  for (k = 0; k < count; k++) {
+    const sl_int v = vertices[k];
+    sl_off e;
+    xadj[k] = edges;
+    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+      adjncy[edges++] = local[G->to[e]];
+    }
+  }
+  xadj[count] = edges;
+}
+
+static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_int count) {
+  const sli_graph *G = job->G;
+  const sl_int *metis_options = job->opt->metis_options;
+  idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
+                   *iperm = NULL;
+  sli_block b = {NULL, 0, 0};
+  sl_off edges = 0;
+  sl_status status = SL_OK;
+  sl_int k;
+  int pass, result;
+  for (k = 0; k < count; k++) {
+    edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
+  }
+  if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
+    return SL_ERR_TOO_LARGE;                               /* untested: the same */
+  }
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
+    adjncy = SLI_TAKE(&b, idx_t, edges);
+    perm = SLI_TAKE(&b, idx_t, count);
+    iperm = SLI_TAKE(&b, idx_t, count);
+    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_metis_graph(G, vertices, count, job->scratch, xadj, adjncy);
+  METIS_SetDefaultOptions(options);
+  for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
+    options[k] = metis_options[k];
+  }
+  options[METIS_OPTION_NUMBERING] = 0;
+  options[METIS_OPTION_DBGLVL] = 0;
+  result = METIS_NodeND(&nv, xadj, adjncy, NULL, options, perm, iperm);
+  if (result == METIS_OK) {
+    for (k = 0; k < count; k++) {
+      xadj[k] = vertices[k];
+    }
+    for (k = 0; k < count; k++) {
+      vertices[k] = (sl_int)xadj[perm[k]];
+    }
+  }
+  sli_free(job->a, b.base);
+  return result == METIS_OK             ? SL_OK
+       : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
+                      : SL_ERR_ORDERING;
+}
+
+#define SLI_ORDER_TINY 4
+
+static sl_status sli_order_metis(const sli_order_job *job) {
+  const sli_graph *G = job->G;
+  sl_int *perm = job->perm, *local = job->scratch;
+  sl_int root, head, tail = 0, start;
+  sl_status status = SL_OK;
+  for (root = 0; root < G->n; root++) {
+    local[root] = -1;
+  }
+  for (root = 0; root < G->n && status == SL_OK; root++) {
+    if (local[root] >= 0) {
+      continue;
+    }
+    start = tail;
+    local[root] = 0;
+    perm[tail++] = root;
+    for (head = start; head < tail; head++) {
+      sl_off e;
+      for (e = G->begin[perm[head]]; e < G->begin[perm[head] + 1]; e++) {
+        const sl_int u = G->to[e];
+        if (local[u] < 0) {
+          local[u] = tail - start;
+          perm[tail++] = u;
+        }
+      }
+    }
+    if (tail - start > SLI_ORDER_TINY) {
+      status = sli_metis_order(job, perm + start, tail - start);
+    }
+  }
+  return status;
+}
+
+#endif
+
+/* src/impl/ordering/levels.h: breadth-first levels, and the order of thin graphs by them, the last level first */
 
 #define SLI_LEVELS_MOST 32
 #define SLI_LEVELS_TRY 4
 
-static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, sl_int start,
-                sl_int *seen, sl_int mark, int64_t most, int64_t *entries) {
+typedef struct sli_levels {
+  const sli_graph *G;
+  sl_int *queue;
+  sl_int *seen;
+  int64_t entries;
+} sli_levels;
+
+static sl_int sli_levels_search(sli_levels *l, sl_int root, sl_int start, sl_int mark,
+                int64_t most) {
+  const sli_graph *G = l->G;
+  sl_int *queue = l->queue, *seen = l->seen;
   sl_int first = start, last, tail = start, before = 0, k;
+  int64_t entries = l->entries;
   sl_off e;
   queue[tail++] = root;
   seen[root] = mark;
-  for (; first < tail && *entries <= most; first = last) {
+  for (; first < tail && entries <= most; first = last) {
     last = tail;
     for (k = first; k < last; k++) {
       for (e = G->begin[queue[k]]; e < G->begin[queue[k] + 1]; e++) {
@@ -8685,375 +9110,46 @@ static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, 
         }
       }
     }
-    *entries += (int64_t)(last - first) * (last - first + before) / 2;
+    entries += (int64_t)(last - first) * (last - first + before) / 2;
     before = last - first;
   }
+  l->entries = entries;
   return tail;
 }
 
-static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen, sl_off *estimate) {
-  const int64_t most = SLI_LEVELS_MOST * (int64_t)G->n;
-  int64_t entries = 0, tried;
+static sli_levels sli_levels_of(const sli_order_job *job) {
+  sli_levels l;
+  l.G = job->G;
+  l.queue = job->perm;
+  l.seen = job->scratch;
+  l.entries = 0;
+  memset(l.seen, 0, (size_t)l.G->n * sizeof(sl_int));
+  return l;
+}
+
+static int sli_order_levels(const sli_order_job *job) {
+  const sl_int n = job->G->n;
+  const int64_t most = SLI_LEVELS_MOST * (int64_t)n;
+  sli_levels found = sli_levels_of(job);
   sl_int v, end, start = 0;
-  memset(seen, 0, (size_t)G->n * sizeof(sl_int));
-  for (v = 0; v < G->n && entries <= most; v++) {
-    if (seen[v] != 0) {
+  for (v = 0; v < n && found.entries <= most; v++) {
+    sli_levels tried = found;
+    if (found.seen[v] != 0) {
       continue;
     }
-    tried = 0;
-    end = sli_levels_search(G, v, perm, start, seen, 1, SLI_LEVELS_TRY * most, &tried);
-    if (tried > SLI_LEVELS_TRY * most) {
+    tried.entries = 0;
+    end = sli_levels_search(&tried, v, start, 1, SLI_LEVELS_TRY * most);
+    if (tried.entries > SLI_LEVELS_TRY * most) {
       return 0;
     }
-    start = sli_levels_search(G, perm[end - 1], perm, start, seen, 2, most, &entries);
+    start = sli_levels_search(&found, found.queue[end - 1], start, 2, most);
   }
-  for (v = 0; v < G->n / 2; v++) {
-    const sl_int other = perm[v];
-    perm[v] = perm[G->n - 1 - v];
-    perm[G->n - 1 - v] = other;
+  for (v = 0; v < n / 2; v++) {
+    const sl_int other = found.queue[v];
+    found.queue[v] = found.queue[n - 1 - v];
+    found.queue[n - 1 - v] = other;
   }
-  *estimate = entries <= most ? entries : 0;
-  return entries <= most;
-}
-
-/* src/impl/ordering/border.h: dense rows without a diagonal entry, and their place in an order */
-
-static int sli_order_has_diagonal(const sl_csc *A, sl_int j) {
-  sl_int p = A->p[j];
-  while (p < A->p[j + 1] && A->i[p] != j) {
-    p++;
-  }
-  return p < A->p[j + 1];
-}
-
-SLI_INLINE int sli_order_is_constraint(const sl_csc *A, sl_int row, sl_off degree) {
-  return degree >= 8 && degree * degree >= A->n_cols && !sli_order_has_diagonal(A, row);
-}
-
-SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
-  return G->begin[v + 1] - G->begin[v];
-}
-
-static void sli_order_border(const sl_csc *A, const sli_graph *G, sl_int *perm, sl_int *position,
-               sli_septree *septree) {
-  sl_int k, v, last;
-  sl_off e;
-  for (v = 0; v < G->n && !sli_order_is_constraint(A, v, sli_graph_degree(G, v)); v++) {
-  }
-  if (v == G->n) {
-    return;
-  }
-  for (k = 0; k < G->n; k++) {
-    position[perm[k]] = k;
-  }
-  for (k = 0; k < G->n; k++) {
-    const sl_int row = perm[k];
-    if (!sli_order_is_constraint(A, row, sli_graph_degree(G, row))) {
-      continue;
-    }
-    last = -1;
-    for (e = G->begin[row]; e < G->begin[row + 1]; e++) {
-      last = sli_max(last, position[G->to[e]]);
-    }
-    if (last > k) {
-      continue;
-    }
-    v = perm[last];
-    for (; last < k; last++) {
-      perm[last] = perm[last + 1];
-      position[perm[last]] = last;
-    }
-    perm[k] = v;
-    position[v] = k;
-    septree->count = 0;
-  }
-}
-
-/* src/impl/ordering/forest.h: forests: postorder, elimination from the leaves, matrices whose graph is one */
-
-static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
-              sl_int *child, sl_int *sibling) {
-  sl_int k, j, at = 0, roots = -1;
-  for (k = 0; k < n; k++) {
-    child[sequence == NULL ? k : sequence[k]] = -1;
-  }
-  for (k = n - 1; k >= 0; k--) {
-    sl_int *list;
-    j = sequence == NULL ? k : sequence[k];
-    list = parent[j] == -1 ? &roots : &child[parent[j]];
-    sibling[j] = *list;
-    *list = j;
-  }
-  for (j = roots; j != -1;) {
-    while (child[j] != -1) {
-      const sl_int c = child[j];
-      child[j] = -1;
-      j = c;
-    }
-    post[at++] = j;
-    j = sibling[j] != -1 ? sibling[j] : parent[j];
-  }
-}
-
-static sl_int sli_forest_leaves(sl_int n, sl_int *degree, sl_int *only, sl_int *sequence) {
-  sl_int v, u, count = 0;
-  for (v = 0; v < n; v++) {
-    for (u = v; u != -1 && (degree[u] == 0 || degree[u] == 1); u = only[u]) {
-      sequence[count++] = u;
-      if (degree[u] == 1) {
-        degree[only[u]]--;
-        only[only[u]] ^= u;
-      } else {
-        only[u] = -1;
-      }
-      degree[u] = -1;
-    }
-  }
-  return count;
-}
-
-static int sli_order_forest(const sl_csc *A, const sl_int *column, sl_triangle triangle,
-              sl_int *perm, sl_int *parent, sl_int *scratch) {
-  const sl_int n = A->n_cols, nnz = sli_nnz(A);
-  sl_int *degree = scratch, *only = scratch + n, *more = scratch + 2 * (size_t)n;
-  sl_int k, p, edges = 0;
-  if (nnz >= (triangle == SL_TRIANGLE_BOTH ? 3 : 2) * (int64_t)n) {
-    return 0;
-  }
-  memset(degree, 0, 2 * (size_t)n * sizeof(sl_int));
-  for (p = 0; p < nnz; p++) {
-    const sl_int i = A->i[p], j = column[p];
-    const int is_edge = i != j && sli_is_read(triangle, i, j);
-    degree[i] += is_edge;
-    degree[j] += is_edge;
-    only[i] ^= is_edge ? j : 0;
-    only[j] ^= is_edge ? i : 0;
-    edges += is_edge;
-  }
-  for (k = 0; k < n && edges < n; k++) {
-    if (sli_order_is_constraint(A, k, degree[k])) {
-      return 0;
-    }
-  }
-  if (edges >= n || sli_forest_leaves(n, degree, only, more) < n) {
-    return 0;
-  }
-  for (k = 0; k < n && (only[more[k]] == -1 || only[more[k]] == more[k + 1]); k++) {
-    perm[k] = more[k];
-    parent[k] = only[more[k]] == -1 ? -1 : k + 1;
-  }
-  if (k == n) {
-    return 1;
-  }
-  sli_postorder(only, more, n, perm, degree, more + n);
-  for (k = 0; k < n; k++) {
-    degree[perm[k]] = k;
-  }
-  for (k = 0; k < n; k++) {
-    const sl_int up = only[perm[k]];
-    parent[k] = up == -1 ? -1 : degree[up];
-  }
-  return 1;
-}
-
-/* src/impl/ordering/peel.h: rows with at most two neighbors are eliminated before anything else is ordered */
-
-#define SLI_PEEL_SHARE 8
-#define SLI_PEEL_SEARCH 32
-#define SLI_PEEL_LEAVES 8
-#define SLI_PEEL_ENDS 256
-#define SLI_PEEL_ENTRIES 3
-
-typedef struct sli_peel {
-  sli_graph rest;
-  sl_int *length;
-  sl_int *degree;
-  sl_int *ends;
-  sl_int *stamp;
-  sl_int *now, *later;
-  sl_int *sequence;
-  sl_int count, n_later, round;
-  sl_int most;
-} sli_peel;
-
-static void sli_peel_layout(sli_peel *p, sli_block *b, sl_int n, sl_off edges) {
-  p->rest.begin = SLI_TAKE(b, sl_off, (size_t)n + 1);
-  p->rest.to = SLI_TAKE(b, sl_int, edges);
-  p->length = SLI_TAKE(b, sl_int, n);
-  p->degree = SLI_TAKE(b, sl_int, n);
-  p->ends = SLI_TAKE(b, sl_int, 2 * (size_t)n);
-  p->stamp = SLI_TAKE(b, sl_int, n);
-  p->now = SLI_TAKE(b, sl_int, n);
-  p->later = SLI_TAKE(b, sl_int, n);
-  p->sequence = SLI_TAKE(b, sl_int, n);
-}
-
-static int sli_peel_is_worthwhile(const sli_graph *G) {
-  sl_int v, few = 0;
-  for (v = 0; v < G->n; v++) {
-    few += G->begin[v + 1] - G->begin[v] <= 2;
-  }
-  return few > G->n / SLI_PEEL_SHARE;
-}
-
-SLI_INLINE sl_int sli_peel_follow(const sli_peel *p, sl_int v, sl_int u) {
-  while (u != -1 && p->degree[u] == -1) {
-    const sl_int *ends = p->ends + 2 * (size_t)u;
-    u = ends[0] == v ? ends[1] : ends[0];
-  }
-  return u;
-}
-
-static const sl_int *sli_peel_list(sli_peel *p, sl_int v) {
-  sl_int *list = p->rest.to + p->rest.begin[v], k, kept = 0;
-  for (k = 0; k < p->length[v]; k++) {
-    const sl_int u = sli_peel_follow(p, v, list[k]);
-    if (u != -1) {
-      list[kept++] = u;
-    }
-  }
-  p->length[v] = kept;
-  return list;
-}
-
-static int sli_peel_has_edge(sli_peel *p, sl_int u, sl_int v) {
-  const sl_int at = p->degree[u] < p->degree[v] ? u : v, other = at == u ? v : u;
-  const sl_int *list;
-  sl_int k = 0;
-  if (p->degree[at] > SLI_PEEL_SEARCH) {
-    return 0;
-  }
-  list = sli_peel_list(p, at);
-  while (k < p->length[at] && list[k] != other) {
-    k++;
-  }
-  return k < p->length[at];
-}
-
-SLI_INLINE void sli_peel_touch(sli_peel *p, sl_int u, sl_int fewer) {
-  const int was_listed = p->stamp[u] == p->round && p->degree[u] <= p->most;
-  p->degree[u] -= fewer;
-  p->stamp[u] = p->round;
-  if (p->degree[u] <= p->most && !was_listed) {
-    p->later[p->n_later++] = u;
-  }
-}
-
-static void sli_peel_eliminate(sli_peel *p, sl_int v) {
-  const sl_int *list = sli_peel_list(p, v);
-  sl_int *ends = p->ends + 2 * (size_t)v;
-  const sl_int count = p->length[v], a = count > 0 ? list[0] : -1, b = count > 1 ? list[1] : -1;
-  const int is_joined = b != -1 && a != b && !sli_peel_has_edge(p, a, b);
-  ends[0] = is_joined ? a : -1;
-  ends[1] = is_joined ? b : -1;
-  p->degree[v] = -1;
-  p->sequence[p->count++] = v;
-  if (b != -1 && a != b) {
-    sli_peel_touch(p, a, !is_joined);
-    sli_peel_touch(p, b, !is_joined);
-  } else if (a != -1) {
-    sli_peel_touch(p, a, count);
-  }
-}
-
-static void sli_peel_list_rows(sli_peel *p, sl_int n, sl_int most) {
-  sl_int v;
-  p->most = most;
-  p->n_later = 0;
-  for (v = 0; v < n; v++) {
-    p->later[p->n_later] = v;
-    p->n_later += p->degree[v] != -1 && p->degree[v] <= most;
-  }
-}
-
-static void sli_peel_round(sli_peel *p) {
-  const sl_int count = p->n_later;
-  sl_int k, *keep = p->now;
-  p->now = p->later;
-  p->later = keep;
-  p->n_later = 0;
-  p->round++;
-  for (k = 0; k < count; k++) {
-    if (p->stamp[p->now[k]] != p->round) {
-      sli_peel_eliminate(p, p->now[k]);
-    }
-  }
-}
-
-static void sli_peel_leaves(sli_peel *p, const sli_graph *G) {
-  sl_int *only = p->now, v;
-  sl_off e;
-  for (v = 0; v < G->n; v++) {
-    only[v] = 0;
-    for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
-      only[v] ^= G->to[e];
-    }
-  }
-  p->count = sli_forest_leaves(G->n, p->degree, only, p->sequence);
-  for (v = 0; v < p->count; v++) {
-    sl_int *ends = p->ends + 2 * (size_t)p->sequence[v];
-    ends[0] = ends[1] = -1;
-  }
-}
-
-static void sli_peel_run(sli_peel *p, const sli_graph *G, int for_little_fill) {
-  const sl_int n = G->n;
-  sl_int v;
-  p->count = p->round = 0;
-  for (v = 0; v < n; v++) {
-    p->length[v] = p->degree[v] = (sl_int)(G->begin[v + 1] - G->begin[v]);
-    p->stamp[v] = 0;
-  }
-  if (for_little_fill) {
-    sli_peel_leaves(p, G);
-  }
-  if (p->count == n) {
-    return;
-  }
-  memcpy(p->rest.begin, G->begin, ((size_t)n + 1) * sizeof(sl_off));
-  memcpy(p->rest.to, G->to, (size_t)G->begin[n] * sizeof(sl_int));
-  sli_peel_list_rows(p, n, 1);
-  while (!for_little_fill && p->n_later > n / SLI_PEEL_ENDS && p->round < SLI_PEEL_LEAVES) {
-    sli_peel_round(p);
-  }
-  sli_peel_list_rows(p, n, 2);
-  while (p->n_later > 0) {
-    sli_peel_round(p);
-  }
-}
-
-static void sli_peel_finish(sli_peel *p, sl_int n) {
-  sl_int v, k, *number = p->now, *seen = p->later, left = 0;
-  sl_off to = 0;
-  for (v = 0; v < n; v++) {
-    if (p->degree[v] != -1) {
-      sli_peel_list(p, v);
-      p->sequence[p->count + left] = v;
-      seen[left] = -1;
-      number[v] = left++;
-    }
-  }
-  for (k = 0; k < left; k++) {
-    sl_off e = p->rest.begin[p->sequence[p->count + k]];
-    const sl_off end = e + p->length[p->sequence[p->count + k]];
-    p->rest.begin[k] = to;
-    for (; e < end; e++) {
-      const sl_int u = number[p->rest.to[e]];
-      p->rest.to[to] = u;
-      to += seen[u] != k;
-      seen[u] = k;
-    }
-  }
-  p->rest.begin[left] = to;
-  p->rest.n = left;
-}
-
-static void sli_peel_expand(const sli_peel *p, sl_int *perm) {
-  sl_int k;
-  for (k = p->rest.n - 1; k >= 0; k--) {
-    perm[p->count + k] = p->sequence[p->count + perm[k]];
-  }
-  memcpy(perm, p->sequence, (size_t)p->count * sizeof(sl_int));
+  return found.entries <= most;
 }
 
 /* src/impl/ordering/quotient.h: elimination of variables of approximate minimum degree from a quotient graph */
@@ -9484,23 +9580,90 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_co
   return SL_OK;
 }
 
-/* src/impl/ordering/graph_kind.h: on which graphs minimum degree may be better than dissection, and on which it is */
+/* src/impl/ordering/choice.h: what is known of a graph, and the order that it gets by one table */
 
-static int sli_order_is_irregular(const sli_graph *G, int is_peeled) {
-  uint64_t squares = 0, mean;
+enum {
+  SLI_WANTS_METIS = 1 << 0,
+  SLI_WANTS_MINDEG = 1 << 1,
+  SLI_WANTS_ONE_FACTOR = 1 << 2,
+  SLI_WANTS_MANY_SOLVES = 1 << 3,
+  SLI_IS_IRREGULAR = 1 << 4,
+  SLI_IS_BIPARTITE = 1 << 5,
+  SLI_IS_THIN = 1 << 6,
+  SLI_IS_EXPANDING = 1 << 7,
+  SLI_TRIED_LEVELS = 1 << 8,
+  SLI_IS_NARROW = 1 << 9,
+  SLI_TRIED_MINDEG = 1 << 10,
+  SLI_IS_CHEAP = 1 << 11,
+  SLI_HAS_CORE = 1 << 12,
+  SLI_HAS_NO_FILL = 1 << 13,
+  SLI_HAS_SHORT_PATHS = 1 << 14,
+  SLI_HAS_LONG_PATHS = 1 << 15
+};
+
+typedef struct sli_graph_facts {
+  int bits;
+  sl_off edges;
+  uint64_t squares;
+  int64_t levels;
+  sli_order_cost cost;
+} sli_graph_facts;
+
+typedef enum sli_order_way {
+  SLI_TRY_LEVELS,
+  SLI_TRY_MINDEG,
+  SLI_BY_METIS,
+  SLI_BY_LEVELS,
+  SLI_BY_MINDEG,
+  SLI_BY_DISSECTION,
+  SLI_BY_BOTH
+} sli_order_way;
+
+static const struct sli_order_rule {
+  int all, none;
+  sli_order_way way;
+} sli_order_rules[] = {
+  {SLI_WANTS_METIS, 0, SLI_BY_METIS},
+  {SLI_WANTS_MINDEG, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
+  {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+  {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
+  {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
+  {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
+  {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
+  {0, 0, SLI_BY_DISSECTION}};
+
+static sli_order_way sli_order_choose(const sli_graph_facts *f) {
+  const struct sli_order_rule *r = sli_order_rules;
+  while ((f->bits & r->all) != r->all || (f->bits & r->none) != 0) {
+    r++;
+  }
+  return r->way;
+}
+
+static int sli_graph_is_irregular(const sli_graph *G, int is_peeled, uint64_t *squares) {
+  uint64_t mean;
   sl_int v;
+  *squares = 0;
   if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
     return 0;
   }
   for (v = 0; v < G->n; v++) {
-    const uint64_t degree = (uint64_t)(G->begin[v + 1] - G->begin[v]);
-    squares += degree < 1024 ? degree * degree : 1024 * 1024;
+    const uint64_t degree = (uint64_t)sli_graph_degree(G, v);
+    *squares += degree < 1024 ? degree * degree : 1024 * 1024;
   }
   mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
-  return mean > 0 && 10 * 256 * squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+  return mean > 0 &&
+       10 * 256 * *squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
 }
 
-static int sli_order_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
+static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
   sl_int root, head, tail = 0;
   sl_off e;
   if (G->begin[G->n] <= 4 * (sl_off)G->n) {
@@ -9531,49 +9694,65 @@ static int sli_order_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *sid
   return 1;
 }
 
-static int sli_order_is_dense(const sli_graph *G) {
-  const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
-  return mean * mean > n;
-}
-
-typedef enum sli_graph_shape {
-  SLI_SHAPE_THIN,
-  SLI_SHAPE_OTHER,
-  SLI_SHAPE_EXPANDING
-} sli_graph_shape;
-
-static sli_graph_shape sli_order_shape(const sli_graph *G, sl_int *queue, sl_int *seen) {
-  const int64_t n = G->n, most = n * n / 8;
-  int64_t entries = 0;
+static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
+  const int64_t n = job->G->n, most = n * n / 8;
+  sli_levels l = sli_levels_of(job);
   sl_int v, tail = 0;
-  memset(seen, 0, (size_t)n * sizeof(sl_int));
-  for (v = 0; v < G->n && entries <= most; v++) {
-    if (seen[v] == 0) {
-      tail = sli_levels_search(G, v, queue, tail, seen, 1, most, &entries);
+  for (v = 0; v < job->G->n && l.entries <= most; v++) {
+    if (l.seen[v] == 0) {
+      tail = sli_levels_search(&l, v, tail, 1, most);
     }
   }
-  return entries > most                               ? SLI_SHAPE_EXPANDING
-       : entries <= 32 * n && entries <= n * n / 32 ? SLI_SHAPE_THIN
-                            : SLI_SHAPE_OTHER;
+  *entries = l.entries;
+  return l.entries > most                                 ? SLI_IS_EXPANDING
+       : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
+                              : 0;
 }
 
-static int sli_order_has_core(const sli_order_cost *c) {
-  return c->widest * c->widest * c->widest > 1.5 * c->flops;
+static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
+  const sli_graph *G = job->G;
+  const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
+  const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
+  sli_graph_facts f;
+  memset(&f, 0, sizeof f);
+  f.edges = G->begin[n];
+  f.bits = job->ordering == SL_ORDERING_METIS    ? SLI_WANTS_METIS
+       : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
+       : is_for_one                          ? SLI_WANTS_ONE_FACTOR
+       : job->block == 1                     ? SLI_WANTS_MANY_SOLVES
+                           : 0;
+  if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
+    return f;
+  }
+  f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR
+                                          : 0;
+  if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
+    f.bits |= sli_graph_shape(job, &f.levels);
+  }
+  if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
+    sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+    f.bits |= SLI_IS_BIPARTITE;
+  }
+  return f;
 }
 
-static int sli_order_is_without_fill(const sli_order_cost *c, const sli_graph *G) {
-  const double entries = 0.5 * (double)G->begin[G->n] + (double)G->n;
-  return c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts;
+#define SLI_ORDER_ND_FLOPS 5000.0
+#define SLI_ORDER_ND_SAVES 8000.0
+
+static void sli_graph_describe_mindeg(const sli_graph *G, sli_graph_facts *f) {
+  const sli_order_cost *c = &f->cost;
+  const double entries = 0.5 * (double)f->edges + (double)G->n;
+  const double path = c->paths / (double)sli_max(G->n, 1);
+  const double share = c->flops > 0.0 ? path / c->flops * path / c->flops * path : 0.0;
+  f->bits |= SLI_TRIED_MINDEG;
+  f->bits |= 0.5 * c->flops <= SLI_ORDER_ND_SAVES * (double)f->edges ? SLI_IS_CHEAP : 0;
+  f->bits |= c->widest * c->widest * c->widest > 1.5 * c->flops ? SLI_HAS_CORE : 0;
+  f->bits |= c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts ? SLI_HAS_NO_FILL : 0;
+  f->bits |= share < 0.67 * 0.67 * 0.67 ? SLI_HAS_SHORT_PATHS : 0;
+  f->bits |= share < 1.2 * 1.2 * 1.2 ? 0 : SLI_HAS_LONG_PATHS;
 }
 
-static double sli_order_path_share(const sli_order_cost *c, sl_int n) {
-  const double path = c->paths / (double)sli_max(n, 1);
-  return c->flops > 0.0 ? path / c->flops * path / c->flops * path : 0.0;
-}
-#define SLI_ORDER_PATHS_SHORT (0.67 * 0.67 * 0.67)
-#define SLI_ORDER_PATHS_LONG (1.2 * 1.2 * 1.2)
-
-/* src/impl/ordering/order.h: the elimination order: natural, given, or fill-reducing */
+/* src/impl/ordering/order.h: the elimination order: reduce the graph, describe it, choose, order, expand */
 
 static void sli_order_natural(sl_int n, sl_int *perm) {
   sl_int k;
@@ -9582,85 +9761,99 @@ static void sli_order_natural(sl_int n, sl_int *perm) {
   }
 }
 
-static sl_status sli_order_given(const sl_int *given, sl_int n, sl_int *perm, sl_int *scratch,
-                 sl_stats *stats) {
+static sl_status sli_order_given(const sli_order_job *job) {
+  const sl_int *given = job->opt->perm, n = job->A->n_cols;
   sl_int bad;
   if (given == NULL && n > 0) {
     return SL_ERR_ARGUMENT;
   }
-  bad = sli_perm_invert(given, n, scratch);
+  bad = sli_perm_invert(given, n, job->scratch);
   if (bad >= 0) {
-    return sli_fail_at(stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
+    return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
   }
   if (n > 0) {
-    memcpy(perm, given, (size_t)n * sizeof(sl_int));
+    memcpy(job->perm, given, (size_t)n * sizeof(sl_int));
   }
   return SL_OK;
 }
 
-#if defined(SLI_METIS)
-#define SLI_ORDER_TINY 4
+static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f, sl_int *perm) {
+  const sl_status status = sli_order_mindeg(job->G, perm, &f->cost, job->a);
+  sli_graph_describe_mindeg(job->G, f);
+  return status;
+}
 
-static sl_status sli_order_metis(const sli_graph *G, const sl_int *metis_options, sl_int *perm,
-                 sl_int *local, const sl_allocator *a) {
-  sl_int root, head, tail = 0, start;
+static sl_status sli_order_reduced(const sli_order_job *job) {
+  sli_graph_facts f = sli_graph_describe(job);
   sl_status status = SL_OK;
-  for (root = 0; root < G->n; root++) {
-    local[root] = -1;
-  }
-  for (root = 0; root < G->n && status == SL_OK; root++) {
-    if (local[root] >= 0) {
-      continue;
-    }
-    start = tail;
-    local[root] = 0;
-    perm[tail++] = root;
-    for (head = start; head < tail; head++) {
-      sl_off e;
-      for (e = G->begin[perm[head]]; e < G->begin[perm[head] + 1]; e++) {
-        const sl_int u = G->to[e];
-        if (local[u] < 0) {
-          local[u] = tail - start;
-          perm[tail++] = u;
-        }
+  while (status == SL_OK) {
+    switch (sli_order_choose(&f)) {
+    case SLI_TRY_LEVELS:
+      f.bits |= SLI_TRIED_LEVELS | (sli_order_levels(job) ? SLI_IS_NARROW : 0);
+      break;
+    case SLI_TRY_MINDEG:
+      status = sli_order_by_mindeg(job, &f, job->choice->other);
+      break;
+    case SLI_BY_METIS:
+#if defined(SLI_METIS)
+      return sli_order_metis(job);
+#endif
+    case SLI_BY_LEVELS:
+      return SL_OK;
+    case SLI_BY_MINDEG:
+      if ((f.bits & SLI_TRIED_MINDEG) == 0) {
+        return sli_order_by_mindeg(job, &f, job->perm);
       }
-    }
-    if (tail - start > SLI_ORDER_TINY) {
-      status = sli_metis_order(G, perm + start, tail - start, local, metis_options, a);
+      memcpy(job->perm, job->choice->other, (size_t)job->G->n * sizeof(sl_int));
+      return SL_OK;
+    case SLI_BY_BOTH:
+      job->choice->is_there = 1;
+      return sli_order_compressed(job);
+    case SLI_BY_DISSECTION:
+      return sli_order_compressed(job);
     }
   }
   return status;
 }
 
-#endif
-
-static sl_status sli_order_canonical(sli_graph *G, const sl_allocator *a) {
-  const sl_off edges = G->begin[G->n];
+static sl_status sli_order_peeled(const sli_order_job *job) {
+  sli_order_job rest = *job;
+  sli_peel p;
   sli_block b = {NULL, 0, 0};
-  sl_int *to = NULL;
-  sl_off *at = NULL;
   sl_status status = SL_OK;
   int pass;
-  if (sli_graph_is_sorted(G)) {
-    return SL_OK;
-  }
+  memset(&p, 0, sizeof p);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    to = SLI_TAKE(&b, sl_int, edges);
-    at = SLI_TAKE(&b, sl_off, G->n);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    sli_peel_layout(&p, &b, job->G->n, job->G->begin[job->G->n]);
+    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_peel_run(&p, job->G, job->is_hurried);
+  sli_peel_finish(&p, job->G->n);
+  rest.G = &p.rest;
+  rest.is_peeled = 1;
+  status = sli_graph_make_canonical(&p.rest, job->a);
+  if (status == SL_OK) {
+    status = sli_order_reduced(&rest);
   }
   if (status == SL_OK) {
-    sli_graph_sort(G, to, at);
-    memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
-    sli_graph_deduplicate(G);
-    sli_free(a, b.base);
+    sli_peel_expand(&p, job->perm);
+    job->septree->count = 0;
+    if (job->choice->is_there) {
+      sli_peel_expand(&p, job->choice->other);
+    }
   }
+  sli_free(job->a, b.base);
   return status;
 }
 
-static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_septree *septree) {
-  sl_int k, c;
-  for (k = blocks - 1; k >= 0; k--) {
+static void sli_order_expand(const sli_order_job *job) {
+  const sl_int block = job->block;
+  sl_int *perm = job->perm, k, c;
+  sli_septree *septree = job->septree;
+  for (k = job->G->n - 1; k >= 0; k--) {
     const sl_int v = perm[k], node = septree->count > 0 ? septree->node_of[k] : 0;
     for (c = block - 1; c >= 0; c--) {
       perm[k * block + c] = v * block + c;
@@ -9669,156 +9862,38 @@ static void sli_order_expand(sl_int blocks, sl_int block, sl_int *perm, sli_sept
   }
 }
 
-#define SLI_ORDER_ND_FLOPS 5000.0
-#define SLI_ORDER_ND_SAVES 8000.0
-
-static int sli_order_is_hurried(sl_ordering ordering, const sl_options *opt) {
-  return ordering == SL_ORDERING_MINDEG ||
-       (ordering == SL_ORDERING_ND && opt != NULL && opt->purpose == SL_PURPOSE_ONE_FACTOR);
-}
-
-typedef struct sli_order_choice {
-  sl_int *other;
-  sl_off entries;
-  sl_int *parent;
-  int has_tree;
-  int is_wanted, is_there;
-} sli_order_choice;
-
-static sl_status sli_order_graph(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
-                 sl_int *perm, sl_int *scratch, sli_septree *septree,
-                 sli_order_choice *choice, sli_team *team, const sl_allocator *a) {
-  const int is_hurried = sli_order_is_hurried(ordering, opt);
-#if defined(SLI_METIS)
-  if (ordering == SL_ORDERING_METIS) {
-    return sli_order_metis(G, opt->metis_options, perm, scratch, a);
-  }
-#endif
-  if (is_hurried && ordering == SL_ORDERING_ND &&
-    sli_order_levels(G, perm, scratch, &choice->entries)) {
-    return SL_OK;
-  }
-  if (is_hurried) {
-    sli_order_cost cost = {0.0, 0.0, 0.0, 0.0, 0.0};
-    const sl_status status = sli_order_mindeg(G, perm, &cost, a);
-    if (status != SL_OK || ordering == SL_ORDERING_MINDEG ||
-      0.5 * cost.flops <= SLI_ORDER_ND_SAVES * (double)G->begin[G->n] ||
-      sli_order_is_irregular(G, 1)) {
-      return status;
-    }
-  }
-  return sli_order_compressed(G, perm, scratch, septree, team, a);
-}
-
-static sl_status sli_order_both(const sli_graph *G, int is_peeled, sl_ordering ordering,
-                const sl_options *opt, sl_int *perm, sl_int *scratch,
-                sli_septree *septree, sli_order_choice *choice, sli_team *team,
-                const sl_allocator *a) {
-  const int is_irregular = choice->is_wanted && sli_order_is_irregular(G, is_peeled);
-  const int may_expand = choice->is_wanted && (is_peeled || sli_order_is_dense(G));
-  const sli_graph_shape shape =
-    is_irregular || may_expand ? sli_order_shape(G, perm, scratch) : SLI_SHAPE_OTHER;
-  const int is_bipartite = choice->is_wanted && is_peeled && shape != SLI_SHAPE_THIN &&
-               sli_order_is_bipartite(G, perm, scratch);
-  if ((is_irregular && shape != SLI_SHAPE_THIN) || is_bipartite || shape == SLI_SHAPE_EXPANDING) {
-    sli_order_cost cost;
-    const sl_status status = sli_order_mindeg(G, choice->other, &cost, a);
-    const double share = status == SL_OK ? sli_order_path_share(&cost, G->n) : 0.0;
-    if (status != SL_OK) {
-      return status;
-    }
-    if (sli_order_has_core(&cost) || sli_order_is_without_fill(&cost, G) ||
-      (is_bipartite && share < SLI_ORDER_PATHS_SHORT)) {
-      memcpy(perm, choice->other, (size_t)G->n * sizeof(sl_int));
-      septree->count = 0;
-      return SL_OK;
-    }
-    choice->is_there = is_irregular && share < SLI_ORDER_PATHS_LONG;
-  }
-  return sli_order_graph(G, ordering, opt, perm, scratch, septree, choice, team, a);
-}
-
-static sl_status sli_order_peeled(const sli_graph *G, sl_ordering ordering, const sl_options *opt,
-                  sl_int *perm, sl_int *scratch, sli_septree *septree,
-                  sli_order_choice *choice, sli_team *team, const sl_allocator *a) {
-  sli_peel p;
-  sli_block b = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  int pass;
-  memset(&p, 0, sizeof p);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_peel_layout(&p, &b, G->n, G->begin[G->n]);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_peel_run(&p, G, sli_order_is_hurried(ordering, opt));
-  sli_peel_finish(&p, G->n);
-  status = sli_order_canonical(&p.rest, a);
-  if (status == SL_OK) {
-    status = sli_order_both(&p.rest, 1, ordering, opt, perm, scratch, septree, choice, team, a);
-  }
-  if (status == SL_OK) {
-    sli_peel_expand(&p, perm);
-    choice->entries = p.rest.n > 0 && choice->entries == 0
-                ? 0
-                : choice->entries + SLI_PEEL_ENTRIES * (sl_off)p.count;
-    septree->count = 0;
-    if (choice->is_there) {
-      sli_peel_expand(&p, choice->other);
-    }
-  }
-  sli_free(a, b.base);
-  return status;
-}
-
-static sl_status sli_order_by_graph(const sl_csc *A, const sl_int *column, sl_triangle triangle,
-                  sl_ordering ordering, const sl_options *opt, sl_int *perm,
-                  sl_int *scratch, sli_septree *septree, sli_order_choice *choice,
-                  sli_team *team, const sl_allocator *a) {
-  const sl_int block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
-  const int may_peel = ordering == SL_ORDERING_MINDEG || ordering == SL_ORDERING_ND;
+static sl_status sli_order_by_graph(sli_order_job *job) {
+  const int may_peel = job->ordering != SL_ORDERING_METIS;
   sli_graph G;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   int pass;
-  if (block == 1 && sli_order_is_hurried(ordering, opt) &&
-    sli_order_forest(A, column, triangle, perm, choice->parent, scratch)) {
-    choice->has_tree = 1;
-    choice->entries = 2 * (sl_off)A->n_cols;
-    return SL_OK;
-  }
   memset(&G, 0, sizeof G);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    G.n = A->n_cols / block;
+    G.n = job->A->n_cols / job->block;
     G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
-    G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(A));
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(job->A));
+    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
   }
-  sli_graph_fill(&G, A, column, triangle, block);
-  status = sli_order_canonical(&G, a);
-  choice->is_wanted &= block == 1;
+  sli_graph_fill(&G, job->A, job->column, job->triangle, job->block);
+  status = sli_graph_make_canonical(&G, job->a);
+  job->G = &G;
   if (status == SL_OK) {
-    status =
-      may_peel && sli_peel_is_worthwhile(&G)
-        ? sli_order_peeled(&G, ordering, opt, perm, scratch, septree, choice, team, a)
-        : sli_order_both(&G, 0, ordering, opt, perm, scratch, septree, choice, team, a);
+    status = may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job)
+                            : sli_order_reduced(job);
   }
-  if (status == SL_OK && block > 1) {
-    choice->entries = 0;
-    sli_order_expand(G.n, block, perm, septree);
+  if (status == SL_OK && job->block > 1) {
+    sli_order_expand(job);
   } else if (status == SL_OK) {
-    sli_septree none;
-    sli_order_border(A, &G, perm, scratch, septree);
-    if (choice->is_there) {
-      sli_order_border(A, &G, choice->other, scratch, &none);
+    sli_order_border(job, job->perm);
+    if (job->choice->is_there) {
+      sli_order_border(job, job->choice->other);
     }
   }
-  sli_free(a, b.base);
+  sli_free(job->a, b.base);
   return status;
 }
 
@@ -9828,46 +9903,53 @@ static int sli_order_options_are_valid(const sl_options *opt, sl_int n) {
       opt->block_size >= 0 && (opt->block_size <= 1 || n % opt->block_size == 0));
 }
 
-static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
-  const int is_shared = opt != NULL && opt->ordering == SL_ORDERING_ND;
-  const double share = is_shared && sli_order_is_hurried(opt->ordering, opt) ? 0.06 : 0.5;
-  const double flops = share * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
-  return is_shared ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX) : 1;
+static int sli_order_is_hurried(const sl_options *opt) {
+  return opt != NULL &&
+       (opt->ordering == SL_ORDERING_MINDEG ||
+      (opt->ordering == SL_ORDERING_ND && opt->purpose == SL_PURPOSE_ONE_FACTOR));
 }
 
-static sl_status sli_order(const sl_csc *A, const sl_int *column, sl_triangle triangle,
-               const sl_options *opt, sl_int *perm, sl_int *scratch,
-               sli_septree *septree, sli_order_choice *choice, sli_team *team,
-               const sl_allocator *a, sl_stats *stats) {
-  const sl_ordering ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
-  septree->count = 0;
-  choice->is_there = 0;
-  choice->entries = 0;
-  choice->has_tree = 0;
-  choice->is_wanted =
-    ordering == SL_ORDERING_ND && (opt == NULL || opt->purpose == SL_PURPOSE_MANY_SOLVES);
-  if (!sli_order_options_are_valid(opt, A->n_cols)) {
+static sl_int sli_order_workers(const sl_csc *A, const sl_options *opt) {
+  const double share = sli_order_is_hurried(opt) ? 0.06 : 0.5;
+  const double flops = share * SLI_ORDER_ND_FLOPS * (double)sli_nnz(A);
+  return opt != NULL && opt->ordering == SL_ORDERING_ND
+         ? sli_min(sli_workers_for(&opt->threads, flops), SLI_TEAM_MAX)
+         : 1;
+}
+
+static sl_status sli_order(sli_order_job *job) {
+  const sl_options *opt = job->opt;
+  job->septree->count = 0;
+  job->choice->is_there = 0;
+  job->choice->has_tree = 0;
+  if (!sli_order_options_are_valid(opt, job->A->n_cols)) {
     return SL_ERR_ARGUMENT;
   }
-  switch (ordering) {
+  job->ordering = opt != NULL ? opt->ordering : SL_ORDERING_ND;
+  job->is_hurried = sli_order_is_hurried(opt);
+  job->block = opt != NULL && opt->block_size > 1 ? opt->block_size : 1;
+  job->is_peeled = 0;
+  job->weight = NULL;
+  switch (job->ordering) {
   case SL_ORDERING_GIVEN:
-    return sli_order_given(opt->perm, A->n_cols, perm, scratch, stats);
+    return sli_order_given(job);
   case SL_ORDERING_NATURAL:
-    sli_order_natural(A->n_cols, perm);
+    sli_order_natural(job->A->n_cols, job->perm);
     return SL_OK;
+  case SL_ORDERING_METIS:
+#if defined(SLI_METIS)
+    return sli_metis_options_are_valid(opt->metis_options) ? sli_order_by_graph(job)
+                                 : SL_ERR_ARGUMENT;
+#else
+    return SL_ERR_UNSUPPORTED;
+#endif
   case SL_ORDERING_ND:
   case SL_ORDERING_MINDEG:
-    return sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
-                  choice, team, a);
-  case SL_ORDERING_METIS:
-#if !defined(SLI_METIS)
-    return SL_ERR_UNSUPPORTED;
-#else
-    return !sli_metis_options_are_valid(opt->metis_options)
-           ? SL_ERR_ARGUMENT
-           : sli_order_by_graph(A, column, triangle, ordering, opt, perm, scratch, septree,
-                    choice, team, a);
-#endif
+    if (job->block == 1 && job->is_hurried && sli_order_forest(job)) {
+      job->choice->has_tree = 1;
+      return SL_OK;
+    }
+    return sli_order_by_graph(job);
   default:
     return SL_ERR_ARGUMENT;
   }
@@ -11274,9 +11356,21 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
                    sli_analysis *w, sli_team *team, const sl_allocator *a,
                    const sl_allocator *for_order, sl_stats *stats) {
   sl_symbolic draft;
+  sli_order_job job;
   sl_status status;
-  status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
-             &w->septree, &w->choice, team, for_order, stats);
+  memset(&job, 0, sizeof job);
+  job.A = A;
+  job.column = w->column;
+  job.triangle = stats->symbolic.triangle;
+  job.opt = opt;
+  job.perm = w->perm;
+  job.scratch = w->scratch;
+  job.septree = &w->septree;
+  job.choice = &w->choice;
+  job.team = team;
+  job.a = for_order;
+  job.stats = stats;
+  status = sli_order(&job);
   stats->symbolic.seconds_order = sli_analysis_lap(w);
   if (status != SL_OK) {
     return status;
@@ -26160,6 +26254,8 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   sl_int *perm = NULL, *scratch = NULL, k, pass;
   sl_off total = 0;
   sli_order_cost cost;
+  sli_order_job job;
+  uint64_t squares;
   sl_status status = SL_OK;
   memset(&G, 0, sizeof G);
   memset(&septree, 0, sizeof septree);
@@ -26199,12 +26295,18 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     sli_edit_graph(e, &G);
     memmove(G.begin + 1, G.begin, (size_t)count * sizeof(sl_off));
     G.begin[0] = 0;
-    status = sli_order_canonical(&G, a);
+    status = sli_graph_make_canonical(&G, a);
   }
   if (status == SL_OK) {
-    status = sli_order_is_irregular(&G, 0)
-           ? sli_order_mindeg(&G, perm, &cost, a)
-           : sli_order_compressed(&G, perm, scratch, &septree, &alone, a);
+    memset(&job, 0, sizeof job);
+    job.G = &G;
+    job.perm = perm;
+    job.scratch = scratch;
+    job.septree = &septree;
+    job.team = &alone;
+    job.a = a;
+    status = sli_graph_is_irregular(&G, 0, &squares) ? sli_order_mindeg(&G, perm, &cost, a)
+                             : sli_order_compressed(&job);
   }
   if (status == SL_OK) {
     for (k = 0; k < count; k++) {

@@ -223,7 +223,7 @@ static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering) 
     sl_int *column = test_ints((size_t)A->p[n] + 1), *perm = test_ints((size_t)n),
            *scratch = test_ints(4 * (size_t)n), *seen = test_ints((size_t)n);
     sli_septree septree = {0, test_ints((size_t)n), test_ints((size_t)n + 1)};
-    sli_order_choice choice = {test_ints((size_t)n), 0, test_ints((size_t)n), 0, 0, 0};
+    sli_order_choice choice = {test_ints((size_t)n), test_ints((size_t)n), 0, 0};
     sl_status status = SL_ERR_MEMORY;
     int k = 0;
     for (sl_int j = 0; j < n; j++) {
@@ -237,8 +237,19 @@ static int allocations_of(const gen_list_t *t, int style, sl_ordering ordering) 
         sli_team alone = sli_team_of(1);
         opt.ordering = ordering;
         counter.fail_at = k;
-        status = sli_order(A, column, gen_style(style).triangle, &opt, perm, scratch, &septree,
-                           &choice, &alone, &opt.allocator, NULL);
+        sli_order_job job;
+        memset(&job, 0, sizeof job);
+        job.A = A;
+        job.column = column;
+        job.triangle = gen_style(style).triangle;
+        job.opt = &opt;
+        job.perm = perm;
+        job.scratch = scratch;
+        job.septree = &septree;
+        job.choice = &choice;
+        job.team = &alone;
+        job.a = &opt.allocator;
+        status = sli_order(&job);
         assert_true(status == SL_OK || status == SL_ERR_MEMORY);
         assert_int_equal(status == SL_ERR_MEMORY, counter.calls > (size_t)k);
         COUNTER_CLEAN(&counter);

@@ -95,8 +95,15 @@ static int is_thin(const sl_csc *A) {
         sli_graph G = {A->n_cols, begin, to};
         sli_team alone = sli_team_of(1);
         sli_septree septree = {0, tree, tree + n};
-        SL_CHECK(sli_order_nd(&G, weighed ? weight : NULL, perm + (size_t)weighed * n,
-                              &septree, &alone, &a));
+        sli_order_job job;
+        memset(&job, 0, sizeof job);
+        job.G = &G;
+        job.weight = weighed ? weight : NULL;
+        job.perm = perm + (size_t)weighed * n;
+        job.septree = &septree;
+        job.team = &alone;
+        job.a = &a;
+        SL_CHECK(sli_order_nd(&job));
     }
     const int thin = memcmp(perm, perm + n, n * sizeof *perm) != 0;
     SL_CHECK(sl_symbolic_create(&S, A, &opt, NULL));

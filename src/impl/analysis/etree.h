@@ -3,7 +3,8 @@
 #define SLI_ANALYSIS_ETREE_H
 
 #include "symbolic_types.h"
-#include "../ordering/forest.h"
+#include "../ordering/graph.h"
+#include "../base/sort.h"
 
 #define SLI_MERGED UINT32_MAX
 

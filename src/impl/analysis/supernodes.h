@@ -3,7 +3,7 @@
 #define SLI_ANALYSIS_SUPERNODES_H
 
 #include "etree.h"
-#include "../ordering/forest.h"
+#include "../ordering/graph.h"
 #include "../base/sort.h"
 #include "../kernels/panel.h"
 

@@ -341,9 +341,21 @@ static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_
                                    sli_analysis *w, sli_team *team, const sl_allocator *a,
                                    const sl_allocator *for_order, sl_stats *stats) {
     sl_symbolic draft;
+    sli_order_job job;
     sl_status status;
-    status = sli_order(A, w->column, stats->symbolic.triangle, opt, w->perm, w->scratch,
-                       &w->septree, &w->choice, team, for_order, stats);
+    memset(&job, 0, sizeof job);
+    job.A = A;
+    job.column = w->column;
+    job.triangle = stats->symbolic.triangle;
+    job.opt = opt;
+    job.perm = w->perm;
+    job.scratch = w->scratch;
+    job.septree = &w->septree;
+    job.choice = &w->choice;
+    job.team = team;
+    job.a = for_order;
+    job.stats = stats;
+    status = sli_order(&job);
     stats->symbolic.seconds_order = sli_analysis_lap(w);
     if (status != SL_OK) {
         return status;

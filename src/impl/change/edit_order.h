@@ -106,6 +106,8 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     sl_int *perm = NULL, *scratch = NULL, k, pass;
     sl_off total = 0;
     sli_order_cost cost;
+    sli_order_job job;
+    uint64_t squares;
     sl_status status = SL_OK;
     memset(&G, 0, sizeof G);
     memset(&septree, 0, sizeof septree);
@@ -145,12 +147,18 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
         sli_edit_graph(e, &G);
         memmove(G.begin + 1, G.begin, (size_t)count * sizeof(sl_off));
         G.begin[0] = 0;
-        status = sli_order_canonical(&G, a);
+        status = sli_graph_make_canonical(&G, a);
     }
     if (status == SL_OK) {
-        status = sli_order_is_irregular(&G, 0)
-                     ? sli_order_mindeg(&G, perm, &cost, a)
-                     : sli_order_compressed(&G, perm, scratch, &septree, &alone, a);
+        memset(&job, 0, sizeof job);
+        job.G = &G;
+        job.perm = perm;
+        job.scratch = scratch;
+        job.septree = &septree;
+        job.team = &alone;
+        job.a = a;
+        status = sli_graph_is_irregular(&G, 0, &squares) ? sli_order_mindeg(&G, perm, &cost, a)
+                                                         : sli_order_compressed(&job);
     }
     if (status == SL_OK) {
         for (k = 0; k < count; k++) {

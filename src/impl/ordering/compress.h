@@ -130,36 +130,41 @@ static void sli_compress_expand(const sli_compressed *c, sl_int rows, sl_int *pe
     }
 }
 
-/* Orders a graph, compressed if that is worthwhile. scratch: n. */
-static sl_status sli_order_compressed(const sli_graph *G, sl_int *perm, sl_int *scratch,
-                                      sli_septree *septree, sli_team *team, const sl_allocator *a) {
+/* Orders the graph of a job by dissection, compressed if that is worthwhile. Other orderings find
+ * indistinguishable rows as they go. */
+static sl_status sli_order_compressed(const sli_order_job *job) {
+    const sli_graph *G = job->G;
+    sli_order_job inner = *job;
     sli_compressed c;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     int pass;
     memset(&c, 0, sizeof c);
-    c.G.n = sli_compress_find(G, scratch, (uint32_t *)(void *)perm, team);
+    c.G.n = sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
     if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
-        return sli_order_nd(G, NULL, perm, septree, team, a);
+        return sli_order_nd(job);
     }
-    c.first = scratch;
+    c.first = job->scratch;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
         c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
         c.weight = SLI_TAKE(&b, sl_int, c.G.n);
         c.number = SLI_TAKE(&b, sl_int, G->n);
         c.perm = SLI_TAKE(&b, sl_int, c.G.n);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
     sli_compress_fill(&c, G);
-    status = sli_order_nd(&c.G, c.weight, c.perm, septree, team, a);
+    inner.G = &c.G;
+    inner.weight = c.weight;
+    inner.perm = c.perm;
+    status = sli_order_nd(&inner);
     if (status == SL_OK) {
-        sli_compress_expand(&c, G->n, perm, septree, (sl_int *)(void *)c.G.begin);
+        sli_compress_expand(&c, G->n, job->perm, job->septree, (sl_int *)(void *)c.G.begin);
     }
-    sli_free(a, b.base);
+    sli_free(job->a, b.base);
     return status;
 }
 

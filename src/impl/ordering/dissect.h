@@ -3,7 +3,6 @@
 #define SLI_ORDERING_DISSECT_H
 
 #include "separator.h"
-#include "weigh.h"
 
 /* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as
  * a further separator. */
@@ -35,119 +34,10 @@
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
 #define SLI_SEPARATOR_BALANCE 70
 
-/* Subtrees of at most this share of the weight, for each worker, are one task. */
-#define SLI_DISSECT_TASKS 8
-
 /* Bisects a subgraph when the tree has so many nodes. */
 static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
     const int few = nodes < SLI_DISSECT_FIRST && sub->n <= 2 * SLI_DISSECT_BISECT_MIN_VOLUME;
     sli_subgraph_bisect(sub, few ? SLI_DISSECT_TRIES_FIRST : sub->n > 50 ? SLI_DISSECT_TRIES : 1);
-}
-
-/* Gives the two sides of the subgraph of a former leaf to the new leaves below it. */
-static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
-    sli_dissection *d = (sli_dissection *)data;
-    sli_subgraph *sub = &d->workers[worker].subgraph;
-    const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
-    sl_int k, weight[2] = {0, 0};
-    sli_subgraph_leaf(sub, &d->levels[d->level], &d->tree, node, d->label,
-                      d->order + d->begin[node], d->begin[node + 1] - d->begin[node]);
-    d->bisect(sub, leaf[0]);
-    for (k = 0; k < sub->n; k++) {
-        const int side = sub->side[k];
-        sli_shared_write(d->label + sub->vertex[k], leaf[side]);
-        weight[side] += sub->weight[k];
-    }
-    d->tree.weight[leaf[0]] = weight[0];
-    d->tree.weight[leaf[1]] = weight[1];
-    sli_subgraph_clear(sub);
-}
-
-/* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
- * finest. Returns the number of leaves bisected. */
-static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
-                                void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
-    const sl_int nodes = d->tree.count;
-    sl_int node, split = 0;
-    sli_dissect_sort(d, d->tree.count);
-    for (node = 0; node < nodes; node++) {
-        if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
-            d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
-            sli_label_tree_split(&d->tree, node);
-            d->nodes[split++] = node;
-        }
-    }
-    if (split > 0) {
-        d->bisect = bisect;
-        sli_team_loop(d->team, split, d->nodes, sli_dissect_split_item, d);
-        sli_label_tree_number(&d->tree, d->levels[d->level].n, d->label);
-    }
-    return split;
-}
-
-/* Visits the inner nodes of a subtree, or if it is large, the node, and adds what is below it. */
-static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
-    sli_dissection *d = (sli_dissection *)data;
-    const sli_label_tree *t = &d->tree;
-    const int is_large = t->weight[top] > d->total / SLI_DISSECT_TASKS / d->team->workers;
-    sl_int node;
-    for (node = top; node != -1; node = is_large ? -1 : sli_label_tree_below(t, top, node)) {
-        if (!sli_label_tree_is_leaf(t, node) && d->workers->borders.head[node] != -1) {
-            d->visit(d, &d->workers[worker], node);
-        }
-    }
-    if (is_large && !sli_label_tree_is_leaf(t, top)) {
-        sli_team_add(d->team, t->left[top]);
-        sli_team_add(d->team, t->right[top]);
-    }
-}
-
-/* Lists the border vertices of a range: of the only one, or into lists of its own. */
-static void sli_dissect_borders(void *data, const sli_range *r) {
-    sli_dissection *d = (sli_dissection *)data;
-    sli_borders *l = &d->workers[r->worker].borders;
-    sl_int *head = l->head;
-    if (d->n_ranges > 1) {
-        l->head = sli_dissect_by_label(d, r->item);
-        l->tail = l->head + d->tree.count;
-    }
-    sli_borders_fill(l, &d->tree, &d->levels[d->level], d->label, r);
-    l->head = head;
-    l->tail = NULL;
-}
-
-/* Puts the lists of each range before those of the ranges before it. */
-static void sli_dissect_join_borders(sli_dissection *d) {
-    sl_int item, k, *head = d->workers->borders.head;
-    for (item = 0; item < d->n_ranges; item++) {
-        const sl_int *own = sli_dissect_by_label(d, item), *tail = own + d->tree.count;
-        for (k = 0; k < d->tree.count; k++) {
-            if (item == 0) {
-                head[k] = own[k];
-            } else if (own[k] != -1) {
-                sli_border_at(&d->pool, tail[k])->next = head[k];
-                head[k] = own[k];
-            }
-        }
-    }
-}
-
-/* Visits all inner nodes that have a border, each after the nodes above it. */
-static void sli_dissect_visit(sli_dissection *d,
-                              void (*visit)(sli_dissection *d, sli_dissect_worker *w,
-                                            sl_int node)) {
-    sl_int k;
-    d->pool.count = 0;
-    for (k = 0; k < d->team->workers; k++) {
-        d->workers[k].borders.at = d->workers[k].borders.end = 0;
-    }
-    sli_dissect_loop(d, d->tree.count, sli_dissect_borders);
-    if (d->n_ranges > 1) {
-        sli_dissect_join_borders(d);
-    }
-    d->visit = visit;
-    d->nodes[0] = d->tree.root;
-    sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
 }
 
 /* Refines the border of a node on this level. */
@@ -225,6 +115,79 @@ static void sli_dissect_project(sli_dissection *d) {
     }
     d->label = d->other;
     d->other = coarser;
+}
+
+/* Counts the vertices on one side of each edge, for a range of vertices of the last level. */
+static void sli_weigh_range(void *data, const sli_range *r) {
+    const sli_dissection *d = (const sli_dissection *)data;
+    const sli_level *finest = &d->levels[0], *g = &d->levels[d->n_levels - 1];
+    sl_off e, *at = sli_shares_scratch(&d->ranges, r->worker);
+    sl_int k, i, *seen = (sl_int *)(void *)(at + g->n);
+    memset(seen, -1, (size_t)g->n * sizeof(sl_int));
+    for (k = r->first; k < r->last; k++) {
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            at[g->to[e]] = e;
+            g->edge[e] = 0;
+        }
+        for (i = d->begin[k]; i < d->begin[k + 1]; i++) {
+            const sl_int v = d->order[i];
+            for (e = finest->begin[v]; e < finest->begin[v + 1]; e++) {
+                const sl_int c = d->label[finest->to[e]];
+                if (c != k && seen[c] != v) {
+                    seen[c] = v;
+                    g->edge[at[c]]++;
+                }
+            }
+        }
+    }
+}
+
+/* Labels a range of the finest vertices with those of the last level that contain them. */
+static void sli_weigh_labels(void *data, const sli_range *r) {
+    const sli_dissection *d = (const sli_dissection *)data;
+    sl_int v;
+    int m;
+    for (v = r->first; v < r->last; v++) {
+        sl_int c = v;
+        for (m = 0; m < d->n_levels - 1; m++) {
+            c = d->levels[m].coarse[c];
+        }
+        d->label[v] = c;
+    }
+}
+
+/* Sets the weight of each edge of the last level to the number of finest vertices on both sides of
+ * the border that it represents: what a vertex separator there costs. The number of finest edges
+ * would charge a diagonal border in a square grid twice as much as a straight one. The level has at
+ * most half as many vertices as the ranges have room. */
+static void sli_weigh_edges(sli_dissection *d) {
+    const sli_level *g = &d->levels[d->n_levels - 1];
+    const sl_int n = d->levels[0].n;
+    sl_int *to = d->workers->subgraph.to, *count = d->workers->subgraph.edge;
+    sl_off e, *at = d->ranges.scratch;
+    sl_int k;
+    sli_range_run(d->team, n, sli_shares_count(d->team, n), sli_weigh_labels, d);
+    d->level = 0;
+    sli_dissect_sort(d, g->n);
+    sli_range_run(d->team, g->n, sli_shares_count(d->team, n), sli_weigh_range, d);
+    /* The weights so far count the vertices of one side; add those of the other side from the
+     * transposed lists. */
+    memcpy(at, g->begin, (size_t)g->n * sizeof(sl_off));
+    for (k = 0; k < g->n; k++) {
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            const sl_off there = at[g->to[e]]++;
+            to[there] = k;
+            count[there] = g->edge[e];
+        }
+    }
+    for (k = 0; k < g->n; k++) {
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            at[g->to[e]] = e;
+        }
+        for (e = g->begin[k]; e < g->begin[k + 1]; e++) {
+            g->edge[at[to[e]]] += count[e];
+        }
+    }
 }
 
 static int sli_level_exceeds(const sli_level *g, sl_off degree) {

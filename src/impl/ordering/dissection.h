@@ -1,10 +1,13 @@
-/* dissection.h: the state of a dissection, and loops over the vertices of a level */
+/* dissection.h: the state of a dissection, and loops over vertices, leaves and borders */
 #ifndef SLI_ORDERING_DISSECTION_H
 #define SLI_ORDERING_DISSECTION_H
 
 #include "graph.h"
 #include "mindeg.h"
 #include "subgraph.h"
+
+/* Subtrees of at most this share of the weight, for each worker, are one task. */
+#define SLI_DISSECT_TASKS 8
 
 /* The scratch of one worker. All arrays have room for the largest graph. */
 typedef struct sli_dissect_worker {
@@ -123,6 +126,112 @@ static void sli_dissect_start(sli_dissection *d) {
     d->tree.weight[d->tree.root] = d->total;
     memset(d->label, 0, (size_t)n * sizeof(sl_int));
     sli_label_tree_number(&d->tree, n, d->label);
+}
+
+/* Gives the two sides of the subgraph of a former leaf to the new leaves below it. */
+static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
+    sli_dissection *d = (sli_dissection *)data;
+    sli_subgraph *sub = &d->workers[worker].subgraph;
+    const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
+    sl_int k, weight[2] = {0, 0};
+    sli_subgraph_leaf(sub, &d->levels[d->level], &d->tree, node, d->label,
+                      d->order + d->begin[node], d->begin[node + 1] - d->begin[node]);
+    d->bisect(sub, leaf[0]);
+    for (k = 0; k < sub->n; k++) {
+        const int side = sub->side[k];
+        sli_shared_write(d->label + sub->vertex[k], leaf[side]);
+        weight[side] += sub->weight[k];
+    }
+    d->tree.weight[leaf[0]] = weight[0];
+    d->tree.weight[leaf[1]] = weight[1];
+    sli_subgraph_clear(sub);
+}
+
+/* Bisects each leaf that has more than `most` vertices on this level and more than leaf_size on the
+ * finest. Returns the number of leaves bisected. */
+static sl_int sli_dissect_split(sli_dissection *d, sl_int most,
+                                void (*bisect)(sli_subgraph *sub, sl_int nodes)) {
+    const sl_int nodes = d->tree.count;
+    sl_int node, split = 0;
+    sli_dissect_sort(d, d->tree.count);
+    for (node = 0; node < nodes; node++) {
+        if (sli_label_tree_is_leaf(&d->tree, node) && d->begin[node + 1] - d->begin[node] > most &&
+            d->tree.weight[node] > d->leaf_size && d->tree.count < d->tree.room - 1) {
+            sli_label_tree_split(&d->tree, node);
+            d->nodes[split++] = node;
+        }
+    }
+    if (split > 0) {
+        d->bisect = bisect;
+        sli_team_loop(d->team, split, d->nodes, sli_dissect_split_item, d);
+        sli_label_tree_number(&d->tree, d->levels[d->level].n, d->label);
+    }
+    return split;
+}
+
+/* Visits the inner nodes of a subtree, or if it is large, the node, and adds what is below it. */
+static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
+    sli_dissection *d = (sli_dissection *)data;
+    const sli_label_tree *t = &d->tree;
+    const int is_large = t->weight[top] > d->total / SLI_DISSECT_TASKS / d->team->workers;
+    sl_int node;
+    for (node = top; node != -1; node = is_large ? -1 : sli_label_tree_below(t, top, node)) {
+        if (!sli_label_tree_is_leaf(t, node) && d->workers->borders.head[node] != -1) {
+            d->visit(d, &d->workers[worker], node);
+        }
+    }
+    if (is_large && !sli_label_tree_is_leaf(t, top)) {
+        sli_team_add(d->team, t->left[top]);
+        sli_team_add(d->team, t->right[top]);
+    }
+}
+
+/* Lists the border vertices of a range: of the only one, or into lists of its own. */
+static void sli_dissect_borders(void *data, const sli_range *r) {
+    sli_dissection *d = (sli_dissection *)data;
+    sli_borders *l = &d->workers[r->worker].borders;
+    sl_int *head = l->head;
+    if (d->n_ranges > 1) {
+        l->head = sli_dissect_by_label(d, r->item);
+        l->tail = l->head + d->tree.count;
+    }
+    sli_borders_fill(l, &d->tree, &d->levels[d->level], d->label, r);
+    l->head = head;
+    l->tail = NULL;
+}
+
+/* Puts the lists of each range before those of the ranges before it. */
+static void sli_dissect_join_borders(sli_dissection *d) {
+    sl_int item, k, *head = d->workers->borders.head;
+    for (item = 0; item < d->n_ranges; item++) {
+        const sl_int *own = sli_dissect_by_label(d, item), *tail = own + d->tree.count;
+        for (k = 0; k < d->tree.count; k++) {
+            if (item == 0) {
+                head[k] = own[k];
+            } else if (own[k] != -1) {
+                sli_border_at(&d->pool, tail[k])->next = head[k];
+                head[k] = own[k];
+            }
+        }
+    }
+}
+
+/* Visits all inner nodes that have a border, each after the nodes above it. */
+static void sli_dissect_visit(sli_dissection *d,
+                              void (*visit)(sli_dissection *d, sli_dissect_worker *w,
+                                            sl_int node)) {
+    sl_int k;
+    d->pool.count = 0;
+    for (k = 0; k < d->team->workers; k++) {
+        d->workers[k].borders.at = d->workers[k].borders.end = 0;
+    }
+    sli_dissect_loop(d, d->tree.count, sli_dissect_borders);
+    if (d->n_ranges > 1) {
+        sli_dissect_join_borders(d);
+    }
+    d->visit = visit;
+    d->nodes[0] = d->tree.root;
+    sli_team_loop(d->team, 1, d->nodes, sli_dissect_visit_item, d);
 }
 
 #endif

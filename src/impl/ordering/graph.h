@@ -1,7 +1,8 @@
-/* graph.h: adjacency graph, permuted triangles and hash of a symmetric pattern */
+/* graph.h: adjacency graphs, permuted triangles and hash of a symmetric pattern; postorder */
 #ifndef SLI_ORDERING_GRAPH_H
 #define SLI_ORDERING_GRAPH_H
 
+#include "../base/alloc.h"
 #include "../base/hash.h"
 #include "../matrix/csc.h"
 
@@ -101,6 +102,63 @@ SLI_INLINE void sli_graph_deduplicate(sli_graph *G) {
         G->begin[v] = kept;
     }
     G->begin[G->n] = count;
+}
+
+/* Sorts unsorted adjacency lists and removes repeated edges, so that a matrix has one order however
+ * it is stored. */
+static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
+    const sl_off edges = G->begin[G->n];
+    sli_block b = {NULL, 0, 0};
+    sl_int *to = NULL;
+    sl_off *at = NULL;
+    sl_status status = SL_OK;
+    int pass;
+    if (sli_graph_is_sorted(G)) {
+        return SL_OK;
+    }
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        to = SLI_TAKE(&b, sl_int, edges);
+        at = SLI_TAKE(&b, sl_off, G->n);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    }
+    if (status == SL_OK) {
+        sli_graph_sort(G, to, at);
+        memcpy(G->to, to, (size_t)edges * sizeof(sl_int));
+        sli_graph_deduplicate(G);
+        sli_free(a, b.base);
+    }
+    return status;
+}
+
+SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
+    return G->begin[v + 1] - G->begin[v];
+}
+
+/* post[k] := the k-th of n nodes of a forest in postorder. Roots, and children of a node, follow
+ * each other as in the sequence, which may be post; NULL: 0, 1, ... child, sibling: scratch, an
+ * element for each node. */
+static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
+                          sl_int *child, sl_int *sibling) {
+    sl_int k, j, at = 0, roots = -1;
+    for (k = 0; k < n; k++) {
+        child[sequence == NULL ? k : sequence[k]] = -1;
+    }
+    for (k = n - 1; k >= 0; k--) { /* backwards: the lists then ascend */
+        sl_int *list;
+        j = sequence == NULL ? k : sequence[k];
+        list = parent[j] == -1 ? &roots : &child[parent[j]];
+        sibling[j] = *list;
+        *list = j;
+    }
+    for (j = roots; j != -1;) {
+        while (child[j] != -1) {
+            const sl_int c = child[j];
+            child[j] = -1; /* the others follow by their list of siblings */
+            j = c;
+        }
+        post[at++] = j;
+        j = sibling[j] != -1 ? sibling[j] : parent[j];
+    }
 }
 
 /* Turns counts of ranges of entries, `stride` apart, into the positions where each range begins,

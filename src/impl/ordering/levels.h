@@ -1,8 +1,8 @@
-/* levels.h: orders thin graphs by the levels of a breadth-first search, the last level first */
+/* levels.h: breadth-first levels, and the order of thin graphs by them, the last level first */
 #ifndef SLI_ORDERING_LEVELS_H
 #define SLI_ORDERING_LEVELS_H
 
-#include "graph.h"
+#include "job.h"
 
 /* Largest mean number of entries in a column of L. A strip of 20 rows across has 22, a fourth more
  * than with minimum degree, which takes five times as long to find its order. Wider ones gain, too,
@@ -12,17 +12,27 @@
  * middle of a strip, two. */
 #define SLI_LEVELS_TRY 4
 
-/* Searches the component of `root` and appends its rows to queue, from `start` on, level by level,
- * until there are more entries than `most`. The front of a row is about its level, or a mean of its
- * level and the next one. seen: n; smaller than `mark` for rows that are not reached. Returns where
- * the rows end. */
-static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, sl_int start,
-                                sl_int *seen, sl_int mark, int64_t most, int64_t *entries) {
+/* Breadth-first searches of the components of a graph. */
+typedef struct sli_levels {
+    const sli_graph *G;
+    sl_int *queue;   /* n */
+    sl_int *seen;    /* n: smaller than the mark of a search for rows that it has not reached */
+    int64_t entries; /* of L, about, if it is ordered by levels */
+} sli_levels;
+
+/* Searches the component of `root` and appends its rows to the queue, from `start` on, level by
+ * level, until there are more entries than `most`. The front of a row is about its level, or a mean
+ * of its level and the next one. Returns where the rows end. */
+static sl_int sli_levels_search(sli_levels *l, sl_int root, sl_int start, sl_int mark,
+                                int64_t most) {
+    const sli_graph *G = l->G;
+    sl_int *queue = l->queue, *seen = l->seen;
     sl_int first = start, last, tail = start, before = 0, k;
+    int64_t entries = l->entries;
     sl_off e;
     queue[tail++] = root;
     seen[root] = mark;
-    for (; first < tail && *entries <= most; first = last) {
+    for (; first < tail && entries <= most; first = last) {
         last = tail;
         for (k = first; k < last; k++) {
             for (e = G->begin[queue[k]]; e < G->begin[queue[k] + 1]; e++) {
@@ -33,38 +43,49 @@ static sl_int sli_levels_search(const sli_graph *G, sl_int root, sl_int *queue, 
                 }
             }
         }
-        *entries += (int64_t)(last - first) * (last - first + before) / 2;
+        entries += (int64_t)(last - first) * (last - first + before) / 2;
         before = last - first;
     }
+    l->entries = entries;
     return tail;
 }
 
-/* Orders G if it is thin: each component from the level that is farthest from one of its ends. Fill
- * stays within the front that moves along each branch. Returns whether perm is an order, and sets
- * *estimate to about the entries of L. seen: n of scratch. */
-static int sli_order_levels(const sli_graph *G, sl_int *perm, sl_int *seen, sl_off *estimate) {
-    const int64_t most = SLI_LEVELS_MOST * (int64_t)G->n;
-    int64_t entries = 0, tried;
+static sli_levels sli_levels_of(const sli_order_job *job) {
+    sli_levels l;
+    l.G = job->G;
+    l.queue = job->perm;
+    l.seen = job->scratch;
+    l.entries = 0;
+    memset(l.seen, 0, (size_t)l.G->n * sizeof(sl_int));
+    return l;
+}
+
+/* Orders the graph of a job if it is thin: each component from the level that is farthest from one
+ * of its ends. Fill stays within the front that moves along each branch. Returns whether the job's
+ * perm is an order. */
+static int sli_order_levels(const sli_order_job *job) {
+    const sl_int n = job->G->n;
+    const int64_t most = SLI_LEVELS_MOST * (int64_t)n;
+    sli_levels found = sli_levels_of(job);
     sl_int v, end, start = 0;
-    memset(seen, 0, (size_t)G->n * sizeof(sl_int));
-    for (v = 0; v < G->n && entries <= most; v++) {
-        if (seen[v] != 0) {
+    for (v = 0; v < n && found.entries <= most; v++) {
+        sli_levels tried = found;
+        if (found.seen[v] != 0) {
             continue;
         }
-        tried = 0;
-        end = sli_levels_search(G, v, perm, start, seen, 1, SLI_LEVELS_TRY * most, &tried);
-        if (tried > SLI_LEVELS_TRY * most) {
+        tried.entries = 0;
+        end = sli_levels_search(&tried, v, start, 1, SLI_LEVELS_TRY * most);
+        if (tried.entries > SLI_LEVELS_TRY * most) {
             return 0;
         }
-        start = sli_levels_search(G, perm[end - 1], perm, start, seen, 2, most, &entries);
+        start = sli_levels_search(&found, found.queue[end - 1], start, 2, most);
     }
-    for (v = 0; v < G->n / 2; v++) {
-        const sl_int other = perm[v];
-        perm[v] = perm[G->n - 1 - v];
-        perm[G->n - 1 - v] = other;
+    for (v = 0; v < n / 2; v++) {
+        const sl_int other = found.queue[v];
+        found.queue[v] = found.queue[n - 1 - v];
+        found.queue[n - 1 - v] = other;
     }
-    *estimate = entries <= most ? entries : 0;
-    return entries <= most;
+    return found.entries <= most;
 }
 
 #endif

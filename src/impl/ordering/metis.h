@@ -1,10 +1,8 @@
-/* metis.h: the call to METIS: the order of a connected component */
+/* metis.h: the call to METIS, for each connected component */
 #ifndef SLI_ORDERING_METIS_H
 #define SLI_ORDERING_METIS_H
 
-#include "../base/alloc.h"
-#include "graph.h"
-#include "coarsen.h"
+#include "job.h"
 
 #if defined(SLI_METIS)
 
@@ -53,11 +51,11 @@ static void sli_metis_graph(const sli_graph *G, const sl_int *vertices, sl_int c
     xadj[count] = edges;
 }
 
-/* Reorders the vertices of a component of G in place. local[v]: the index of v in vertices on
- * entry. */
-static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int count,
-                                 const sl_int *local, const sl_int *metis_options,
-                                 const sl_allocator *a) {
+/* Reorders the vertices of a component of a job's graph in place. The index of each in vertices is
+ * in the scratch of the job on entry. */
+static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_int count) {
+    const sli_graph *G = job->G;
+    const sl_int *metis_options = job->opt->metis_options;
     idx_t options[METIS_NOPTIONS], nv = (idx_t)count, *xadj = NULL, *adjncy = NULL, *perm = NULL,
                                    *iperm = NULL;
     sli_block b = {NULL, 0, 0};
@@ -76,12 +74,12 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
         adjncy = SLI_TAKE(&b, idx_t, edges);
         perm = SLI_TAKE(&b, idx_t, count);
         iperm = SLI_TAKE(&b, idx_t, count);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
-    sli_metis_graph(G, vertices, count, local, xadj, adjncy);
+    sli_metis_graph(G, vertices, count, job->scratch, xadj, adjncy);
     METIS_SetDefaultOptions(options);
     for (k = 0; metis_options != NULL && k < METIS_NOPTIONS; k++) {
         options[k] = metis_options[k];
@@ -97,10 +95,46 @@ static sl_status sli_metis_order(const sli_graph *G, sl_int *vertices, sl_int co
             vertices[k] = (sl_int)xadj[perm[k]];
         }
     }
-    sli_free(a, b.base);
+    sli_free(job->a, b.base);
     return result == METIS_OK             ? SL_OK
            : result == METIS_ERROR_MEMORY ? SL_ERR_MEMORY
                                           : SL_ERR_ORDERING;
+}
+
+#define SLI_ORDER_TINY 4 /* components of at most this size are not passed to METIS */
+
+/* Orders the graph of a job by METIS, component by component. A breadth-first search finds each component,
+ * with perm itself as its queue; the component is then reordered in place. */
+static sl_status sli_order_metis(const sli_order_job *job) {
+    const sli_graph *G = job->G;
+    sl_int *perm = job->perm, *local = job->scratch;
+    sl_int root, head, tail = 0, start;
+    sl_status status = SL_OK;
+    for (root = 0; root < G->n; root++) {
+        local[root] = -1;
+    }
+    for (root = 0; root < G->n && status == SL_OK; root++) {
+        if (local[root] >= 0) {
+            continue;
+        }
+        start = tail;
+        local[root] = 0;
+        perm[tail++] = root;
+        for (head = start; head < tail; head++) {
+            sl_off e;
+            for (e = G->begin[perm[head]]; e < G->begin[perm[head] + 1]; e++) {
+                const sl_int u = G->to[e];
+                if (local[u] < 0) {
+                    local[u] = tail - start;
+                    perm[tail++] = u;
+                }
+            }
+        }
+        if (tail - start > SLI_ORDER_TINY) {
+            status = sli_metis_order(job, perm + start, tail - start);
+        }
+    }
+    return status;
 }
 
 #endif

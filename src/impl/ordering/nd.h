@@ -2,10 +2,9 @@
 #ifndef SLI_ORDERING_ND_H
 #define SLI_ORDERING_ND_H
 
-#include "graph.h"
 #include "levelset.h"
-#include "septree.h"
 #include "thin.h"
+#include "../base/sort.h"
 
 /* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
  * eliminated last. */
@@ -15,10 +14,84 @@
  * This many rounds at most. */
 #define SLI_ND_RESPLITS 12
 
+/* Nodes of a task. */
+#define SLI_SEPTREE_NODES 16
+
+/* Sorts the vertices of a separator by the mean label of their neighbors on the left. Rows that are
+ * consecutive in one supernode of L then form longer runs in the row lists of the others. */
+static void sli_septree_sort_separator(const sli_dissection *d, sli_dissect_worker *w, sl_int node,
+                                       sl_int *vertices, sl_int count) {
+    const sli_level *g = &d->levels[0];
+    uint64_t *list = (uint64_t *)(void *)w->next;
+    uint64_t *scratch = (uint64_t *)(void *)w->subgraph.begin;
+    sl_int k;
+    sl_off e;
+    for (k = 0; k < count; k++) {
+        int64_t sum = 0, touched = 0;
+        for (e = g->begin[vertices[k]]; e < g->begin[vertices[k] + 1]; e++) {
+            const sl_int other = d->label[g->to[e]];
+            if (other < node && sli_label_tree_is_below(&d->tree, node, other)) {
+                sum += other;
+                touched++;
+            }
+        }
+        list[k] = sli_keyed(touched == 0 ? 0 : (sl_int)(sum / touched), vertices[k]);
+    }
+    sli_sort(list, count, scratch);
+    for (k = 0; k < count; k++) {
+        vertices[k] = sli_value(list[k]);
+    }
+}
+
+/* Orders the vertices of some nodes: leaves by minimum degree. */
+static void sli_septree_item(void *data, sl_int item, sl_int worker) {
+    sli_dissection *d = (sli_dissection *)data;
+    sli_dissect_worker *w = &d->workers[worker];
+    const sl_int last = sli_min(d->tree.count, (item + 1) * SLI_SEPTREE_NODES);
+    sl_int node;
+    for (node = item * SLI_SEPTREE_NODES; node < last; node++) {
+        const sl_int count = d->begin[node + 1] - d->begin[node];
+        sl_int *mine = d->order + d->begin[node];
+        if (!sli_label_tree_is_leaf(&d->tree, node)) {
+            sli_septree_sort_separator(d, w, node, mine, count);
+        } else if (count > 1) {
+            sli_mindeg_order(&w->mindeg, &d->levels[0], mine, count, w->subgraph.local,
+                             w->subgraph.scratch);
+        }
+    }
+}
+
+/* Appends the order of a dissected graph to perm, from position `at` on: each subgraph before the
+ * separator above it. row[v] is the row of vertex v. */
+static void sli_septree_append(sli_dissection *d, const sl_int *row, sl_int *perm, sl_int at,
+                               sli_septree *septree) {
+    const sli_label_tree *t = &d->tree;
+    sl_int node, k, up, *number = d->nodes;
+    sli_dissect_sort(d, t->count);
+    sli_team_loop(d->team, (t->count - 1) / SLI_SEPTREE_NODES + 1, NULL, sli_septree_item, d);
+    for (node = sli_label_tree_first(t); node != -1; node = sli_label_tree_next(t, node)) {
+        const sl_int count = d->begin[node + 1] - d->begin[node];
+        const sl_int *mine = d->order + d->begin[node];
+        number[node] = count > 0 ? septree->count++ : -1;
+        for (k = 0; k < count; k++) {
+            perm[at++] = row[mine[k]];
+            septree->node_of[row[mine[k]]] = number[node];
+        }
+    }
+    for (node = 0; node < t->count; node++) {
+        if (number[node] != -1) {
+            for (up = t->parent[node]; up != -1 && number[up] == -1;) {
+                up = t->parent[up];
+            }
+            septree->parent[number[node]] = up == -1 ? -1 : number[up];
+        }
+    }
+}
+
 /* A graph, and the dissection of one of its components after the other. */
 typedef struct sli_nd {
     const sli_graph *G;
-    const sl_int *weight; /* NULL: 1 each */
+    const sl_int *weight; /* of the job */
     sl_int *local;        /* n: number of a row in its component; -1 not yet visited, -2 dense */
     sl_int *row;          /* n: the rows of the component */
     sl_off *begin;        /* n + 1: graph of the component */
@@ -187,35 +260,33 @@ static sl_status sli_nd_run(sli_nd *w, sl_int *perm, sli_septree *septree) {
     return status;
 }
 
-/* Orders a graph without repeated edges and builds its separator tree. weight: of each vertex, for
- * the balance of bisections; NULL: 1 each. */
-static sl_status sli_order_nd(const sli_graph *G, const sl_int *weight, sl_int *perm,
-                              sli_septree *septree, sli_team *team, const sl_allocator *a) {
+/* Orders the graph of a job, which has no repeated edges, and builds its separator tree. */
+static sl_status sli_order_nd(const sli_order_job *job) {
     sli_nd w;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int k;
     int pass;
     memset(&w, 0, sizeof w);
-    w.G = G;
-    w.weight = weight;
+    w.G = job->G;
+    w.weight = job->weight;
     w.d.leaf_size = SLI_DISSECT_LEAF;
-    w.d.team = team;
-    w.d.a = w.d.pool.a = a;
+    w.d.team = job->team;
+    w.d.a = w.d.pool.a = job->a;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_nd_layout(&w, &b);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status == SL_OK) {
         /* CPUID takes longer than what it saves in a small graph */
         const int has_avx2 =
-            G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
-        for (k = 0; k < team->workers; k++) {
+            w.G->n > 256 && sli_cpu_best() != SL_ISA_SCALAR; /* untested: without AVX2 */
+        for (k = 0; k < job->team->workers; k++) {
             w.d.workers[k].mindeg.has_avx2 = has_avx2;
         }
-        status = sli_nd_run(&w, perm, septree);
+        status = sli_nd_run(&w, job->perm, job->septree);
         sli_border_pool_free(&w.d.pool);
-        sli_free(a, b.base);
+        sli_free(job->a, b.base);
     }
     return status;
 }

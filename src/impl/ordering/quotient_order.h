@@ -2,7 +2,6 @@
 #ifndef SLI_ORDERING_QUOTIENT_ORDER_H
 #define SLI_ORDERING_QUOTIENT_ORDER_H
 
-#include "forest.h"
 #include "quotient.h"
 
 /* Writes the rows in a postorder of the tree of absorbed elements: fronts that update each other

@@ -2,7 +2,8 @@
 #ifndef SLI_ORDERING_THIN_H
 #define SLI_ORDERING_THIN_H
 
-#include "septree.h"
+#include "dissect.h"
+#include "job.h"
 
 /* A graph is narrow if the sizes of its levels, weighed by themselves, have a mean of at most
  * NARROW, give or take a sixteenth. In a strip of 20 rows across L has 3 percent more entries than

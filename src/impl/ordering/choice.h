@@ -1,0 +1,227 @@
+/* choice.h: what is known of a graph, and the order that it gets by one table */
+#ifndef SLI_ORDERING_CHOICE_H
+#define SLI_ORDERING_CHOICE_H
+
+#include "levels.h"
+#include "quotient_order.h"
+
+/* What rules ask for: bits of the facts. */
+enum {
+    /* the order that is wanted; none of them: by dissection, of blocks of rows */
+    SLI_WANTS_METIS = 1 << 0,
+    SLI_WANTS_MINDEG = 1 << 1,
+    SLI_WANTS_ONE_FACTOR = 1 << 2,
+    SLI_WANTS_MANY_SOLVES = 1 << 3,
+    /* counted in the graph */
+    SLI_IS_IRREGULAR = 1 << 4, /* degrees vary */
+    SLI_IS_BIPARTITE = 1 << 5,
+    SLI_IS_THIN = 1 << 6,      /* a mean level of a search is small */
+    SLI_IS_EXPANDING = 1 << 7, /* a mean level has an eighth of all rows */
+    /* counted in an order that was tried */
+    SLI_TRIED_LEVELS = 1 << 8,
+    SLI_IS_NARROW = 1 << 9, /* by levels, L has few entries */
+    SLI_TRIED_MINDEG = 1 << 10,
+    SLI_IS_CHEAP = 1 << 11,   /* dissection takes longer than it could save once */
+    SLI_HAS_CORE = 1 << 12,   /* most operations are in one front */
+    SLI_HAS_NO_FILL = 1 << 13,
+    SLI_HAS_SHORT_PATHS = 1 << 14,
+    SLI_HAS_LONG_PATHS = 1 << 15
+};
+
+/* What is counted of a graph. */
+typedef struct sli_graph_facts {
+    int bits;
+    sl_off edges;        /* twice the number of edges */
+    uint64_t squares;    /* sum of the squares of the degrees, each counted up to 1024 */
+    int64_t levels;      /* entries of L by the levels of a search, or where it was given up */
+    sli_order_cost cost; /* of minimum degree, once it was tried */
+} sli_graph_facts;
+
+typedef enum sli_order_way {
+    SLI_TRY_LEVELS, /* count what an order by levels costs, and choose again */
+    SLI_TRY_MINDEG, /* the same of minimum degree */
+    SLI_BY_METIS,
+    SLI_BY_LEVELS,
+    SLI_BY_MINDEG,
+    SLI_BY_DISSECTION,
+    SLI_BY_BOTH /* dissection; the analysis then counts minimum degree, too, and takes the better */
+} sli_order_way;
+
+/* The first rule decides of which all facts hold that it asks for, and none that it excludes. Named
+ * are the rows of the bench that a rule wins, and how much: peers_kinds (K), peers_kkt (Q). */
+static const struct sli_order_rule {
+    int all, none;
+    sli_order_way way;
+} sli_order_rules[] = {
+    {SLI_WANTS_METIS, 0, SLI_BY_METIS},
+    {SLI_WANTS_MINDEG, 0, SLI_BY_MINDEG},
+    /* K strip, tube, one factor: 0.62 to 0.67 of the time with minimum degree */
+    {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
+    {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
+    /* K grid, sphere, torus, one factor: 0.4 to 0.8 of the time with dissection */
+    {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+    {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
+    /* Q, one factor: dissection has more fill on graphs whose degrees vary */
+    {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
+    /* Q control: minimum degree first, which takes a fraction of the time, and shows what it
+     * costs; in thin graphs it has long paths in any case */
+    {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+    {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+    {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
+    /* Q random: dissection would have more fill and longer paths, and takes longer */
+    {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
+    /* Q lasso, Huber, portfolio: no other order can be much better */
+    {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
+    /* Q PDE control in the plane: dissection saves 13 to 20 % of the paths for 14 to 20 % fill */
+    {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
+    /* K quadtree and random points: the analysis of both takes 4 % of the time */
+    {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
+    /* all meshes, and K 7-point, tetrahedra, one factor */
+    {0, 0, SLI_BY_DISSECTION}};
+
+static sli_order_way sli_order_choose(const sli_graph_facts *f) {
+    const struct sli_order_rule *r = sli_order_rules;
+    while ((f->bits & r->all) != r->all || (f->bits & r->none) != 0) {
+        r++;
+    }
+    return r->way;
+}
+
+/* Do the degrees vary so much that minimum degree may have far less fill than dissection? The mean
+ * of their squares is at least 6/5 of the square of their mean: below 1.08 of it on most meshes,
+ * 1.2 to 15 on networks and KKT systems. Where rows of few neighbors have been peeled, 11/10:
+ * random graphs have 1.14, networks of roads 1.04. Degrees count up to 1024, and all products are
+ * exact. */
+static int sli_graph_is_irregular(const sli_graph *G, int is_peeled, uint64_t *squares) {
+    uint64_t mean;
+    sl_int v;
+    *squares = 0;
+    if (G->n == 0 || G->begin[G->n] / G->n >= 1024) {
+        return 0;
+    }
+    for (v = 0; v < G->n; v++) {
+        const uint64_t degree = (uint64_t)sli_graph_degree(G, v);
+        *squares += degree < 1024 ? degree * degree : 1024 * 1024;
+    }
+    mean = 16 * (uint64_t)G->begin[G->n] / (uint64_t)G->n;
+    return mean > 0 &&
+           10 * 256 * *squares >= (is_peeled ? 11u : 12u) * mean * mean * (uint64_t)G->n;
+}
+
+/* Is the graph bipartite, with too many edges to be planar? KKT systems are, once bounds are peeled
+ * and if the Hessian is diagonal: variables on one side, constraints on the other. queue, side: n
+ * of scratch. */
+static int sli_graph_is_bipartite(const sli_graph *G, sl_int *queue, sl_int *side) {
+    sl_int root, head, tail = 0;
+    sl_off e;
+    if (G->begin[G->n] <= 4 * (sl_off)G->n) {
+        return 0;
+    }
+    for (root = 0; root < G->n; root++) {
+        side[root] = -1;
+    }
+    for (root = 0, head = 0; root < G->n; root++) {
+        if (side[root] == -1) {
+            side[root] = 0;
+            queue[tail++] = root;
+        }
+        for (; head < tail; head++) {
+            const sl_int v = queue[head];
+            for (e = G->begin[v]; e < G->begin[v + 1]; e++) {
+                const sl_int u = G->to[e];
+                if (side[u] == side[v]) {
+                    return 0;
+                }
+                if (side[u] == -1) {
+                    side[u] = 1 - side[v];
+                    queue[tail++] = u;
+                }
+            }
+        }
+    }
+    return 1;
+}
+
+/* How far apart are the rows? In a thin graph the levels of a breadth-first search have at most 32
+ * rows in the mean, and there are at least 32: minimum degree has long paths then. In an expanding
+ * one most rows are a few edges apart, and a mean level has 1/8 of all: a tenth of that in volumes
+ * of 1e4 rows. */
+static int sli_graph_shape(const sli_order_job *job, int64_t *entries) {
+    const int64_t n = job->G->n, most = n * n / 8;
+    sli_levels l = sli_levels_of(job);
+    sl_int v, tail = 0;
+    for (v = 0; v < job->G->n && l.entries <= most; v++) {
+        if (l.seen[v] == 0) {
+            tail = sli_levels_search(&l, v, tail, 1, most);
+        }
+    }
+    *entries = l.entries;
+    return l.entries > most                                 ? SLI_IS_EXPANDING
+           : l.entries <= 32 * n && l.entries <= n * n / 32 ? SLI_IS_THIN
+                                                            : 0;
+}
+
+/* Counts what the rules ask for of the graph of a job. perm and scratch are scratch. */
+static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
+    const sli_graph *G = job->G;
+    const sl_off n = G->n, mean = n > 0 ? G->begin[n] / n : 0;
+    const int is_for_one = job->is_hurried && job->ordering == SL_ORDERING_ND;
+    sli_graph_facts f;
+    memset(&f, 0, sizeof f);
+    f.edges = G->begin[n];
+    f.bits = job->ordering == SL_ORDERING_METIS    ? SLI_WANTS_METIS
+             : job->ordering == SL_ORDERING_MINDEG ? SLI_WANTS_MINDEG
+             : is_for_one                          ? SLI_WANTS_ONE_FACTOR
+             : job->block == 1                     ? SLI_WANTS_MANY_SOLVES
+                                                   : 0;
+    if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
+        return f;
+    }
+    f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR
+                                                                                  : 0;
+    /* with n < mean^2, two edges may lead from most rows to most others */
+    if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
+        f.bits |= sli_graph_shape(job, &f.levels);
+    }
+    if (!is_for_one && job->is_peeled && (f.bits & SLI_IS_THIN) == 0 &&
+        sli_graph_is_bipartite(G, job->perm, job->scratch)) {
+        f.bits |= SLI_IS_BIPARTITE;
+    }
+    return f;
+}
+
+/* For each directed edge, a dissection takes as long as about this many operations of a
+ * factorization. Measured on grids of 1e4 to 1e5 rows in 2D, 20^3 and 30^3, and scans. */
+#define SLI_ORDER_ND_FLOPS 5000.0
+/* For one factor, a dissection follows where half of the operations of minimum degree, about what
+ * it saves, exceed this for each directed edge. Its time equals what it saves at 9000 on 7-point
+ * volumes and on tetrahedra: at 6200 and 7600 minimum degree is better by a fifth, at 14000
+ * dissection. */
+#define SLI_ORDER_ND_SAVES 8000.0
+
+/* Adds what the cost of minimum degree shows.
+ *
+ * Where most operations are in one front, no small separator has been missed: graphs of random
+ * constraints are eliminated for nearly nothing, up to one dense block.
+ *
+ * There is next to no fill where L has an eighth more entries than A, and paths are little longer
+ * than those within the largest fronts: programs of lasso, Huber and portfolio problems have paths
+ * 1.0 to 1.2 times as long.
+ *
+ * The entries on a mean path relative to flops^(2/3): those of one dense block are 1.1 of it, in a
+ * balanced tree fewer. Minimum degree has 0.5 to 0.6 of it on plane grids, 0.7 in volumes, and 2
+ * and more on long chains, which it eliminates from one end. Both sides are cubed. */
+static void sli_graph_describe_mindeg(const sli_graph *G, sli_graph_facts *f) {
+    const sli_order_cost *c = &f->cost;
+    const double entries = 0.5 * (double)f->edges + (double)G->n;
+    const double path = c->paths / (double)sli_max(G->n, 1);
+    const double share = c->flops > 0.0 ? path / c->flops * path / c->flops * path : 0.0;
+    f->bits |= SLI_TRIED_MINDEG;
+    f->bits |= 0.5 * c->flops <= SLI_ORDER_ND_SAVES * (double)f->edges ? SLI_IS_CHEAP : 0;
+    f->bits |= c->widest * c->widest * c->widest > 1.5 * c->flops ? SLI_HAS_CORE : 0;
+    f->bits |= c->entries <= 1.125 * entries && c->paths <= 1.25 * c->fronts ? SLI_HAS_NO_FILL : 0;
+    f->bits |= share < 0.67 * 0.67 * 0.67 ? SLI_HAS_SHORT_PATHS : 0;
+    f->bits |= share < 1.2 * 1.2 * 1.2 ? 0 : SLI_HAS_LONG_PATHS;
+}
+
+#endif
