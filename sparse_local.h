@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 51d1d51a77747838
+ * FNV-1a of the lines after this comment, without the license: 520c276d1461b069
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -14,97 +14,97 @@
  *    971 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *   1109 factor.h     the numerical factorization P A P' = L D L'
  *   1398 solve.h      full solves, and the workspace of all solves
- *   1511 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1606 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1719 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1845 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1981 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   2101 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2228 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2278 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2469 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
- *   2608 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
- *   2744 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2837 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2989 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   3044 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   3147 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   1493 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1588 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1687 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1811 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1910 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   2018 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2125 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2175 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2366 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
+ *   2505 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
+ *   2641 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2734 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2886 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2941 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   3044 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3297 base.h   3593 status.h   3654 options.h   3715 alloc.h   3878 hash.h   4008 sort.h
- *   4073 parallel.h
+ *   3194 base.h   3490 status.h   3551 options.h   3612 alloc.h   3775 hash.h   3905 sort.h
+ *   3970 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4263 panel.h   4288 step.h   4367 pivot_rule.h   4441 front.h   4501 pairs.h   4708 table.h
- *   4724 simd.h   4827 simd_scalar.h   4854 simd_avx2.h   4921 simd_avx512.h   4953 simd_neon.h
- *   4983 dispatch.h
+ *   4160 panel.h   4185 step.h   4264 pivot_rule.h   4338 front.h   4398 pairs.h   4605 table.h
+ *   4621 simd.h   4724 simd_scalar.h   4751 simd_avx2.h   4818 simd_avx512.h   4850 simd_neon.h
+ *   4880 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   5097 csc.h   5240 csc_build.h   5374 csc_triangle.h   5439 csc_products.h   5556 permute.h
+ *   4994 csc.h   5137 csc_build.h   5271 csc_triangle.h   5336 csc_products.h   5453 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5623 graph.h   5794 job.h   5830 reduce.h   6135 contract.h   6316 coarsen.h   6530 labels.h
- *   6756 subgraph.h   6950 bisect.h   7218 separator.h   7480 mindeg.h   7663 dissection.h
- *   7873 dissect.h   8127 levelset.h   8264 thin.h   8533 nd.h   8797 compress.h   8951 metis.h
- *   9081 levels.h   9155 quotient.h   9489 quotient_order.h   9583 choice.h   9755 order.h
+ *   5520 graph.h   5691 job.h   5727 reduce.h   6032 contract.h   6213 coarsen.h   6427 labels.h
+ *   6653 subgraph.h   6847 bisect.h   7115 separator.h   7377 mindeg.h   7560 dissection.h
+ *   7770 dissect.h   8024 levelset.h   8161 thin.h   8430 nd.h   8694 compress.h   8848 metis.h
+ *   8978 levels.h   9052 quotient.h   9386 quotient_order.h   9480 choice.h   9652 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9959 symbolic_types.h  10002 etree.h  10199 supernodes.h  10457 pattern.h  10538 structure.h
- *  10709 schedule.h  11040 symbolic.h  11528 reach.h
+ *   9856 symbolic_types.h   9899 etree.h  10096 supernodes.h  10354 pattern.h  10435 structure.h
+ *  10606 schedule.h  10937 symbolic.h  11425 reach.h
  * (factor: the numbers of L and D)
- *  11804 factor_types.h  11994 storage_type.h  12059 panel_load.h  12100 pivot_check.h
- *  12204 null_product.h  12408 null_dense.h  12485 null_basis.h  12805 null_vectors.h
- *  12932 multifrontal.h  13075 uplooking.h  13149 front_tasks.h  13463 null_center.h
- *  13587 nullspace.h  13794 growth.h  13872 factor_setup.h  14208 factor.h  14423 factor_query.h
+ *  11701 factor_types.h  11891 storage_type.h  11956 panel_load.h  11997 pivot_check.h
+ *  12101 null_product.h  12305 null_dense.h  12382 null_basis.h  12702 null_vectors.h
+ *  12829 multifrontal.h  12972 uplooking.h  13046 front_tasks.h  13360 null_center.h
+ *  13484 nullspace.h  13691 growth.h  13769 factor_setup.h  14105 factor.h  14320 factor_query.h
  * (solve: full and local solves)
- *  14559 work.h  14659 query.h  14898 singular.h  15158 backward.h  15188 sweep_tasks.h
- *  15519 sweep.h  15719 compile.h  15854 plan.h  15956 local.h
+ *  14456 work.h  14560 query.h  14799 singular.h  15059 backward.h  15089 sweep_tasks.h
+ *  15420 sweep.h  15600 compile.h  15735 plan.h  15832 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  16110 parts.h  16399 refine.h  16578 refine_local.h  16794 rcond.h  16953 defects.h
+ *  15935 parts.h  16195 refine.h  16362 refine_local.h  16562 rcond.h  16710 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  17014 pivot_search.h  17360 pivoted.h
+ *  16767 pivot_search.h  17113 pivoted.h
  * (float: L and fronts in single precision)
- *  17432 simd_scalar_single.h  17463 simd_avx2_single.h  17520 simd_avx512_single.h
- *  17575 simd_neon_single.h  17620 float_kernels.h  17718 float_storage.h
+ *  17185 simd_scalar_single.h  17216 simd_avx2_single.h  17273 simd_avx512_single.h
+ *  17328 simd_neon_single.h  17373 float_kernels.h  17471 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  17883 inverse_front.h  17955 inverse_kernels.h  18027 traversal.h  18281 traversal_run.h
- *  18490 row_sets.h  18524 unit_vectors.h  18745 bilinear.h  18917 entries.h  19194 block.h
- *  19429 reserve.h  19621 selected.h  19831 selected_query.h  19933 region_types.h
- *  20033 region_choose.h  20260 region_ending.h  20376 region.h
+ *  17636 inverse_front.h  17708 inverse_kernels.h  17780 traversal.h  18034 traversal_run.h
+ *  18243 row_sets.h  18277 unit_vectors.h  18498 bilinear.h  18670 entries.h  18947 block.h
+ *  19176 selected.h  19373 selected_query.h  19475 region_types.h  19575 region_choose.h
+ *  19802 region_ending.h  19918 region.h
  * (change: a factor that follows changes of its matrix)
- *  20627 change_kernels.h  20700 gather.h  20748 kept.h  20905 leftlooking.h  21074 update_pivots.h
- *  21245 update.h  21479 path.h  21581 rank.h  21973 edges.h  22127 choose.h  22377 pins_types.h
- *  22443 pins_nulls.h  22624 pins_capacitance.h  22890 pins_rows.h  23010 pins_balance.h
- *  23172 pins_held.h  23400 pins_choose.h  23466 pins_rebuild.h  23689 pins_matrix.h  23840 pins.h
- *  24102 pins_solve.h  24377 subset.h  24530 restrict_kept.h  24728 restrict_analysis.h
- *  24973 restrict_symbolic.h  25168 restrict.h  25399 edit_match.h  25598 edit_place.h
- *  25847 edit_separate.h  26161 edit_order.h  26324 edit_graph.h  26406 edit_join.h  26682 edit.h
- *  26845 edit_factor.h
+ *  20160 change_kernels.h  20233 gather.h  20281 kept.h  20438 leftlooking.h  20607 update_pivots.h
+ *  20778 update.h  21012 path.h  21114 rank.h  21506 edges.h  21660 choose.h  21910 pins_types.h
+ *  21976 pins_nulls.h  22157 pins_capacitance.h  22423 pins_rows.h  22543 pins_balance.h
+ *  22705 pins_held.h  22933 pins_choose.h  22999 pins_rebuild.h  23222 pins_matrix.h  23373 pins.h
+ *  23635 pins_solve.h  23910 subset.h  24063 restrict_kept.h  24261 restrict_analysis.h
+ *  24506 restrict_symbolic.h  24701 restrict.h  24932 edit_match.h  25131 edit_place.h
+ *  25380 edit_separate.h  25694 edit_order.h  25857 edit_graph.h  25939 edit_join.h  26215 edit.h
+ *  26378 edit_factor.h
  * (io: files that are written and mapped)
- *  27133 output_file.h  27342 file_map.h
+ *  26666 output_file.h  26875 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  27443 csc64.h  27514 text_reader.h  27695 matrix_market.h
+ *  26976 csc64.h  27047 text_reader.h  27228 matrix_market.h
  * (save: factors in files)
- *  27965 format.h  28262 decode.h  28410 check.h  28740 write.h  29048 load.h  29317 load_inverse.h
- *  29647 load_calls.h
+ *  27498 format.h  27795 decode.h  27943 check.h  28273 write.h  28581 load.h  28850 load_inverse.h
+ *  29180 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  29850 matrix_sum.h  29932 scatter.h  30090 combination.h  30150 batch_solve.h
- *  30358 batch_factor.h
+ *  29383 matrix_sum.h  29465 scatter.h  29623 combination.h  29683 batch_solve.h
+ *  29891 batch_factor.h
  * (batch: diagonals of many inverses)
- *  30562 batch_diagonal.h
+ *  30095 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30704 complex_kernels.h  30816 complex_storage.h  30937 hermitian.h  31099 complex_rows.h
+ *  30237 complex_kernels.h  30349 complex_storage.h  30470 hermitian.h  30632 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  31268 storage_types.h
+ *  30801 storage_types.h
  * (last: undefine every internal macro)
- *  31295 undef.h
+ *  30828 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31593 words_scalar.inl.h  31689 change.inl.h  31945 lanes_scalar.inl.h  31977 products.inl.h
- *  32015 inverse_front.inl.h  32320 inverse_set.inl.h  32333 front.inl.h  32335 product.inl.h
- *  32823 complex_groups.inl.h  32914 copy_rows.inl.h  32952 sweeps.inl.h  32954 unit_triangle.inl.h
- *  32991 two_rhs.inl.h  33161 small_supernode.inl.h  33363 single_rhs.inl.h  33603 multi_rhs.inl.h
- *  33666 multi_rhs_small.inl.h  33845 multi_rhs_tiles.inl.h  34084 complex_small.inl.h
- *  34280 complex_rows.inl.h  34503 complex_set.inl.h  34521 float_set.inl.h  34539 kernel_set.inl.h
- *  34541 row.inl.h  34573 interleave.inl.h  34675 lanes_undef.inl.h  34702 words_undef.inl.h
- *  34785 words_avx2.inl.h  34917 lanes_avx2.inl.h  34979 words_avx512.inl.h
- *  35088 lanes_avx512.inl.h  35135 words_neon.inl.h  35284 lanes_neon.inl.h  35363 fronts.inl.h
- *  35594 fronts_undef.inl.h
+ *  31126 words_scalar.inl.h  31222 change.inl.h  31478 lanes_scalar.inl.h  31510 products.inl.h
+ *  31548 inverse_front.inl.h  31853 inverse_set.inl.h  31866 front.inl.h  31868 product.inl.h
+ *  32356 complex_groups.inl.h  32447 copy_rows.inl.h  32485 sweeps.inl.h  32487 unit_triangle.inl.h
+ *  32524 two_rhs.inl.h  32694 small_supernode.inl.h  32896 single_rhs.inl.h  33136 multi_rhs.inl.h
+ *  33199 multi_rhs_small.inl.h  33378 multi_rhs_tiles.inl.h  33617 complex_small.inl.h
+ *  33813 complex_rows.inl.h  34036 complex_set.inl.h  34054 float_set.inl.h  34072 kernel_set.inl.h
+ *  34074 row.inl.h  34106 interleave.inl.h  34208 lanes_undef.inl.h  34235 words_undef.inl.h
+ *  34318 words_avx2.inl.h  34450 lanes_avx2.inl.h  34512 words_avx512.inl.h
+ *  34621 lanes_avx512.inl.h  34668 words_neon.inl.h  34817 lanes_neon.inl.h  34896 fronts.inl.h
+ *  35127 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1408,60 +1408,42 @@ SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *
 /** Releases a workspace; NULL is allowed. */
 SL_API void sl_work_free(sl_work *W);
 
-/** Bytes that a workspace holds now. */
+/** Bytes that a workspace holds now; NULL has 0. */
 SL_API size_t sl_work_bytes(const sl_work *W);
 
-/** Grows W so that full solves with F and up to nrhs right-hand sides allocate nothing.
+/** Grows W to at least so many bytes. A call that needs no more then allocates nothing.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs);
-
-/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing.
+ *  Workspaces only grow, so that sl_work_bytes after a call is what the call needs:
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
-
-/** Grows W so that sl_local_solve allocates nothing for b-sets of up to nb rows, x-sets of up to nx
- *  rows and up to nrhs right-hand sides. A set that is NULL has n rows.
+ *      sl_work_create(&trial, &opt);                       threads as those of W
+ *      sl_factor_solve(F, X, n, B, n, nrhs, trial);        the largest call that W is for
+ *      bytes = sl_work_bytes(trial);  sl_work_free(trial);
+ *      sl_work_reserve(W, bytes);                          where memory may be allocated
+ *      sl_factor_solve(F, X, n, B, n, nrhs, W);            from now on without an allocation
  *
- *  The sets are not known yet, so the bound is nb and nx times the longest path of the elimination
- *  tree, and never more than the whole of it. It is generous: W keeps that many bytes, and a W that
- *  grows by itself in the first solves stays smaller.
+ *  | calls                             | what they need depends on                              |
+ *  |-----------------------------------|--------------------------------------------------------|
+ *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
+ *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
+ *  |  _refine, _rcond                  | but a single one may with threads: try both            |
+ *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
+ *  |                                   | right-hand sides need no more                          |
+ *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |
+ *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
+ *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
+ *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
+ *  |  sl_batch_diagonal                | try each set of rows                                   |
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(supernodes) for the length of the longest path.
+ *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
+ *  leading dimensions, make no difference.
+ *
+ *  W      [in,out]  a larger one is left as it is.
+ *  bytes  [in]      any number.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: W is NULL; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. On error W is as
+ *           before.
  *  Example  tests/core/test_reserve.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int nb,
-                                                      sl_int nx, sl_int nrhs);
-
-/** Grows W so that sl_factor_refine with up to nrhs right-hand sides allocates nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs);
-
-/** Grows W so that sl_plan_solve_refined on plan P with up to nrhs right-hand sides allocates
- *  nothing, whatever factor it is called with.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs);
-
-/** Grows W so that sl_factor_rcond allocates nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_rcond(sl_work *W, const sl_factor *F);
-
-/** Grows W so that sl_factor_defects with up to nrhs right-hand sides allocates nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_defects(sl_work *W, const sl_factor *F,
-                                                        sl_int nrhs);
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
 
 /** Solves A X = B. For a singular A, sl_factor_create describes which solution is computed.
  *
@@ -1702,20 +1684,6 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_fa
 SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns,
                                                 sl_int capacity, sl_int *count);
 
-/** Grows W so that sl_factor_solve_part and sl_factor_multiply_part with up to nrhs right-hand
- *  sides allocate nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs);
-
-/** The same for sl_plan_solve_part on plan P.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P,
-                                                          sl_int nrhs);
-
 /* src/public/accuracy.h: refinement of solutions, condition estimate, consistency of singular systems */
 
 /** Iterative refinement of A X = B. Stops when the backward error no longer halves.
@@ -1834,8 +1802,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
 #define sl_factor_multiply_part(...) sl_factor_multiply_part_needs_SL_WITH_ACCURACY
 #define sl_plan_solve_part(...) sl_plan_solve_part_needs_SL_WITH_ACCURACY
 #define sl_plan_columns(...) sl_plan_columns_needs_SL_WITH_ACCURACY
-#define sl_work_reserve_part(...) sl_work_reserve_part_needs_SL_WITH_ACCURACY
-#define sl_work_reserve_plan_part(...) sl_work_reserve_plan_part_needs_SL_WITH_ACCURACY
 #define sl_factor_refine(...) sl_factor_refine_needs_SL_WITH_ACCURACY
 #define sl_plan_solve_refined(...) sl_plan_solve_refined_needs_SL_WITH_ACCURACY
 #define sl_factor_rcond(...) sl_factor_rcond_needs_SL_WITH_ACCURACY
@@ -1940,43 +1906,6 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
                                                     const sl_int *bset, const double *b, sl_int nb,
                                                     const sl_int *cset, const double *c, sl_int nc,
                                                     sl_work *W, sl_stats *stats);
-
-/** Grows W so that calls of sl_inverse_diagonal, sl_inverse_pairs and sl_inverse_bilinear on F
- *  allocate nothing, for any rows.
- *
- *  W      [in,out]  the workspace.
- *  F      [in]      a factor. The bound holds for every factor of the same analysis that has no
- *                   more threads.
- *  count  [in]      the most entries that one call requests; n for the whole diagonal. Of a
- *                   bilinear form: the rows of both sets together, where a set that is NULL has n
- *                   rows.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(supernodes) and no numbers are read. The rows are not known here, so the bound is
- *           that of the worst ones: 8 sweeps to the roots that share nothing, and a selected
- *           inversion of everything, whose size is that of the whole diagonal. With T threads on F
- *           it has T + 1 times the fronts of one thread, and the fronts of up to count subtrees;
- *           the calls themselves mostly take much less. sl_work_bytes reports what was reserved.
- *           Each workspace of sl_batch_diagonal needs this for its n_rows.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F,
-                                                        sl_int count);
-
-/** Grows W so that calls of sl_inverse_block on F for blocks of up to n_rows x n_columns allocate
- *  nothing, for any rows.
- *
- *  W        [in,out]   the workspace.
- *  F        [in]       a factor. The bound holds for every factor of the same analysis.
- *  n_rows, n_columns   [in]  the largest block. A block with fewer rows and fewer columns is
- *                            covered too.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(supernodes) and no numbers are read. The bound is that of the worst rows, as in
- *           sl_work_reserve_inverse: up to 18 sweeps of 8 vectors whose paths to the roots share
- *           nothing.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_rows,
-                                                      sl_int n_columns);
 
 /* src/public/selected.h: the selected inverse: entries of A^-1 on the pattern of L */
 
@@ -2086,18 +2015,6 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *  sl_selected_refactor. */
 SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 
-/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing, if F
- *  stores L as the factor that Z is of does (options.storage).
- *
- *  W      [in,out]  the workspace.
- *  Z      [in]      the selected inverse.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(1). The size is exact: the fronts under way and the scratch of each thread, as in
- *           sl_selected_create.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z);
-
 /* src/public/region.h: regions, inside which the cost of local solves does not depend on the whole matrix */
 
 /* The path from a vertex to the root of the elimination tree grows with the mesh. A region cuts it
@@ -2186,29 +2103,11 @@ typedef struct sl_region_arrays {
 
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
-/** Grows W to what sl_region_refactor(R, F, Z, W) takes, so that the call allocates nothing, with
- *  any Z or none.
- *
- *  W      [in,out]  the workspace.
- *  R      [in]      the region.
- *  F      [in]      a factor over the analysis of R. The size depends on its instruction set, not
- *                   on its numbers.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F is of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     O(boundary) paths to the roots. The size is exact where the numbers come from forward
- *           sweeps; where they are copied from Z, no workspace is needed.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
-                                                       const sl_factor *F);
-
 #else
 #define sl_inverse_diagonal(...) sl_inverse_diagonal_needs_SL_WITH_INVERSE
 #define sl_inverse_pairs(...) sl_inverse_pairs_needs_SL_WITH_INVERSE
 #define sl_inverse_block(...) sl_inverse_block_needs_SL_WITH_INVERSE
 #define sl_inverse_bilinear(...) sl_inverse_bilinear_needs_SL_WITH_INVERSE
-#define sl_work_reserve_inverse(...) sl_work_reserve_inverse_needs_SL_WITH_INVERSE
-#define sl_work_reserve_block(...) sl_work_reserve_block_needs_SL_WITH_INVERSE
 #define sl_selected_create(...) sl_selected_create_needs_SL_WITH_INVERSE
 #define sl_selected_refactor(...) sl_selected_refactor_needs_SL_WITH_INVERSE
 #define sl_selected_free(...) sl_selected_free_needs_SL_WITH_INVERSE
@@ -2216,13 +2115,11 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_regi
 #define sl_selected_entries(...) sl_selected_entries_needs_SL_WITH_INVERSE
 #define sl_selected_view(...) sl_selected_view_needs_SL_WITH_INVERSE
 #define sl_selected_stats(...) sl_selected_stats_needs_SL_WITH_INVERSE
-#define sl_work_reserve_selected(...) sl_work_reserve_selected_needs_SL_WITH_INVERSE
 #define sl_region_create(...) sl_region_create_needs_SL_WITH_INVERSE
 #define sl_region_refactor(...) sl_region_refactor_needs_SL_WITH_INVERSE
 #define sl_region_free(...) sl_region_free_needs_SL_WITH_INVERSE
 #define sl_region_stats(...) sl_region_stats_needs_SL_WITH_INVERSE
 #define sl_region_view(...) sl_region_view_needs_SL_WITH_INVERSE
-#define sl_work_reserve_region(...) sl_work_reserve_region_needs_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_BATCH)
 /* src/public/batch.h: many independent solves by one call, distributed over threads */
@@ -14656,6 +14553,10 @@ SL_API size_t sl_work_bytes(const sl_work *W) {
   return W == NULL ? 0 : W->size;
 }
 
+SL_API sl_status sl_work_reserve(sl_work *W, size_t bytes) {
+  return W == NULL ? SL_ERR_ARGUMENT : sli_work_grow(W, bytes);
+}
+
 /* src/impl/solve/query.h: the query, a compiled solve, and moving right-hand sides in and out of it */
 
 typedef struct sli_ending {
@@ -15696,26 +15597,6 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
   return sli_solve(F, &q, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
-static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-  return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs, SLI_BLOCK_MOST) : 0);
-}
-
-SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
-  sli_query q;
-  sl_status status = SL_OK;
-  sl_int r;
-  if (W == NULL || F == NULL || nrhs < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  q = sli_query_all(F->S);
-  for (r = 0; r < sli_min(nrhs, 2) && status == SL_OK; r++) {
-    sli_sweep_tasks t;
-    sli_sweep_tasks_plan(&t, F, &q, r == 0 ? 1 : nrhs, &W->threads);
-    status = sli_work_grow(W, t.workers > 1 ? t.total : 0);
-  }
-  return status == SL_OK ? sli_work_reserve(W, &q, nrhs) : status;
-}
-
 /* src/impl/solve/compile.h: compiles a b-set and an x-set into a query: sorting, reaches, row indices */
 
 typedef struct sli_set {
@@ -15948,11 +15829,6 @@ SL_API sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F,
          : sli_solve(F, &P->query, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
-SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs) {
-  return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
-                        : sli_work_reserve(W, &P->query, nrhs);
-}
-
 /* src/impl/solve/local.h: sl_local_solve: one local solve without a plan, compiled in the workspace */
 
 typedef struct sli_local {
@@ -15999,10 +15875,9 @@ static void sli_local_compile(void *data) {
 
 static void sli_local_layout_vectors(void *data, sli_block *b) {
   sli_local *l = (sli_local *)data;
-  const size_t bytes =
-    l->status == SL_OK && l->nrhs > 0
-      ? sli_vectors_bytes(&l->query, l->nrhs, SLI_BLOCK_MOST)
-      : 0;
+  const size_t bytes = l->status == SL_OK && l->nrhs > 0
+               ? sli_vectors_bytes(&l->query, l->nrhs, SLI_BLOCK_MOST)
+               : 0;
   l->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
@@ -16053,56 +15928,6 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   }
   sli_free(&own.allocator, own.block);
   return status;
-}
-
-static sl_off sli_times_at_most(sl_off most, sl_int count, sl_off all) {
-  return count > 0 && most > all / count ? all : most * count;
-}
-
-static sli_reach sli_reach_bound(const sl_symbolic *S, sl_int count) {
-  sli_reach R = sli_reach_all(S);
-  sl_off supers = 0, columns = 0, rows = 0, most_supers = 0, most_columns = 0, most_rows = 0;
-  sl_int s, at = -1;
-  for (s = S->n_supers - 1; s >= 0; s--) {
-    for (; at != S->super_parent[s]; at = S->super_parent[at]) {
-      supers--;
-      columns -= S->steps[at].width;
-      rows -= S->steps[at].below;
-    }
-    at = s;
-    supers++;
-    columns += S->steps[s].width;
-    rows += S->steps[s].below;
-    most_supers = supers > most_supers ? supers : most_supers;
-    most_columns = columns > most_columns ? columns : most_columns;
-    most_rows = rows > most_rows ? rows : most_rows;
-  }
-  R.count = (sl_int)sli_times_at_most(most_supers, count, R.count);
-  R.columns = (sl_int)sli_times_at_most(most_columns, count, R.columns);
-  R.n_rows = sli_times_at_most(most_rows, count, R.n_rows);
-  return R;
-}
-
-SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int nb, sl_int nx,
-                     sl_int nrhs) {
-  static const sl_int some_rows = 0;
-  sli_block b = {NULL, 0, 0};
-  sli_local l;
-  if (W == NULL || S == NULL || nb < 0 || nx < 0 || nrhs < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  memset(&l, 0, sizeof l);
-  l.S = S;
-  l.b = sli_set_of(S, &some_rows, nb);
-  l.x = sli_set_of(S, &some_rows, nx);
-  l.nrhs = nrhs;
-  l.query.forward = sli_reach_bound(S, nb);
-  l.query.backward = sli_reach_bound(S, nx);
-  sli_local_layout_seeds(&l, &b);
-  sli_local_layout_reaches(&l, &b);
-  sli_local_layout_vectors(&l, &b);
-  b.used = b.used > 0 ? b.used : 1;
-  return sli_work_block(W, &b);
 }
 
 /* accuracy: refinement, condition, defects, half solves */
@@ -16367,35 +16192,6 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
   return SL_OK;
 }
 
-static sl_status sli_parts_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-  const sli_reach *const reaches[2] = {&q->forward, &q->backward};
-  sl_status status = SL_OK;
-  int k;
-  for (k = 0; k < 2 && nrhs > 0 && status == SL_OK; k++) {
-    sli_block b = {NULL, 0, 0};
-    sli_parts p;
-    memset(&p, 0, sizeof p);
-    p.q = sli_parts_query(q, reaches[k], 0, 0);
-    sli_parts_layout(&p, &b, nrhs);
-    status = sli_work_block(W, &b);
-  }
-  return status;
-}
-
-SL_API sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs) {
-  sli_query q;
-  if (W == NULL || F == NULL || nrhs < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  q = sli_query_all(F->S);
-  return sli_parts_reserve(W, &q, nrhs);
-}
-
-SL_API sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P, sl_int nrhs) {
-  return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
-                        : sli_parts_reserve(W, &P->query, nrhs);
-}
-
 /* src/impl/accuracy/refine.h: sl_factor_refine: refinement by the componentwise backward error */
 
 typedef struct sli_refinement {
@@ -16518,18 +16314,6 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
   return most > 0 && !(error <= F->error_limit) && sli_is_finite(F->error_limit)
          ? SL_ERR_INACCURATE
          : SL_OK;
-}
-
-SL_API sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs) {
-  sli_block b = {NULL, 0, 0};
-  sli_refinement f;
-  if (W == NULL || F == NULL || nrhs < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  memset(&f, 0, sizeof f);
-  f.F = F;
-  sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
-  return nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
 }
 
 SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
@@ -16740,22 +16524,6 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
   return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
-SL_API sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs) {
-  sli_block b = {NULL, 0, 0};
-  sli_local_refinement f;
-  if (W == NULL || P == NULL || nrhs < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (nrhs == 0 || P->query.nx == 0) {
-    return SL_OK;
-  }
-  memset(&f, 0, sizeof f);
-  f.q = &P->query;
-  f.room = sli_min(P->query.forward.columns, P->query.backward.columns);
-  sli_local_refinement_layout(&f, &b, nrhs);
-  return sli_work_block(W, &b);
-}
-
 SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                      const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                      sl_work *W, sl_stats *stats) {
@@ -16901,17 +16669,6 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
   return sum > best || sum != sum ? sum : best;
 }
 
-SL_API sl_status sl_work_reserve_rcond(sl_work *W, const sl_factor *F) {
-  sli_block b = {NULL, 0, 0};
-  sli_norm_estimate p;
-  if (W == NULL || F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  p.all = sli_reach_all(F->S);
-  sli_norm_estimate_layout(&p, &b);
-  return sli_work_block(W, &b);
-}
-
 SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond, sl_work *W) {
   sli_block b = {NULL, 0, 0};
   sl_work own;
@@ -16971,10 +16728,6 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
       }
     }
   }
-}
-
-SL_API sl_status sl_work_reserve_defects(sl_work *W, const sl_factor *F, sl_int nrhs) {
-  return sl_work_reserve_factor(W, F, nrhs);
 }
 
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
@@ -19387,12 +19140,6 @@ static sl_status sli_inverse_all_pairs(const sl_factor *F, const sl_int *rows, s
   return count == 0 ? SL_OK : sli_inverse_block_run(&q, W, NULL);
 }
 
-static sl_status sli_inverse_all_pairs_prepare(const sl_factor *F, const sl_int *rows, sl_int count,
-                         sl_work *W) {
-  sli_inverse_block q = sli_inverse_all_pairs_of(F, rows, count);
-  return count == 0 ? SL_OK : sli_work_stages(W, sli_inverse_block_stages, 2, &q);
-}
-
 SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,
                   sl_int n_rows, const sl_int *columns, sl_int n_columns,
                   sl_work *W, sl_stats *stats) {
@@ -19426,198 +19173,6 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
   return status;
 }
 
-/* src/impl/inverse/reserve.h: bounds on the workspace of the inverse calls, for any rows */
-
-typedef struct sli_reserve {
-  const sl_symbolic *S;
-  sl_int workers;
-  sl_storage storage;
-  uint64_t steps, columns, rows;
-  sl_off stack;
-  sl_off roots;
-  sl_off front;
-  sl_off scratch;
-  sli_traversal all;
-  uint64_t *path_steps, *path_columns, *path_rows;
-  sl_off *below;
-} sli_reserve;
-
-static void sli_reserve_layout(void *bounds, sli_block *b) {
-  sli_reserve *r = (sli_reserve *)bounds;
-  const sl_int count = r->S->n_supers;
-  sli_traversal_layout(&r->all, b);
-  r->path_steps = SLI_TAKE(b, uint64_t, count);
-  r->path_columns = SLI_TAKE(b, uint64_t, count);
-  r->path_rows = SLI_TAKE(b, uint64_t, count);
-  r->below = SLI_TAKE(b, sl_off, count);
-}
-
-static void sli_reserve_measure_paths(sli_reserve *r) {
-  const sl_symbolic *S = r->S;
-  sl_int s;
-  for (s = S->n_supers - 1; s >= 0; s--) {
-    const sl_int up = S->super_parent[s];
-    r->path_steps[s] = 1 + (up == -1 ? 0 : r->path_steps[up]);
-    r->path_columns[s] = (uint64_t)S->steps[s].width + (up == -1 ? 0 : r->path_columns[up]);
-    r->path_rows[s] = (uint64_t)S->steps[s].below + (up == -1 ? 0 : r->path_rows[up]);
-    r->steps = r->path_steps[s] > r->steps ? r->path_steps[s] : r->steps;
-    r->columns = r->path_columns[s] > r->columns ? r->path_columns[s] : r->columns;
-    r->rows = r->path_rows[s] > r->rows ? r->path_rows[s] : r->rows;
-  }
-}
-
-static void sli_reserve_measure_fronts(sli_reserve *r) {
-  const sl_symbolic *S = r->S;
-  sl_int s;
-  sli_traversal_plan(&r->all, NULL, 0);
-  r->stack = sli_traversal_fronts_size(&r->all);
-  r->scratch = sli_traverse_scratch(&r->all, r->storage);
-  for (s = 0; s < S->n_supers; s++) {
-    r->below[s] = 0;
-  }
-  for (s = 0; s < S->n_supers; s++) {
-    const sl_off own = sli_traversal_front_size(&r->all, s);
-    const sl_off most = own > r->below[s] ? own : r->below[s];
-    r->front = own > r->front ? own : r->front;
-    *(S->super_parent[s] == -1 ? &r->roots : &r->below[S->super_parent[s]]) += most;
-  }
-}
-
-static void sli_reserve_measure(void *bounds) {
-  sli_reserve *r = (sli_reserve *)bounds;
-  r->steps = r->columns = r->rows = 0;
-  r->roots = r->front = 0;
-  sli_reserve_measure_paths(r);
-  sli_reserve_measure_fronts(r);
-}
-
-static sl_status sli_reserve_of(sli_reserve *r, const sl_factor *F, sl_work *W) {
-  static const sli_stage stage = {sli_reserve_layout, sli_reserve_measure};
-  memset(r, 0, sizeof *r);
-  r->S = F->S;
-  r->workers = sli_traversal_workers(F->S, &F->threads);
-  r->storage = F->type->storage;
-  r->all = sli_traversal_of(F->S, F->S->n_supers, 1);
-  return sli_work_stages(W, &stage, 1, r);
-}
-
-SLI_INLINE uint64_t sli_reserve_product(uint64_t each, sl_int count, uint64_t total) {
-  return each != 0 && (uint64_t)count > total / each ? total : each * (uint64_t)count;
-}
-
-static sli_capacity sli_reserve_sweep(const sli_reserve *r, sl_int count, sl_int lanes) {
-  const sli_reach all = sli_reach_all(r->S);
-  sli_capacity capacity = {0, 0, 0, 0};
-  sl_int k;
-  lanes = (sl_int)1 << sli_lanes_kind(lanes);
-  for (k = 1; k <= lanes; k *= 2) {
-    sli_capacity_add(&capacity, &all, k);
-  }
-  capacity.steps = sli_reserve_product(r->steps, count, capacity.steps);
-  capacity.rows = sli_reserve_product(r->rows, count, capacity.rows);
-  capacity.values = sli_reserve_product(r->columns * (uint64_t)lanes, count, capacity.values);
-  return capacity;
-}
-
-static uint64_t sli_reserve_fronts(const sli_reserve *r, sl_int count) {
-  const uint64_t roots = sli_reserve_product((uint64_t)r->front, count, (uint64_t)r->roots);
-  return r->workers == 1 ? (uint64_t)r->stack
-               : roots + (uint64_t)r->stack * ((uint64_t)r->workers + 1);
-}
-
-static size_t sli_reserve_forward_bytes(const sli_reserve *r, sl_int count) {
-  const sl_int vectors = count > SLI_LANES_MAX / 2 ? SLI_LANES_MAX : 2 * count;
-  const sli_capacity capacity = sli_reserve_sweep(r, vectors, vectors);
-  sli_block b = {NULL, 0, 0};
-  sli_requests requests;
-  sli_forward forward;
-  requests.count = count;
-  sli_requests_layout(&requests, &b);
-  sli_forward_layout(&forward, &b, &capacity);
-  sli_forward_layout_run(&forward, &b, &capacity);
-  return b.used;
-}
-
-static size_t sli_reserve_traversal_bytes(const sli_reserve *r, sl_int count) {
-  const sl_symbolic *S = r->S;
-  sli_traversal t = sli_traversal_of(S, S->n_supers, r->workers);
-  sli_block b = {NULL, 0, 0};
-  sli_requests requests;
-  requests.count = count;
-  t.is_partial = 1;
-  sli_requests_layout(&requests, &b);
-  sli_traversal_layout(&t, &b);
-  (void)SLI_TAKE(&b, sl_int, S->n_supers);
-  (void)SLI_TAKE(&b, sl_int, S->n_supers);
-  sli_traversal_layout_work(&t, &b);
-  (void)SLI_TAKE(&b, sl_int, (uint64_t)S->n_supers + 1);
-  (void)SLI_TAKE(&b, double, sli_reserve_fronts(r, count));
-  (void)SLI_TAKE(&b, double, (uint64_t)r->workers *(uint64_t)r->scratch);
-  return b.used;
-}
-
-static size_t sli_reserve_bilinear_bytes(const sli_reserve *r, sl_int count) {
-  const sli_capacity capacity = sli_reserve_sweep(r, count, 2);
-  sli_block b = {NULL, 0, 0};
-  sli_forward forward;
-  (void)SLI_TAKE(&b, uint64_t, count);
-  (void)SLI_TAKE(&b, uint64_t, count);
-  sli_forward_layout(&forward, &b, &capacity);
-  sli_forward_layout_run(&forward, &b, &capacity);
-  return b.used;
-}
-
-static size_t sli_reserve_block_bytes(const sli_reserve *r, sl_int n_rows, sl_int n_columns) {
-  sli_block b = {NULL, 0, 0};
-  sli_inverse_block q;
-  sl_int kept, streamed;
-  memset(&q, 0, sizeof q);
-  q.kept.count = q.kept.n_blocks = sli_min(n_rows, n_columns);
-  q.streamed.count = sli_max(n_rows, n_columns);
-  kept = sli_min(q.kept.count, SLI_LANES_MAX);
-  streamed = sli_min(q.streamed.count, SLI_LANES_MAX);
-  q.kept_capacity = sli_reserve_sweep(r, kept, kept);
-  q.streamed_capacity = sli_reserve_sweep(r, streamed, streamed);
-  sli_inverse_block_layout_requests(&q, &b);
-  sli_inverse_block_layout_sweeps(&q, &b);
-  return b.used;
-}
-
-SL_API sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F, sl_int count) {
-  sli_reserve r;
-  sl_status status;
-  if (W == NULL || F == NULL || count < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (count == 0) {
-    return SL_OK;
-  }
-  status = sli_reserve_of(&r, F, W);
-  if (status == SL_OK) {
-    const size_t forward = sli_reserve_forward_bytes(&r, count);
-    const size_t traversal = sli_reserve_traversal_bytes(&r, count);
-    const size_t bilinear = sli_reserve_bilinear_bytes(&r, count);
-    const size_t most = forward > traversal ? forward : traversal;
-    status = sli_work_grow(W, most > bilinear ? most : bilinear);
-  }
-  return status;
-}
-
-SL_API sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_rows,
-                     sl_int n_columns) {
-  sli_reserve r;
-  sl_status status;
-  if (W == NULL || F == NULL || n_rows < 0 || n_columns < 0) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (n_rows == 0 || n_columns == 0) {
-    return SL_OK;
-  }
-  status = sli_reserve_of(&r, F, W);
-  return status == SL_OK ? sli_work_grow(W, sli_reserve_block_bytes(&r, n_rows, n_columns))
-               : status;
-}
-
 /* src/impl/inverse/selected.h: the selected inverse: a top-down traversal that keeps every panel */
 
 struct sl_selected {
@@ -19625,7 +19180,6 @@ struct sl_selected {
   sl_threads threads;
   sli_hash analysis;
   sli_numbers numbers;
-  sl_storage storage;
   sli_traversal traversal;
   sl_off *begin;
   double *Z;
@@ -19685,7 +19239,6 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
   memset(&draft, 0, sizeof draft);
   draft.allocator = sli_allocator(opt);
   draft.analysis = S->identity;
-  draft.storage = F->type->storage;
   draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
   for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
     seeds = SLI_TAKE(&b, uint64_t, count);
@@ -19747,7 +19300,6 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   if (status == SL_OK) {
     sli_traverse(&run);
     Z->numbers = sli_numbers_of(F);
-    Z->storage = F->type->storage;
     Z->seconds = sli_seconds() - started;
   }
   sli_free(&own.allocator, own.block);
@@ -19808,16 +19360,6 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
     return SL_ERR_STATE;
   }
   return sli_selected_fill(Z, F, W);
-}
-
-SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
-  sli_traversal_run run;
-  sli_block b = {NULL, 0, 0};
-  if (W == NULL || Z == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  sli_traversal_layout_run(&run, &Z->traversal, Z->storage, &b);
-  return sli_work_grow(W, b.used);
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {
@@ -20573,15 +20115,6 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
     status = sli_region_fill(R, F, Z, W);
   }
   return status;
-}
-
-SL_API sl_status sl_work_reserve_region(sl_work *W, const sl_region *R, const sl_factor *F) {
-  if (W == NULL || R == NULL || F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  return sli_factor_is_over(F, R->S, R->analysis)
-         ? sli_inverse_all_pairs_prepare(F, R->requested, R->extent.n_rows, W)
-         : SL_ERR_STATE;
 }
 
 SL_API void sl_region_free(sl_region *R) {

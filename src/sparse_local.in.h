@@ -171,7 +171,6 @@ extern "C" {
 #include "impl/inverse/bilinear.h"
 #include "impl/inverse/entries.h"
 #include "impl/inverse/block.h"
-#include "impl/inverse/reserve.h"
 #include "impl/inverse/selected.h"
 #include "impl/inverse/selected_query.h"
 #include "impl/inverse/region_types.h"

@@ -102,41 +102,4 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
                                                     const sl_int *cset, const double *c, sl_int nc,
                                                     sl_work *W, sl_stats *stats);
 
-/** Grows W so that calls of sl_inverse_diagonal, sl_inverse_pairs and sl_inverse_bilinear on F
- *  allocate nothing, for any rows.
- *
- *  W      [in,out]  the workspace.
- *  F      [in]      a factor. The bound holds for every factor of the same analysis that has no
- *                   more threads.
- *  count  [in]      the most entries that one call requests; n for the whole diagonal. Of a
- *                   bilinear form: the rows of both sets together, where a set that is NULL has n
- *                   rows.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(supernodes) and no numbers are read. The rows are not known here, so the bound is
- *           that of the worst ones: 8 sweeps to the roots that share nothing, and a selected
- *           inversion of everything, whose size is that of the whole diagonal. With T threads on F
- *           it has T + 1 times the fronts of one thread, and the fronts of up to count subtrees;
- *           the calls themselves mostly take much less. sl_work_bytes reports what was reserved.
- *           Each workspace of sl_batch_diagonal needs this for its n_rows.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_inverse(sl_work *W, const sl_factor *F,
-                                                        sl_int count);
-
-/** Grows W so that calls of sl_inverse_block on F for blocks of up to n_rows x n_columns allocate
- *  nothing, for any rows.
- *
- *  W        [in,out]   the workspace.
- *  F        [in]       a factor. The bound holds for every factor of the same analysis.
- *  n_rows, n_columns   [in]  the largest block. A block with fewer rows and fewer columns is
- *                            covered too.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(supernodes) and no numbers are read. The bound is that of the worst rows, as in
- *           sl_work_reserve_inverse: up to 18 sweeps of 8 vectors whose paths to the roots share
- *           nothing.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_block(sl_work *W, const sl_factor *F, sl_int n_rows,
-                                                      sl_int n_columns);
-
 #endif

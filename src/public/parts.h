@@ -102,18 +102,4 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_fa
 SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns,
                                                 sl_int capacity, sl_int *count);
 
-/** Grows W so that sl_factor_solve_part and sl_factor_multiply_part with up to nrhs right-hand
- *  sides allocate nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs);
-
-/** The same for sl_plan_solve_part on plan P.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P,
-                                                          sl_int nrhs);
-
 #endif

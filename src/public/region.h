@@ -91,20 +91,4 @@ typedef struct sl_region_arrays {
 
 SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
-/** Grows W to what sl_region_refactor(R, F, Z, W) takes, so that the call allocates nothing, with
- *  any Z or none.
- *
- *  W      [in,out]  the workspace.
- *  R      [in]      the region.
- *  F      [in]      a factor over the analysis of R. The size depends on its instruction set, not
- *                   on its numbers.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: F is of another analysis; SL_ERR_TOO_LARGE;
- *           SL_ERR_MEMORY.
- *  Cost     O(boundary) paths to the roots. The size is exact where the numbers come from forward
- *           sweeps; where they are copied from Z, no workspace is needed.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_region(sl_work *W, const sl_region *R,
-                                                       const sl_factor *F);
-
 #endif

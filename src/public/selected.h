@@ -111,16 +111,4 @@ SL_API sl_selected_arrays sl_selected_view(const sl_selected *Z);
  *  sl_selected_refactor. */
 SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
 
-/** Grows W to what sl_selected_refactor(Z, F, W) takes, so that the call allocates nothing, if F
- *  stores L as the factor that Z is of does (options.storage).
- *
- *  W      [in,out]  the workspace.
- *  Z      [in]      the selected inverse.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(1). The size is exact: the fronts under way and the scratch of each thread, as in
- *           sl_selected_create.
- *  Example  tests/core/test_reserve_inverse.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z);
-
 #endif

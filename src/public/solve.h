@@ -16,60 +16,42 @@ SL_API SL_WARN_UNUSED sl_status sl_work_create(sl_work **out, const sl_options *
 /** Releases a workspace; NULL is allowed. */
 SL_API void sl_work_free(sl_work *W);
 
-/** Bytes that a workspace holds now. */
+/** Bytes that a workspace holds now; NULL has 0. */
 SL_API size_t sl_work_bytes(const sl_work *W);
 
-/** Grows W so that full solves with F and up to nrhs right-hand sides allocate nothing.
+/** Grows W to at least so many bytes. A call that needs no more then allocates nothing.
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs);
-
-/** Grows W so that solves of plan P with up to nrhs right-hand sides allocate nothing.
+ *  Workspaces only grow, so that sl_work_bytes after a call is what the call needs:
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs);
-
-/** Grows W so that sl_local_solve allocates nothing for b-sets of up to nb rows, x-sets of up to nx
- *  rows and up to nrhs right-hand sides. A set that is NULL has n rows.
+ *      sl_work_create(&trial, &opt);                       threads as those of W
+ *      sl_factor_solve(F, X, n, B, n, nrhs, trial);        the largest call that W is for
+ *      bytes = sl_work_bytes(trial);  sl_work_free(trial);
+ *      sl_work_reserve(W, bytes);                          where memory may be allocated
+ *      sl_factor_solve(F, X, n, B, n, nrhs, W);            from now on without an allocation
  *
- *  The sets are not known yet, so the bound is nb and nx times the longest path of the elimination
- *  tree, and never more than the whole of it. It is generous: W keeps that many bytes, and a W that
- *  grows by itself in the first solves stays smaller.
+ *  | calls                             | what they need depends on                              |
+ *  |-----------------------------------|--------------------------------------------------------|
+ *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
+ *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
+ *  |  _refine, _rcond                  | but a single one may with threads: try both            |
+ *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
+ *  |                                   | right-hand sides need no more                          |
+ *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |
+ *  | sl_selected_refactor              | the selected inverse and options.storage of F          |
+ *  | sl_region_refactor                | the region, the instruction set of F, and Z            |
+ *  | sl_local_solve, sl_inverse_*,     | the rows of the call, too. Fewer rows can need more:   |
+ *  |  sl_batch_diagonal                | try each set of rows                                   |
  *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(supernodes) for the length of the longest path.
+ *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
+ *  leading dimensions, make no difference.
+ *
+ *  W      [in,out]  a larger one is left as it is.
+ *  bytes  [in]      any number.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: W is NULL; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. On error W is as
+ *           before.
  *  Example  tests/core/test_reserve.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int nb,
-                                                      sl_int nx, sl_int nrhs);
-
-/** Grows W so that sl_factor_refine with up to nrhs right-hand sides allocates nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs);
-
-/** Grows W so that sl_plan_solve_refined on plan P with up to nrhs right-hand sides allocates
- *  nothing, whatever factor it is called with.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs);
-
-/** Grows W so that sl_factor_rcond allocates nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_rcond(sl_work *W, const sl_factor *F);
-
-/** Grows W so that sl_factor_defects with up to nrhs right-hand sides allocates nothing.
- *
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- */
-SL_API SL_WARN_UNUSED sl_status sl_work_reserve_defects(sl_work *W, const sl_factor *F,
-                                                        sl_int nrhs);
+SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
 
 /** Solves A X = B. For a singular A, sl_factor_create describes which solution is computed.
  *

@@ -1,5 +1,6 @@
 /* test_parts_use.c: half solves: what is refused, workspaces, and allocations that fail */
 #include "tests/lib/parts.h"
+#include "tests/lib/reserved.h"
 
 static void wrong_arguments_are_refused(void **state) {
     (void)state;
@@ -9,7 +10,6 @@ static void wrong_arguments_are_refused(void **state) {
     double X[40], B[40] = {0};
     sl_plan *plan = NULL, *inside = NULL;
     sl_region *region = NULL;
-    sl_work *W = NULL;
     sl_int rows[2] = {3, 4}, columns[25], count = -1;
     SL_CHECK(sl_plan_create(&plan, y.S, rows, 2, rows, 2, NULL, NULL));
     X[0] = 77.0;
@@ -26,8 +26,8 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, L, X, 25, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, ALL, X, 25, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, P | L, X, 1, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, y.F, P | L | D | ROOT, X, 25, B, 2, 1,
-                                                  NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT,
+              sl_plan_solve_part(plan, y.F, P | L | D | ROOT, X, 25, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_plan_solve_part(plan, k.F, P | L, X, 40, B, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_D, columns, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, NULL, 25, &count));
@@ -35,15 +35,7 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(NULL, SL_PART_L, columns, 25, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_columns(plan, SL_PART_L, columns, -1, &count));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_part(plan, NULL, P | L, X, 25, B, 2, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_part(NULL, y.F, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan_part(NULL, plan, 1));
-    SL_CHECK(sl_work_create(&W, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_part(W, y.F, -1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_part(W, NULL, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan_part(W, NULL, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_plan_part(W, plan, -1));
     assert_true(X[0] == 77.0);
-    sl_work_free(W);
     columns[1] = -7; /* not written beyond the capacity */
     SL_CHECK(sl_plan_columns(plan, SL_PART_L, columns, 1, &count));
     assert_true(count > 1 && columns[1] == -7);
@@ -108,8 +100,14 @@ static void reserved_workspaces_do_not_grow(void **state) {
             for (int local = 0; local < 2; local++) {
                 sl_work *W = NULL;
                 SL_CHECK(sl_work_create(&W, &opt));
-                SL_CHECK(local ? sl_work_reserve_plan_part(W, plan, most)
-                               : sl_work_reserve_part(W, y.F, most));
+                if (local) {
+                    RESERVE_FOR(W, NULL,
+                                sl_plan_solve_part(plan, y.F, P | L, X, ld, B, ld, most, trial));
+                    RESERVE_FOR(W, NULL,
+                                sl_plan_solve_part(plan, y.F, LT | PT, X, ld, B, ld, most, trial));
+                } else {
+                    RESERVE_FOR(W, NULL, sl_factor_solve_part(y.F, ALL, X, ld, B, ld, most, trial));
+                }
                 const size_t calls = counter.calls;
                 for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
                     if (local) {
@@ -140,8 +138,6 @@ static void failing_allocations_leave_x_untouched(void **state) {
     sl_work *W = NULL;
     double X[49] = {5.0}, B[49] = {1.0};
     SL_CHECK(sl_work_create(&W, &opt));
-    counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_work_reserve_part(W, y.F, 1));
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_factor_solve_part(y.F, L, X, 49, B, 49, 1, W));
     counter.fail_at = (int64_t)counter.calls;

@@ -3,6 +3,7 @@
 
 #include "tests/lib/factored.h"
 #include "tests/lib/local_solve.h"
+#include "tests/lib/reserved.h"
 
 typedef struct reach_t {
     sl_int supernodes, columns;
@@ -186,7 +187,7 @@ static void solves_allocate_nothing_after_the_first(void **state) {
     SL_CHECK(sl_plan_create(&P, y.S, bset, 50, xset, 70, &opt, &stats));
     assert_true(stats.plan.bytes <= counter.live_bytes);
     /* With the workspace reserved, nothing is allocated from the first solve on. */
-    SL_CHECK(sl_work_reserve_plan(W, P, 9));
+    RESERVE_FOR(W, NULL, sl_plan_solve(P, y.F, X, 70, B, 50, 9, trial));
     size_t calls = counter.calls;
     for (sl_int nrhs = 0; nrhs <= 9; nrhs++) {
         SL_CHECK(sl_plan_solve(P, y.F, X, 70, B, 50, nrhs, W));

@@ -1,6 +1,7 @@
 /* test_region_use.c: life of a region: rows outside, stale values, failures, threads */
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/square_region.h"
+#include "tests/lib/reserved.h"
 
 /* With b or x outside the region, or a set that is NULL, the plan is one without a region, bit for
  * bit, and the stats say so. */
@@ -307,7 +308,7 @@ static void solves_allocate_nothing(void **state) {
         SL_CHECK(sl_plan_create(&P, y.S, set, 50, set, 50, FOR_PLAN(&opt), NULL));
         kept[large] = counter.total_bytes - before;
         SL_CHECK(sl_work_create(&W, FOR_OTHERS(&opt)));
-        SL_CHECK(sl_work_reserve_plan(W, P, 9));
+        RESERVE_FOR(W, NULL, sl_plan_solve(P, y.F, X, 50, B, 50, 9, trial));
         const size_t calls = counter.calls;
         for (sl_int nrhs = 0; nrhs <= 9; nrhs++) {
             SL_CHECK(sl_plan_solve(P, y.F, X, 50, B, 50, nrhs, W));

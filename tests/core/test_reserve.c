@@ -1,6 +1,7 @@
-/* test_reserve.c: after a reserve call, the operation that it is for allocates nothing */
+/* test_reserve.c: with what the largest call took reserved, calls of its shape allocate nothing */
 #include "tests/lib/kkt.h"
 #include "tests/lib/factored.h"
+#include "tests/lib/reserved.h"
 
 enum { N = 300, R = 11 };
 
@@ -8,32 +9,6 @@ static const gen_kind_t kinds[] = {GEN_NONE,  GEN_ONE,    GEN_DIAGONAL,   GEN_PA
                                    GEN_STAR,  GEN_GRID2,  GEN_GRID3,      GEN_FOREST,
                                    GEN_DENSE, GEN_RANDOM, GEN_COMPONENTS, GEN_KKT};
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
-
-/* A new workspace for each number of right-hand sides: reserved for it, used up to it. */
-typedef struct reserved_t {
-    counter_t counter;
-    sl_work *W;
-    size_t calls, bytes;
-} reserved_t;
-
-static void reserved_begin(reserved_t *r) {
-    sl_options opt;
-    r->counter = counter_make();
-    opt = options_counted(&r->counter);
-    SL_CHECK(sl_work_create(&r->W, &opt));
-}
-
-static void reserved_done(reserved_t *r) {
-    r->calls = r->counter.calls;
-    r->bytes = sl_work_bytes(r->W);
-}
-
-static void reserved_end(reserved_t *r) {
-    assert_int_equal(r->counter.calls, r->calls);
-    assert_int_equal(sl_work_bytes(r->W), r->bytes);
-    sl_work_free(r->W);
-    COUNTER_CLEAN(&r->counter);
-}
 
 static void refine_rcond_defects(void **state) {
     (void)state;
@@ -46,7 +21,9 @@ static void refine_rcond_defects(void **state) {
         for (sl_int most = 0; most <= R; most++) {
             reserved_t r;
             reserved_begin(&r);
-            SL_CHECK(sl_work_reserve_refine(r.W, y.F, most));
+            memset(X, 0, ld * R * sizeof *X);
+            RESERVE_FOR(r.W, NULL,
+                        sl_factor_refine(y.F, &y.M.view, X, ld, B, ld, most, 2, trial, NULL));
             reserved_done(&r);
             for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
                 memset(X, 0, ld * R * sizeof *X);
@@ -56,7 +33,7 @@ static void refine_rcond_defects(void **state) {
         }
         reserved_t r;
         reserved_begin(&r);
-        SL_CHECK(sl_work_reserve_rcond(r.W, y.F));
+        RESERVE_FOR(r.W, NULL, sl_factor_rcond(y.F, &y.M.view, &rcond, trial));
         reserved_done(&r);
         SL_CHECK(sl_factor_rcond(y.F, &y.M.view, &rcond, r.W));
         reserved_end(&r);
@@ -73,7 +50,7 @@ static void refine_rcond_defects(void **state) {
         gen_reals(B, (size_t)n * R, 3);
         reserved_t r;
         reserved_begin(&r);
-        SL_CHECK(sl_work_reserve_defects(r.W, y.F, most));
+        RESERVE_FOR(r.W, NULL, sl_factor_defects(y.F, Y, 1, B, (size_t)n, most, trial));
         reserved_done(&r);
         for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
             SL_CHECK(sl_factor_defects(y.F, Y, 1, B, (size_t)n, nrhs, r.W));
@@ -84,7 +61,51 @@ static void refine_rcond_defects(void **state) {
     }
 }
 
-/* Random sets of up to nb and nx rows, and NULL for all where the bound is n. */
+/* Full solves and solves on plans with random sets, and NULL for all, in both layouts. */
+static void full_and_planned_solves(void **state) {
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        factored_t y = factored_make(kinds[kind], N, 1, 0, NULL);
+        sl_int n = y.M.view.n_cols;
+        const size_t ld = (size_t)n + R;
+        const sl_int sizes[4] = {0, n > 0, n / 3, n};
+        sl_int *set = test_ints((size_t)n + 1);
+        double *X = test_reals(ld * R), *B = test_reals(ld * R);
+        uint64_t seed = 1;
+        gen_reals(B, ld * R, 3);
+        for (int which = 0; which < 4 * R; which++) {
+            const sl_int count = sizes[which % 4], most = 1 + which / 4;
+            sl_plan *P = NULL;
+            reserved_t full, planned;
+            for (sl_int k = 0; k < count; k++) {
+                set[k] = gen_below(&seed, n);
+            }
+            SL_CHECK(
+                sl_plan_create(&P, y.S, set, count, which % 3 ? set : NULL, count, NULL, NULL));
+            reserved_begin(&full);
+            RESERVE_FOR(full.W, NULL, sl_factor_solve(y.F, X, ld, B, ld, most, trial));
+            reserved_done(&full);
+            reserved_begin(&planned);
+            RESERVE_FOR(planned.W, NULL, sl_plan_solve(P, y.F, X, ld, B, ld, most, trial));
+            reserved_done(&planned);
+            for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
+                SL_CHECK(sl_factor_solve(y.F, X, ld, B, ld, nrhs, full.W));
+                SL_CHECK(sl_factor_solve_interleaved(y.F, X, R, B, R, nrhs, full.W));
+                SL_CHECK(sl_plan_solve(P, y.F, X, ld, B, ld, nrhs, planned.W));
+                SL_CHECK(sl_plan_solve_interleaved(P, y.F, X, R, B, R, nrhs, planned.W));
+            }
+            reserved_end(&full);
+            reserved_end(&planned);
+            sl_plan_free(P);
+        }
+        free(set);
+        free(X);
+        free(B);
+        factored_free(&y);
+    }
+}
+
+/* The same sets. Fewer rows may need more: two equal reaches share their vector. */
 static void local_solves(void **state) {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -95,25 +116,22 @@ static void local_solves(void **state) {
         for (int pair = 0; pair < 25; pair++) {
             sl_int nb = sizes[pair / 5], nx = sizes[pair % 5], most = 1 + pair % R;
             sl_int *bset = test_ints((size_t)nb + 1), *xset = test_ints((size_t)nx + 1);
-            double *B = test_reals(((size_t)nb + 1) * R), *X = test_reals(((size_t)nx + 1) * R);
+            const size_t ldb = (size_t)nb + 1, ldx = (size_t)nx + 1;
+            double *B = test_reals(ldb * R), *X = test_reals(ldx * R);
             reserved_t r;
-            gen_reals(B, ((size_t)nb + 1) * R, 9);
+            gen_reals(B, ldb * R, 9);
+            for (sl_int k = 0; k < nb; k++) {
+                bset[k] = gen_below(&seed, n);
+            }
+            for (sl_int k = 0; k < nx; k++) {
+                xset[k] = gen_below(&seed, n);
+            }
             reserved_begin(&r);
-            SL_CHECK(sl_work_reserve_local(r.W, y.S, nb, nx, most));
+            RESERVE_FOR(r.W, NULL,
+                        sl_local_solve(y.F, bset, nb, xset, nx, X, ldx, B, ldb, most, trial, NULL));
             reserved_done(&r);
-            for (int turn = 0; turn < 6; turn++) {
-                sl_int b = turn ? gen_below(&seed, nb + 1) : nb;
-                sl_int x = turn ? gen_below(&seed, nx + 1) : nx;
-                sl_int nrhs = turn ? gen_below(&seed, most + 1) : most;
-                for (sl_int k = 0; k < b; k++) {
-                    bset[k] = gen_below(&seed, n);
-                }
-                for (sl_int k = 0; k < x; k++) {
-                    xset[k] = gen_below(&seed, n);
-                }
-                SL_CHECK(sl_local_solve(y.F, turn == 1 && nb == n ? NULL : bset, b,
-                                        turn < 3 && nx == n ? NULL : xset, x, X, (size_t)nx + 1, B,
-                                        (size_t)nb + 1, nrhs, r.W, NULL));
+            for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
+                SL_CHECK(sl_local_solve(y.F, bset, nb, xset, nx, X, ldx, B, ldb, nrhs, r.W, NULL));
             }
             reserved_end(&r);
             free(bset);
@@ -125,7 +143,7 @@ static void local_solves(void **state) {
     }
 }
 
-/* No rows at all need no bytes. */
+/* No rows at all. */
 static void no_rows_need_no_workspace(void **state) {
     (void)state;
     const sl_int p[1] = {0};
@@ -135,7 +153,6 @@ static void no_rows_need_no_workspace(void **state) {
     double x = 7.0;
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     SL_CHECK(sl_work_create(&W, NULL));
-    SL_CHECK(sl_work_reserve_local(W, S, 0, 0, 0));
     sl_factor *F;
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
     SL_CHECK(sl_local_solve(F, NULL, 0, NULL, 0, &x, 1, &x, 1, 0, W, NULL));
@@ -143,23 +160,6 @@ static void no_rows_need_no_workspace(void **state) {
     sl_factor_free(F);
     sl_work_free(W);
     sl_symbolic_free(S);
-}
-
-/* Few rows of a large grid: far less than the whole. */
-static void the_bound_on_local_solves_is_local(void **state) {
-    (void)state;
-    factored_t y = factored_make(GEN_GRID2, 40000, 1, 0, NULL);
-    sl_work *few = NULL, *all = NULL;
-    SL_CHECK(sl_work_create(&few, NULL));
-    SL_CHECK(sl_work_create(&all, NULL));
-    SL_CHECK(sl_work_reserve_local(few, y.S, 1, 1, 1));
-    SL_CHECK(sl_work_reserve_local(all, y.S, 40000, 40000, 1));
-    print_message("one row: %lu bytes, all rows: %lu bytes\n", (unsigned long)sl_work_bytes(few),
-                  (unsigned long)sl_work_bytes(all));
-    assert_true(sl_work_bytes(few) < sl_work_bytes(all) / 20);
-    sl_work_free(few);
-    sl_work_free(all);
-    factored_free(&y);
 }
 
 /* A regularized factor: b in its regularized rows only, and in all rows. */
@@ -182,7 +182,8 @@ static void refined_local_solves(void **state) {
         for (sl_int most = 0; most <= R; most++) {
             reserved_t r;
             reserved_begin(&r);
-            SL_CHECK(sl_work_reserve_refined(r.W, P, most));
+            RESERVE_FOR(r.W, NULL,
+                        sl_plan_solve_refined(P, F, X, 240, B, 240, most, 3, trial, NULL));
             reserved_done(&r);
             for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
                 SL_CHECK(sl_plan_solve_refined(P, F, X, 240, B, 240, nrhs, 3, r.W, NULL));
@@ -197,50 +198,67 @@ static void refined_local_solves(void **state) {
     kkt_free(&y);
 }
 
-static void wrong_arguments(void **state) {
+/* A workspace never shrinks, has what was asked for, and keeps what it has on an error. */
+static void reserving(void **state) {
+    (void)state;
+    counter_t counter = counter_make();
+    const sl_options opt = options_counted(&counter);
+    sl_work *W = NULL;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve(NULL, 1));
+    assert_int_equal(sl_work_bytes(NULL), 0);
+    SL_CHECK(sl_work_create(&W, &opt));
+    const size_t made = counter.calls;
+    SL_CHECK(sl_work_reserve(W, 0));
+    assert_int_equal(sl_work_bytes(W), 0);
+    assert_int_equal(counter.calls, made);
+    SL_CHECK(sl_work_reserve(W, 1000));
+    assert_int_equal(sl_work_bytes(W), 1000);
+    SL_CHECK(sl_work_reserve(W, 999));
+    assert_int_equal(sl_work_bytes(W), 1000);
+    assert_int_equal(counter.calls, made + 1);
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_work_reserve(W, SIZE_MAX));
+    SL_EXPECT(SL_ERR_MEMORY, sl_work_reserve(W, SIZE_MAX - 1));
+    counter.fail_at = (int64_t)counter.calls;
+    SL_EXPECT(SL_ERR_MEMORY, sl_work_reserve(W, 1001));
+    assert_int_equal(sl_work_bytes(W), 1000);
+    counter.fail_at = -1;
+    SL_CHECK(sl_work_reserve(W, 1001));
+    assert_int_equal(sl_work_bytes(W), 1001);
+    sl_work_free(W);
+    COUNTER_CLEAN(&counter);
+}
+
+/* Solves of no x need nothing. */
+static void no_x_needs_no_workspace(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
-    sl_work *W = NULL;
-    sl_plan *P = NULL;
-    SL_CHECK(sl_work_create(&W, NULL));
-    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
     const sl_int none[1] = {0};
+    const size_t n = (size_t)y.M.view.n_cols;
+    double *B = test_reals(n * 3), x = 7.0;
+    sl_work *W = NULL;
     sl_plan *empty = NULL;
+    gen_reals(B, n * 3, 2);
+    SL_CHECK(sl_work_create(&W, NULL));
     SL_CHECK(sl_plan_create(&empty, y.S, NULL, 0, none, 0, NULL, NULL));
-    SL_CHECK(sl_work_reserve_plan(W, empty, 3)); /* a solve of no x needs nothing */
-    SL_CHECK(sl_work_reserve_refined(W, empty, 3));
+    SL_CHECK(sl_plan_solve(empty, y.F, &x, 1, B, n, 3, W));
+    SL_CHECK(sl_plan_solve_refined(empty, y.F, &x, 1, B, n, 3, 2, W, NULL));
     assert_int_equal(sl_work_bytes(W), 0);
+    assert_true(x == 7.0);
     sl_plan_free(empty);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refine(NULL, y.F, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refine(W, NULL, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refine(W, y.F, -1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refined(NULL, P, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refined(W, NULL, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_refined(W, P, -1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_rcond(NULL, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_rcond(W, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_defects(NULL, y.F, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_defects(W, NULL, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_defects(W, y.F, -1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_local(NULL, y.S, 1, 1, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_local(W, NULL, 1, 1, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_local(W, y.S, -1, 1, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_local(W, y.S, 1, -1, 1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_work_reserve_local(W, y.S, 1, 1, -1));
-    assert_int_equal(sl_work_bytes(W), 0);
-    sl_plan_free(P);
     sl_work_free(W);
+    free(B);
     factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refine_rcond_defects),
+        cmocka_unit_test(full_and_planned_solves),
         cmocka_unit_test(local_solves),
         cmocka_unit_test(no_rows_need_no_workspace),
-        cmocka_unit_test(the_bound_on_local_solves_is_local),
         cmocka_unit_test(refined_local_solves),
-        cmocka_unit_test(wrong_arguments),
+        cmocka_unit_test(reserving),
+        cmocka_unit_test(no_x_needs_no_workspace),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

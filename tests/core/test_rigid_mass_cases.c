@@ -1,6 +1,7 @@
 /* test_rigid_mass_cases.c: options.mass with several null vectors: which weights are refused, their
  * size, supports, memory */
 #include "tests/lib/rigid_mass.h"
+#include "tests/lib/reserved.h"
 
 /* Weights that do not fix all motions are refused with a row of the body, and so is a null pivot
  * whose null vector is not known. */
@@ -254,7 +255,7 @@ static void every_allocation_may_fail(void **state) {
             if (done) {
                 counter.fail_at = -1;
                 SL_CHECK(sl_work_create(&W, FOR_OTHERS(&opt)));
-                SL_CHECK(sl_work_reserve_factor(W, F, 1));
+                RESERVE_FOR(W, NULL, sl_factor_solve(F, f.x, f.n, f.b, f.n, 1, trial));
                 const size_t calls = counter.calls;
                 SL_CHECK(sl_factor_refactor(F, &f.y.A, NULL));
                 SL_CHECK(sl_factor_solve(F, f.x, f.n, f.b, f.n, 1, W));

@@ -18,7 +18,6 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
     if (got->selected != NULL) {
         sl_work *W = NULL;
         SL_CHECK(sl_work_create(&W, NULL));
-        SL_CHECK(sl_work_reserve_selected(W, got->selected));
         SL_EXPECT(expected, sl_selected_refactor(got->selected, F, W));
         sl_work_free(W);
     }

@@ -1,6 +1,7 @@
 /* test_threads_solve.c: full solves by several threads: the same bits, errors and memory */
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
 #include "tests/lib/threads.h"
+#include "tests/lib/reserved.h"
 
 /* Full solves with the threads of the workspace: one right-hand side by subtrees, many by blocks.
  * After a reserve call they allocate nothing. */
@@ -27,7 +28,9 @@ static void solves_give_the_same_bits(void **state) {
                 opt.method = SL_METHOD_AUTO;
                 opt.allocator = options_counted(&counter).allocator;
                 SL_CHECK(sl_work_create(&W, &opt));
-                SL_CHECK(sl_work_reserve_factor(W, y.F, nrhs));
+                RESERVE_FOR(W, &opt, sl_factor_solve(y.F, X, n, B, n, nrhs, trial));
+                RESERVE_FOR(W, &opt, sl_factor_solve(y.F, X, n, B, n, 1, trial));
+                calls = 0;
                 const size_t before = counter.calls;
                 SL_CHECK(sl_factor_solve(y.F, one, n, B, n, nrhs, NULL));
                 SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, W));
@@ -81,7 +84,7 @@ static void check_workers(const sl_factor *F, const sl_plan *P, size_t n, sl_int
         none.allocator = options_counted(&counter).allocator;
         SL_CHECK(sl_work_create(&W, &none));
         counter.fail_at = (int64_t)counter.calls;
-        SL_EXPECT(SL_ERR_MEMORY, sl_work_reserve_factor(W, F, nrhs));
+        SL_EXPECT(SL_ERR_MEMORY, sl_factor_solve(F, X, n, B, n, nrhs, W));
         sl_work_free(W);
         COUNTER_CLEAN(&counter);
     }

@@ -1,5 +1,6 @@
 /* test_wide.c: blocks of 16 and 32 right-hand sides have the bits of blocks of 8 */
 #include "tests/lib/factored.h"
+#include "tests/lib/reserved.h"
 
 enum { MOST = 59, PAD = 3 };
 
@@ -37,7 +38,9 @@ static void check_query(const sl_plan *P, const sl_factor *F, sl_int nb, sl_int 
     }
     solve_by_eight(P, F, Y, ldx, B, ldb, nrhs);
     SL_CHECK(sl_work_create(&W, NULL));
-    SL_CHECK(P ? sl_work_reserve_plan(W, P, nrhs) : sl_work_reserve_factor(W, F, nrhs));
+    RESERVE_FOR(W, NULL,
+                P ? sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, trial)
+                  : sl_factor_solve(F, X, ldx, B, ldb, nrhs, trial));
     const size_t bytes = sl_work_bytes(W);
     SL_CHECK(P ? sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W)
                : sl_factor_solve(F, X, ldx, B, ldb, nrhs, W));

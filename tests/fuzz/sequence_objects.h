@@ -231,8 +231,8 @@ static void select_pairs(input_t *in) {
     }
 }
 
-/* What is reserved for selected inverses and regions suffices: their refactorizations allocate
- * nothing. */
+/* Refactorizations of selected inverses and regions allocate nothing in a workspace that has what
+ * the first of them took. */
 static void reserve_others(input_t *in) {
     const selected_t *z = &selected[take(in) % SELECTED];
     const region_t *r = &regions[take(in) % REGIONS];
@@ -241,7 +241,7 @@ static void reserve_others(input_t *in) {
             const factor_t *f = &factors[k];
             if (f->F && f->is_valid && f->analysis == z->analysis && f->is_float == z->is_float &&
                 memcmp(f->v.a, z->a, sizeof z->a) == 0) {
-                const sl_status status = sl_work_reserve_selected(work, z->Z);
+                const sl_status status = sl_selected_refactor(z->Z, f->F, work);
                 PROMISE(status == SL_OK || no_memory(status));
                 if (status == SL_OK) {
                     left = 0;
@@ -261,7 +261,7 @@ static void reserve_others(input_t *in) {
         PROMISE(v.symbolic == analyses[r->analysis].S && v.n_boundary == stats.region.boundary);
         if (f->F && f->is_valid && f->analysis == r->analysis &&
             memcmp(f->v.a, r->a, sizeof r->a) == 0 && !f->has_mass) {
-            PROMISE(sl_work_reserve_region(work, r->R, f->F) == SL_OK);
+            PROMISE(sl_region_refactor(r->R, f->F, NULL, work) == SL_OK);
             left = 0;
             has_failed = 0;
             PROMISE(sl_region_refactor(r->R, f->F, NULL, work) == SL_OK && !has_failed);

@@ -152,53 +152,59 @@ static void solve(input_t *in) {
     }
 }
 
-/* What a reserve call has reserved for is solved without an allocation. */
+/* Solves, entries and estimates of the right-hand side 0, so that it is consistent. p: NULL, or a
+ * plan of the analysis. Returns the first status of a call that lacked memory. */
+static sl_status solve_zeros(const factor_t *f, const plan_t *p, sl_int nrhs, sl_work *W) {
+    const sl_csc A = view(&analyses[f->analysis], f->v.x);
+    double B[SET * RHS], X[SET * RHS], full[MOST * RHS], rcond;
+    sl_stats stats;
+    sl_status status[7] = {SL_OK};
+    memset(X, 0, sizeof X);
+    memset(B, 0, sizeof B);
+    memset(full, 0, sizeof full);
+    status[0] = sl_factor_solve(f->F, full, MOST, full, MOST, nrhs, W);
+    status[1] = sl_factor_refine(f->F, &A, X, SET, B, SET, nrhs, 0, W, &stats);
+    status[2] = sl_factor_rcond(f->F, &A, &rcond, W);
+    status[3] = sl_inverse_diagonal(f->F, X, NULL, 0, W, NULL);
+    if (A.n_cols > 0) {
+        const sl_int row = A.n_cols / 2;
+        status[4] = sl_local_solve(f->F, &row, 1, NULL, A.n_cols, X, SET, B, SET, nrhs, W, NULL);
+    }
+    if (p != NULL) {
+        status[5] = sl_plan_solve(p->P, f->F, X, SET, B, SET, nrhs, W);
+        status[6] = sl_plan_solve_refined(p->P, f->F, X, SET, B, SET, nrhs, 2, W, NULL);
+    }
+    for (int k = 0; k < 7; k++) {
+        if (no_memory(status[k])) {
+            return SL_ERR_MEMORY;
+        }
+        PROMISE(status[k] == SL_OK || (k >= 5 && p->region >= 0 && status[k] == SL_ERR_STATE));
+    }
+    return SL_OK;
+}
+
+/* With what calls took in another workspace reserved, they allocate nothing. */
 static void reserve(input_t *in) {
     const plan_t *p = &plans[take(in) % PLANS];
     const factor_t *f = &factors[take(in) % FACTORS];
     const sl_int nrhs = take(in) % (RHS + 1);
-    double B[SET * RHS], X[SET * RHS], full[MOST * RHS], rcond;
-    sl_stats stats;
-    memset(X, 0, sizeof X);
+    const sl_options opt = options();
+    sl_work *trial = NULL;
     if (!f->F || !f->is_valid) {
         return;
     }
-    const sl_csc A = view(&analyses[f->analysis], f->v.x);
-    sl_status status = sl_work_reserve_factor(work, f->F, nrhs);
-    status = status ? status : sl_work_reserve_refine(work, f->F, nrhs);
-    status = status ? status : sl_work_reserve_rcond(work, f->F);
-    status = status ? status : sl_work_reserve_defects(work, f->F, nrhs);
-    status = status ? status : sl_work_reserve_inverse(work, f->F, SET);
-    status = status ? status : sl_work_reserve_block(work, f->F, SET, SET);
-    status = status ? status : sl_work_reserve_local(work, analyses[f->analysis].S, 1, MOST, nrhs);
-    const int is_planned = p->P && p->analysis == f->analysis;
-    status = status || !is_planned ? status : sl_work_reserve_plan(work, p->P, nrhs);
-    status = status || !is_planned ? status : sl_work_reserve_refined(work, p->P, nrhs);
-    PROMISE(status == SL_OK || no_memory(status));
-    if (status != SL_OK) {
+    p = p->P && p->analysis == f->analysis ? p : NULL;
+    sl_status status = sl_work_create(&trial, &opt);
+    status = status ? status : solve_zeros(f, p, nrhs, trial);
+    status = status ? status : sl_work_reserve(work, sl_work_bytes(trial));
+    sl_work_free(trial);
+    if (no_memory(status)) {
         return;
     }
     const size_t bytes = sl_work_bytes(work);
     left = 0;
     has_failed = 0;
-    memset(full, 0, sizeof full);
-    memset(B, 0, sizeof B);
-    PROMISE(sl_factor_solve(f->F, full, MOST, full, MOST, nrhs, work) == SL_OK);
-    memset(full, 0, sizeof full);
-    PROMISE(sl_factor_refine(f->F, &A, X, SET, B, SET, nrhs, 0, work, &stats) == SL_OK);
-    PROMISE(sl_factor_rcond(f->F, &A, &rcond, work) == SL_OK);
-    PROMISE(sl_inverse_diagonal(f->F, X, NULL, 0, work, NULL) == SL_OK);
-    if (A.n_cols > 0) {
-        const sl_int row = A.n_cols / 2;
-        PROMISE(sl_local_solve(f->F, &row, 1, NULL, A.n_cols, X, SET, B, SET, nrhs, work, NULL) ==
-                SL_OK);
-    }
-    if (is_planned) {
-        status = sl_plan_solve(p->P, f->F, X, SET, B, SET, nrhs, work);
-        PROMISE(status == SL_OK || (p->region >= 0 && status == SL_ERR_STATE));
-        status = sl_plan_solve_refined(p->P, f->F, X, SET, B, SET, nrhs, 2, work, NULL);
-        PROMISE(status == SL_OK || (p->region >= 0 && status == SL_ERR_STATE));
-    }
+    PROMISE(solve_zeros(f, p, nrhs, work) == SL_OK);
     PROMISE(!has_failed && sl_work_bytes(work) == bytes);
 }
 

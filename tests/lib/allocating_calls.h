@@ -170,12 +170,9 @@ static sl_status use_local(fixture_t *f, sl_work *W) {
     return sl_local_solve(f->y.F, f->bset, 20, f->xset, 30, f->X, 30, f->B, 20, 3, W, NULL);
 }
 
-static sl_status use_reserve_factor(fixture_t *f, sl_work *W) {
-    return sl_work_reserve_factor(W, f->y.F, 3);
-}
-
-static sl_status use_reserve_plan(fixture_t *f, sl_work *W) {
-    return sl_work_reserve_plan(W, f->P, 3);
+static sl_status use_reserve(fixture_t *f, sl_work *W) {
+    (void)f;
+    return sl_work_reserve(W, 4096);
 }
 
 /* A small solve first, then a larger one that has to grow the workspace. */
@@ -193,8 +190,7 @@ static sl_status use_growing(fixture_t *f, sl_work *W) {
 IN_WORK(full_solve, use_full)
 IN_WORK(plan_solve, use_plan)
 IN_WORK(local_solve, use_local)
-IN_WORK(reserve_factor, use_reserve_factor)
-IN_WORK(reserve_plan, use_reserve_plan)
+IN_WORK(reserve, use_reserve)
 IN_WORK(growing, use_growing)
 
 /* W == NULL: the scratch of one call comes from the allocator of the factor. */

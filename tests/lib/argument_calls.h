@@ -208,11 +208,7 @@ CALL(selected_refactor, sl_selected_refactor(a->Z, a->F, NULL))
 CALL(selected_diagonal, sl_selected_diagonal(a->Z, a->X, a->xset, a->nx, &a->stats))
 CALL(selected_entries, sl_selected_entries(a->Z, a->X, a->xset, a->xset, a->nx, &a->stats))
 CALL(region_refactor, sl_region_refactor(a->R, a->F, NULL, NULL))
-CALL(reserve_factor, sl_work_reserve_factor(a->W, a->F, a->nrhs))
-CALL(reserve_plan, sl_work_reserve_plan(a->W, a->P, a->nrhs))
-CALL(reserve_refine, sl_work_reserve_refine(a->W, a->F, a->nrhs))
-CALL(reserve_selected, sl_work_reserve_selected(a->W, a->Z))
-CALL(reserve_region, sl_work_reserve_region(a->W, a->R, a->F))
+CALL(reserve, sl_work_reserve(a->W, 64))
 ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset[0], &a->stats))
 ON_PINS(pins_add_rows, 1, sl_pins_add_rows(pins, a->xset, a->nx, &a->stats))
 ON_PINS(pins_equality, 1, sl_pins_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
@@ -299,11 +295,7 @@ static const struct {
     {"sl_save_set_file", save_set_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
     {"sl_batch_diagonal", batch_diagonal, F_ | FAILED_ | X_ | LDX_ | XSET_},
-    {"sl_work_reserve_factor", reserve_factor, W_ | F_ | NRHS_},
-    {"sl_work_reserve_plan", reserve_plan, W_ | P_ | NRHS_},
-    {"sl_work_reserve_refine", reserve_refine, W_ | F_ | NRHS_},
-    {"sl_work_reserve_selected", reserve_selected, W_ | Z_},
-    {"sl_work_reserve_region", reserve_region, W_ | F_ | OTHER_ | R_},
+    {"sl_work_reserve", reserve, W_},
 };
 
 #endif

@@ -27,11 +27,6 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
     }
 }
 
-SL_API sl_status sl_work_reserve_defects(sl_work *W, const sl_factor *F, sl_int nrhs) {
-    /* a forward sweep needs the vectors of a full solve */
-    return sl_work_reserve_factor(W, F, nrhs);
-}
-
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
                                    size_t ldb, sl_int nrhs, sl_work *W) {
     sli_block b = {NULL, 0, 0};

@@ -275,34 +275,4 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
     return SL_OK;
 }
 
-/* Grows W to what calls on one of two reaches need. */
-static sl_status sli_parts_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-    const sli_reach *const reaches[2] = {&q->forward, &q->backward};
-    sl_status status = SL_OK;
-    int k;
-    for (k = 0; k < 2 && nrhs > 0 && status == SL_OK; k++) {
-        sli_block b = {NULL, 0, 0};
-        sli_parts p;
-        memset(&p, 0, sizeof p);
-        p.q = sli_parts_query(q, reaches[k], 0, 0);
-        sli_parts_layout(&p, &b, nrhs);
-        status = sli_work_block(W, &b);
-    }
-    return status;
-}
-
-SL_API sl_status sl_work_reserve_part(sl_work *W, const sl_factor *F, sl_int nrhs) {
-    sli_query q;
-    if (W == NULL || F == NULL || nrhs < 0) {
-        return SL_ERR_ARGUMENT;
-    }
-    q = sli_query_all(F->S);
-    return sli_parts_reserve(W, &q, nrhs);
-}
-
-SL_API sl_status sl_work_reserve_plan_part(sl_work *W, const sl_plan *P, sl_int nrhs) {
-    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
-                                              : sli_parts_reserve(W, &P->query, nrhs);
-}
-
 #endif

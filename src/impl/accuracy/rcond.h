@@ -128,17 +128,6 @@ static double sli_inverse_norm(sli_norm_estimate *p) {
     return sum > best || sum != sum ? sum : best;
 }
 
-SL_API sl_status sl_work_reserve_rcond(sl_work *W, const sl_factor *F) {
-    sli_block b = {NULL, 0, 0};
-    sli_norm_estimate p;
-    if (W == NULL || F == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    p.all = sli_reach_all(F->S);
-    sli_norm_estimate_layout(&p, &b);
-    return sli_work_block(W, &b);
-}
-
 SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rcond, sl_work *W) {
     sli_block b = {NULL, 0, 0};
     sl_work own;

@@ -139,18 +139,6 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
                : SL_OK;
 }
 
-SL_API sl_status sl_work_reserve_refine(sl_work *W, const sl_factor *F, sl_int nrhs) {
-    sli_block b = {NULL, 0, 0};
-    sli_refinement f;
-    if (W == NULL || F == NULL || nrhs < 0) {
-        return SL_ERR_ARGUMENT;
-    }
-    memset(&f, 0, sizeof f);
-    f.F = F;
-    sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
-    return nrhs > 0 ? sli_work_block(W, &b) : SL_OK;
-}
-
 SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
                                   const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                                   sl_work *W, sl_stats *stats) {

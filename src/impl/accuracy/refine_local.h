@@ -177,22 +177,6 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
     return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
-SL_API sl_status sl_work_reserve_refined(sl_work *W, const sl_plan *P, sl_int nrhs) {
-    sli_block b = {NULL, 0, 0};
-    sli_local_refinement f;
-    if (W == NULL || P == NULL || nrhs < 0) {
-        return SL_ERR_ARGUMENT;
-    }
-    if (nrhs == 0 || P->query.nx == 0) {
-        return SL_OK;
-    }
-    memset(&f, 0, sizeof f);
-    f.q = &P->query;
-    f.room = sli_min(P->query.forward.columns, P->query.backward.columns);
-    sli_local_refinement_layout(&f, &b, nrhs);
-    return sli_work_block(W, &b);
-}
-
 SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                                        const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                                        sl_work *W, sl_stats *stats) {

@@ -216,13 +216,6 @@ static sl_status sli_inverse_all_pairs(const sl_factor *F, const sl_int *rows, s
     return count == 0 ? SL_OK : sli_inverse_block_run(&q, W, NULL);
 }
 
-/* Grows W to what that call needs. */
-static sl_status sli_inverse_all_pairs_prepare(const sl_factor *F, const sl_int *rows, sl_int count,
-                                               sl_work *W) {
-    sli_inverse_block q = sli_inverse_all_pairs_of(F, rows, count);
-    return count == 0 ? SL_OK : sli_work_stages(W, sli_inverse_block_stages, 2, &q);
-}
-
 SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, const sl_int *rows,
                                   sl_int n_rows, const sl_int *columns, sl_int n_columns,
                                   sl_work *W, sl_stats *stats) {

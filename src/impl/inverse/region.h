@@ -216,15 +216,6 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
     return status;
 }
 
-SL_API sl_status sl_work_reserve_region(sl_work *W, const sl_region *R, const sl_factor *F) {
-    if (W == NULL || R == NULL || F == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    return sli_factor_is_over(F, R->S, R->analysis)
-               ? sli_inverse_all_pairs_prepare(F, R->requested, R->extent.n_rows, W)
-               : SL_ERR_STATE;
-}
-
 SL_API void sl_region_free(sl_region *R) {
     if (R != NULL) {
         const sl_allocator a = R->allocator;

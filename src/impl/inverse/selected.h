@@ -13,7 +13,6 @@ struct sl_selected {
     sl_threads threads;
     sli_hash analysis;       /* the identity of the traversal's analysis */
     sli_numbers numbers;     /* Z is the inverse of these */
-    sl_storage storage;      /* of their factor */
     sli_traversal traversal; /* of the supernodes that are kept */
     sl_off *begin;           /* count + 1: offsets of the panels, in doubles */
     double *Z;
@@ -76,7 +75,6 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
     memset(&draft, 0, sizeof draft);
     draft.allocator = sli_allocator(opt);
     draft.analysis = S->identity;
-    draft.storage = F->type->storage;
     draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
     for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
         seeds = SLI_TAKE(&b, uint64_t, count);
@@ -141,7 +139,6 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     if (status == SL_OK) {
         sli_traverse(&run);
         Z->numbers = sli_numbers_of(F);
-        Z->storage = F->type->storage;
         Z->seconds = sli_seconds() - started;
     }
     sli_free(&own.allocator, own.block);
@@ -203,16 +200,6 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
         return SL_ERR_STATE;
     }
     return sli_selected_fill(Z, F, W);
-}
-
-SL_API sl_status sl_work_reserve_selected(sl_work *W, const sl_selected *Z) {
-    sli_traversal_run run;
-    sli_block b = {NULL, 0, 0};
-    if (W == NULL || Z == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    sli_traversal_layout_run(&run, &Z->traversal, Z->storage, &b);
-    return sli_work_grow(W, b.used);
 }
 
 SL_API void sl_selected_free(sl_selected *Z) {

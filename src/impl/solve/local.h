@@ -50,10 +50,9 @@ static void sli_local_compile(void *data) {
 
 static void sli_local_layout_vectors(void *data, sli_block *b) {
     sli_local *l = (sli_local *)data;
-    const size_t bytes =
-        l->status == SL_OK && l->nrhs > 0
-            ? sli_vectors_bytes(&l->query, l->nrhs, SLI_BLOCK_MOST)
-            : 0;
+    const size_t bytes = l->status == SL_OK && l->nrhs > 0
+                             ? sli_vectors_bytes(&l->query, l->nrhs, SLI_BLOCK_MOST)
+                             : 0;
     l->memory = (unsigned char *)sli_take(b, bytes, 1);
 }
 
@@ -106,61 +105,6 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     }
     sli_free(&own.allocator, own.block);
     return status;
-}
-
-/* min(count most, all), without overflow. */
-static sl_off sli_times_at_most(sl_off most, sl_int count, sl_off all) {
-    return count > 0 && most > all / count ? all : most * count;
-}
-
-/* An upper bound on the reach of any `count` rows: count times the longest path to a root, but at
- * most the whole tree. Supernodes in descending order are a preorder of the tree, so the path to
- * each one is the path to the one before it, cut back to its parent. O(supernodes) time, no
- * memory. */
-static sli_reach sli_reach_bound(const sl_symbolic *S, sl_int count) {
-    sli_reach R = sli_reach_all(S);
-    sl_off supers = 0, columns = 0, rows = 0, most_supers = 0, most_columns = 0, most_rows = 0;
-    sl_int s, at = -1;
-    for (s = S->n_supers - 1; s >= 0; s--) {
-        for (; at != S->super_parent[s]; at = S->super_parent[at]) {
-            supers--;
-            columns -= S->steps[at].width;
-            rows -= S->steps[at].below;
-        }
-        at = s;
-        supers++;
-        columns += S->steps[s].width;
-        rows += S->steps[s].below;
-        most_supers = supers > most_supers ? supers : most_supers;
-        most_columns = columns > most_columns ? columns : most_columns;
-        most_rows = rows > most_rows ? rows : most_rows;
-    }
-    R.count = (sl_int)sli_times_at_most(most_supers, count, R.count);
-    R.columns = (sl_int)sli_times_at_most(most_columns, count, R.columns);
-    R.n_rows = sli_times_at_most(most_rows, count, R.n_rows);
-    return R;
-}
-
-SL_API sl_status sl_work_reserve_local(sl_work *W, const sl_symbolic *S, sl_int nb, sl_int nx,
-                                       sl_int nrhs) {
-    static const sl_int some_rows = 0; /* never read; a set that is NULL would be all rows */
-    sli_block b = {NULL, 0, 0};
-    sli_local l;
-    if (W == NULL || S == NULL || nb < 0 || nx < 0 || nrhs < 0) {
-        return SL_ERR_ARGUMENT;
-    }
-    memset(&l, 0, sizeof l);
-    l.S = S;
-    l.b = sli_set_of(S, &some_rows, nb);
-    l.x = sli_set_of(S, &some_rows, nx);
-    l.nrhs = nrhs;
-    l.query.forward = sli_reach_bound(S, nb);
-    l.query.backward = sli_reach_bound(S, nx);
-    sli_local_layout_seeds(&l, &b);
-    sli_local_layout_reaches(&l, &b);
-    sli_local_layout_vectors(&l, &b);
-    b.used = b.used > 0 ? b.used : 1;
-    return sli_work_block(W, &b);
 }
 
 #endif

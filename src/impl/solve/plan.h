@@ -102,9 +102,4 @@ SL_API sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F,
                : sli_solve(F, &P->query, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
-SL_API sl_status sl_work_reserve_plan(sl_work *W, const sl_plan *P, sl_int nrhs) {
-    return W == NULL || P == NULL || nrhs < 0 ? SL_ERR_ARGUMENT
-                                              : sli_work_reserve(W, &P->query, nrhs);
-}
-
 #endif

@@ -199,25 +199,4 @@ SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size
     return sli_solve(F, &q, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
 }
 
-/* Grows W to what solves of a query need. */
-static sl_status sli_work_reserve(sl_work *W, const sli_query *q, sl_int nrhs) {
-    return sli_work_grow(W, nrhs > 0 && q->nx > 0 ? sli_vectors_bytes(q, nrhs, SLI_BLOCK_MOST) : 0);
-}
-
-SL_API sl_status sl_work_reserve_factor(sl_work *W, const sl_factor *F, sl_int nrhs) {
-    sli_query q;
-    sl_status status = SL_OK;
-    sl_int r;
-    if (W == NULL || F == NULL || nrhs < 0) {
-        return SL_ERR_ARGUMENT;
-    }
-    q = sli_query_all(F->S);
-    for (r = 0; r < sli_min(nrhs, 2) && status == SL_OK; r++) { /* 1 and nrhs */
-        sli_sweep_tasks t;
-        sli_sweep_tasks_plan(&t, F, &q, r == 0 ? 1 : nrhs, &W->threads);
-        status = sli_work_grow(W, t.workers > 1 ? t.total : 0);
-    }
-    return status == SL_OK ? sli_work_reserve(W, &q, nrhs) : status;
-}
-
 #endif

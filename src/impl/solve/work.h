@@ -8,7 +8,7 @@
 struct sl_work {
     sl_allocator allocator;
     sl_threads threads; /* of full solves */
-    void *block; /* size bytes, 64-byte aligned; contents live for one call */
+    void *block;        /* size bytes, 64-byte aligned; contents live for one call */
     size_t size;
 };
 
@@ -108,6 +108,10 @@ SL_API void sl_work_free(sl_work *W) {
 
 SL_API size_t sl_work_bytes(const sl_work *W) {
     return W == NULL ? 0 : W->size;
+}
+
+SL_API sl_status sl_work_reserve(sl_work *W, size_t bytes) {
+    return W == NULL ? SL_ERR_ARGUMENT : sli_work_grow(W, bytes);
 }
 
 #endif
