@@ -1,110 +1,110 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 520c276d1461b069
+ * FNV-1a of the lines after this comment, without the license: d00bcdfddf594846
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
  *    112 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    181 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    214 config.h     macros that a user may define before the include, the version, and the integer types
- *    292 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    462 options.h    options of all calls, threads, and the allocator
- *    602 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    799 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    971 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1109 factor.h     the numerical factorization P A P' = L D L'
- *   1398 solve.h      full solves, and the workspace of all solves
- *   1493 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1588 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1687 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1811 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1910 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   2018 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2125 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2175 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2366 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
- *   2505 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
- *   2641 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2734 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2886 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2941 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   3044 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *    182 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    215 config.h     macros that a user may define before the include, the version, and the integer types
+ *    293 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    463 options.h    options of all calls, threads, and the allocator
+ *    603 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    800 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1110 factor.h     the numerical factorization P A P' = L D L'
+ *   1399 solve.h      full solves, and the workspace of all solves
+ *   1492 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1570 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1669 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1793 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1892 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   2000 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2107 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2146 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2336 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
+ *   2475 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
+ *   2611 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2704 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2856 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2911 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   3014 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3194 base.h   3490 status.h   3551 options.h   3612 alloc.h   3775 hash.h   3905 sort.h
- *   3970 parallel.h
+ *   3164 base.h   3464 status.h   3525 options.h   3586 alloc.h   3749 hash.h   3879 sort.h
+ *   3944 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4160 panel.h   4185 step.h   4264 pivot_rule.h   4338 front.h   4398 pairs.h   4605 table.h
- *   4621 simd.h   4724 simd_scalar.h   4751 simd_avx2.h   4818 simd_avx512.h   4850 simd_neon.h
- *   4880 dispatch.h
+ *   4134 panel.h   4159 step.h   4238 pivot_rule.h   4312 front.h   4372 pairs.h   4579 table.h
+ *   4595 simd.h   4698 simd_scalar.h   4725 simd_avx2.h   4792 simd_avx512.h   4824 simd_neon.h
+ *   4854 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4994 csc.h   5137 csc_build.h   5271 csc_triangle.h   5336 csc_products.h   5453 permute.h
+ *   4968 csc.h   5111 csc_build.h   5245 csc_triangle.h   5310 csc_products.h   5427 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5520 graph.h   5691 job.h   5727 reduce.h   6032 contract.h   6213 coarsen.h   6427 labels.h
- *   6653 subgraph.h   6847 bisect.h   7115 separator.h   7377 mindeg.h   7560 dissection.h
- *   7770 dissect.h   8024 levelset.h   8161 thin.h   8430 nd.h   8694 compress.h   8848 metis.h
- *   8978 levels.h   9052 quotient.h   9386 quotient_order.h   9480 choice.h   9652 order.h
+ *   5494 graph.h   5665 job.h   5701 reduce.h   6006 contract.h   6187 coarsen.h   6401 labels.h
+ *   6627 subgraph.h   6821 bisect.h   7089 separator.h   7351 mindeg.h   7534 dissection.h
+ *   7744 dissect.h   7998 levelset.h   8135 thin.h   8404 nd.h   8668 compress.h   8822 metis.h
+ *   8952 levels.h   9026 quotient.h   9360 quotient_order.h   9454 choice.h   9626 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9856 symbolic_types.h   9899 etree.h  10096 supernodes.h  10354 pattern.h  10435 structure.h
- *  10606 schedule.h  10937 symbolic.h  11425 reach.h
+ *   9830 symbolic_types.h   9873 etree.h  10070 supernodes.h  10328 pattern.h  10409 structure.h
+ *  10580 schedule.h  10911 symbolic.h  11399 reach.h
  * (factor: the numbers of L and D)
- *  11701 factor_types.h  11891 storage_type.h  11956 panel_load.h  11997 pivot_check.h
- *  12101 null_product.h  12305 null_dense.h  12382 null_basis.h  12702 null_vectors.h
- *  12829 multifrontal.h  12972 uplooking.h  13046 front_tasks.h  13360 null_center.h
- *  13484 nullspace.h  13691 growth.h  13769 factor_setup.h  14105 factor.h  14320 factor_query.h
+ *  11675 factor_types.h  11865 storage_type.h  11930 panel_load.h  11971 pivot_check.h
+ *  12075 null_product.h  12279 null_dense.h  12356 null_basis.h  12676 null_vectors.h
+ *  12803 multifrontal.h  12946 uplooking.h  13020 front_tasks.h  13334 null_center.h
+ *  13458 nullspace.h  13665 growth.h  13743 factor_setup.h  14079 factor.h  14294 factor_query.h
  * (solve: full and local solves)
- *  14456 work.h  14560 query.h  14799 singular.h  15059 backward.h  15089 sweep_tasks.h
- *  15420 sweep.h  15600 compile.h  15735 plan.h  15832 local.h
+ *  14430 work.h  14534 query.h  14789 singular.h  15049 backward.h  15079 sweep_tasks.h
+ *  15410 sweep.h  15578 compile.h  15713 plan.h  15801 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  15935 parts.h  16195 refine.h  16362 refine_local.h  16562 rcond.h  16710 defects.h
+ *  15903 parts.h  16163 refine.h  16330 refine_local.h  16529 rcond.h  16677 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  16767 pivot_search.h  17113 pivoted.h
+ *  16733 pivot_search.h  17079 pivoted.h
  * (float: L and fronts in single precision)
- *  17185 simd_scalar_single.h  17216 simd_avx2_single.h  17273 simd_avx512_single.h
- *  17328 simd_neon_single.h  17373 float_kernels.h  17471 float_storage.h
+ *  17151 simd_scalar_single.h  17182 simd_avx2_single.h  17239 simd_avx512_single.h
+ *  17294 simd_neon_single.h  17339 float_kernels.h  17437 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  17636 inverse_front.h  17708 inverse_kernels.h  17780 traversal.h  18034 traversal_run.h
- *  18243 row_sets.h  18277 unit_vectors.h  18498 bilinear.h  18670 entries.h  18947 block.h
- *  19176 selected.h  19373 selected_query.h  19475 region_types.h  19575 region_choose.h
- *  19802 region_ending.h  19918 region.h
+ *  17602 inverse_front.h  17674 inverse_kernels.h  17746 traversal.h  18000 traversal_run.h
+ *  18209 row_sets.h  18243 unit_vectors.h  18464 bilinear.h  18636 entries.h  18913 block.h
+ *  19143 selected.h  19340 selected_query.h  19442 region_types.h  19542 region_choose.h
+ *  19769 region_ending.h  19885 region.h
  * (change: a factor that follows changes of its matrix)
- *  20160 change_kernels.h  20233 gather.h  20281 kept.h  20438 leftlooking.h  20607 update_pivots.h
- *  20778 update.h  21012 path.h  21114 rank.h  21506 edges.h  21660 choose.h  21910 pins_types.h
- *  21976 pins_nulls.h  22157 pins_capacitance.h  22423 pins_rows.h  22543 pins_balance.h
- *  22705 pins_held.h  22933 pins_choose.h  22999 pins_rebuild.h  23222 pins_matrix.h  23373 pins.h
- *  23635 pins_solve.h  23910 subset.h  24063 restrict_kept.h  24261 restrict_analysis.h
- *  24506 restrict_symbolic.h  24701 restrict.h  24932 edit_match.h  25131 edit_place.h
- *  25380 edit_separate.h  25694 edit_order.h  25857 edit_graph.h  25939 edit_join.h  26215 edit.h
- *  26378 edit_factor.h
+ *  20127 change_kernels.h  20200 gather.h  20248 kept.h  20405 leftlooking.h  20574 update_pivots.h
+ *  20745 update.h  20979 path.h  21081 rank.h  21473 edges.h  21627 choose.h  21877 pins_types.h
+ *  21943 pins_nulls.h  22124 pins_capacitance.h  22390 pins_rows.h  22510 pins_balance.h
+ *  22672 pins_held.h  22900 pins_choose.h  22966 pins_rebuild.h  23189 pins_matrix.h  23340 pins.h
+ *  23602 pins_solve.h  23876 subset.h  24029 restrict_kept.h  24227 restrict_analysis.h
+ *  24472 restrict_symbolic.h  24667 restrict.h  24898 edit_match.h  25097 edit_place.h
+ *  25346 edit_separate.h  25660 edit_order.h  25823 edit_graph.h  25905 edit_join.h  26181 edit.h
+ *  26344 edit_factor.h
  * (io: files that are written and mapped)
- *  26666 output_file.h  26875 file_map.h
+ *  26632 output_file.h  26841 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  26976 csc64.h  27047 text_reader.h  27228 matrix_market.h
+ *  26942 csc64.h  27013 text_reader.h  27194 matrix_market.h
  * (save: factors in files)
- *  27498 format.h  27795 decode.h  27943 check.h  28273 write.h  28581 load.h  28850 load_inverse.h
- *  29180 load_calls.h
+ *  27464 format.h  27761 decode.h  27909 check.h  28239 write.h  28547 load.h  28816 load_inverse.h
+ *  29146 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  29383 matrix_sum.h  29465 scatter.h  29623 combination.h  29683 batch_solve.h
- *  29891 batch_factor.h
+ *  29349 matrix_sum.h  29431 scatter.h  29589 combination.h  29649 batch_solve.h
+ *  29843 batch_factor.h
  * (batch: diagonals of many inverses)
- *  30095 batch_diagonal.h
+ *  30047 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30237 complex_kernels.h  30349 complex_storage.h  30470 hermitian.h  30632 complex_rows.h
+ *  30189 complex_kernels.h  30301 complex_storage.h  30422 hermitian.h  30584 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  30801 storage_types.h
+ *  30753 storage_types.h
  * (last: undefine every internal macro)
- *  30828 undef.h
+ *  30780 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31126 words_scalar.inl.h  31222 change.inl.h  31478 lanes_scalar.inl.h  31510 products.inl.h
- *  31548 inverse_front.inl.h  31853 inverse_set.inl.h  31866 front.inl.h  31868 product.inl.h
- *  32356 complex_groups.inl.h  32447 copy_rows.inl.h  32485 sweeps.inl.h  32487 unit_triangle.inl.h
- *  32524 two_rhs.inl.h  32694 small_supernode.inl.h  32896 single_rhs.inl.h  33136 multi_rhs.inl.h
- *  33199 multi_rhs_small.inl.h  33378 multi_rhs_tiles.inl.h  33617 complex_small.inl.h
- *  33813 complex_rows.inl.h  34036 complex_set.inl.h  34054 float_set.inl.h  34072 kernel_set.inl.h
- *  34074 row.inl.h  34106 interleave.inl.h  34208 lanes_undef.inl.h  34235 words_undef.inl.h
- *  34318 words_avx2.inl.h  34450 lanes_avx2.inl.h  34512 words_avx512.inl.h
- *  34621 lanes_avx512.inl.h  34668 words_neon.inl.h  34817 lanes_neon.inl.h  34896 fronts.inl.h
- *  35127 fronts_undef.inl.h
+ *  31078 words_scalar.inl.h  31174 change.inl.h  31430 lanes_scalar.inl.h  31462 products.inl.h
+ *  31500 inverse_front.inl.h  31805 inverse_set.inl.h  31818 front.inl.h  31820 product.inl.h
+ *  32308 complex_groups.inl.h  32399 copy_rows.inl.h  32437 sweeps.inl.h  32439 unit_triangle.inl.h
+ *  32476 two_rhs.inl.h  32646 small_supernode.inl.h  32848 single_rhs.inl.h  33088 multi_rhs.inl.h
+ *  33151 multi_rhs_small.inl.h  33330 multi_rhs_tiles.inl.h  33569 complex_small.inl.h
+ *  33765 complex_rows.inl.h  33988 complex_set.inl.h  34006 float_set.inl.h  34024 kernel_set.inl.h
+ *  34026 row.inl.h  34058 interleave.inl.h  34160 lanes_undef.inl.h  34187 words_undef.inl.h
+ *  34270 words_avx2.inl.h  34402 lanes_avx2.inl.h  34464 words_avx512.inl.h
+ *  34573 lanes_avx512.inl.h  34620 words_neon.inl.h  34769 lanes_neon.inl.h  34848 fronts.inl.h
+ *  35079 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -136,10 +136,11 @@
  *              parent. nnz counts stored entries.
  * Conventions  Every function that can fail returns sl_status. On error, outputs are NULL or
  *              untouched. Options and stats may be NULL. Dense arguments are column-major with a
- *              leading dimension in elements; the calls named interleaved take row-major ones. Row
+ *              leading dimension in elements; solves take row-major ones, too (SL_ROWS). Row
  *              numbers are the caller's, also in errors. A b-set comes before an x-set, and a
  *              length follows its array. The library never prints or aborts and has no mutable
- *              globals; for METIS, an option, see sl_symbolic_create.
+ *              globals; for METIS, an option, see sl_symbolic_create. What is marked EXPERIMENTAL
+ *              may change in any version; all else keeps its promises from 1.0 on.
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work.
@@ -1397,6 +1398,23 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
 
 /* src/public/solve.h: full solves, and the workspace of all solves */
 
+/** EXPERIMENTAL. A leading dimension of rows: the block is row-major, ld elements from row to row.
+ *
+ *  The fastest layout for several right-hand sides: gathering and scattering 8 separate columns
+ *  takes about a fifth of a solve. The solutions have the same bits. With B and X of n x 8:
+ *
+ *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
+ *
+ *  ld must be at least the number of right-hand sides, and have its top bit clear, which says the
+ *  layout. X and B of a call may have different layouts, unless they are one array. Accepted by
+ *  sl_factor_solve, sl_plan_solve, sl_local_solve, the requests of sl_batch_solve, and the half
+ *  solves and products of parts.h; all other calls refuse it with SL_ERR_ARGUMENT.
+ */
+#define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
+
+/** The bit of a size_t that SL_ROWS sets. */
+#define SL_ROW_MAJOR (~((size_t)-1 >> 1))
+
 /** Creates an empty workspace for one thread. It grows when a call needs more and never shrinks.
  *
  *  out  [out]  the workspace, or NULL on error; release with sl_work_free.
@@ -1448,9 +1466,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
 /** Solves A X = B. For a singular A, sl_factor_create describes which solution is computed.
  *
  *  F      [in]   factor of A, n x n.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A.
- *                May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
+ *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
+ *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 32, then 16,
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
@@ -1464,31 +1483,11 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with
  *           the same bits; W then grows to twice the size, or to that for each thread.
- *  Example  tests/core/test_solve.c
+ *  Example  tests/core/test_solve.c, test_interleaved.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,
                                                 const double *B, size_t ldb, sl_int nrhs,
                                                 sl_work *W);
-
-/** Solves A X = B with interleaved right-hand sides: the numbers of one row are contiguous.
- *
- *  The same bits as sl_factor_solve, and the fastest layout for several right-hand sides:
- *  gathering and scattering 8 separate columns takes about a fifth of a solve.
- *
- *  F      [in]   factor of A, n x n.
- *  X      [out]  n x nrhs, row-major, ldx >= nrhs elements from row to row. May be B itself (then
- *                ldx = ldb). On error untouched.
- *  B      [in]   n x nrhs, row-major, ldb >= nrhs elements from row to row.
- *  nrhs   [in]   as in sl_factor_solve.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  as sl_factor_solve.
- *  Cost     as sl_factor_solve.
- *  Threads  any number at once on one F, each with its own W.
- *  Example  tests/core/test_interleaved.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X,
-                                                            size_t ldx, const double *B, size_t ldb,
-                                                            sl_int nrhs, sl_work *W);
 
 /* src/public/plan.h: local solves: b is known in a few rows, x is wanted in a few others */
 
@@ -1534,9 +1533,10 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *
  *  F      [in]   a factor over the plan's analysis.
  *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of
- *                xset. May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of
- *                bset.
+ *                xset; row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, or row-major as X; rows
+ *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, a factor of another analysis,
@@ -1550,24 +1550,6 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
                                               sl_work *W);
-
-/** sl_plan_solve with interleaved right-hand sides: the same bits.
- *
- *  F      [in]   a factor over the plan's analysis.
- *  X      [out]  nx x nrhs, row-major, ldx >= nrhs elements from row to row, rows in the order of
- *                xset. May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   nb x nrhs, row-major, ldb >= nrhs elements from row to row, rows in the order of
- *                bset.
- *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  as sl_plan_solve.
- *  Cost     as sl_plan_solve.
- *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/core/test_interleaved.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F,
-                                                          double *X, size_t ldx, const double *B,
-                                                          size_t ldb, sl_int nrhs, sl_work *W);
 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *
@@ -1616,11 +1598,11 @@ typedef enum sl_part {
  *
  *  F      [in]   factor of A, n x n.
  *  parts  [in]   any of sl_part, but not both SL_PART_D and SL_PART_SQRT_D; 0 copies B.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements; in the order of A with
- *                SL_PART_PT, else of the pivots. May be B itself (then ldx = ldb). On error
- *                untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements; in the order of A with
- *                SL_PART_P, else of the pivots.
+ *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, or by SL_ROWS; in the
+ *                order of A with SL_PART_PT, else of the pivots. May be B itself (then ldx = ldb).
+ *                On error untouched.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or by SL_ROWS; in the
+ *                order of A with SL_PART_P, else of the pivots.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_PIVOT: SL_PART_SQRT_D with
@@ -1658,9 +1640,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_multiply_part(const sl_factor *F, unsi
  *  covariance A^-1 has there. The results are the rows of sl_factor_solve_part, bit for bit.
  *
  *  P, F   [in]   a plan without a region, and a factor over its analysis.
- *  X      [out]  column-major, leading dimension ldx elements. May be B itself (then ldx = ldb). On
- *                error untouched.
- *  B      [in]   column-major, leading dimension ldb elements.
+ *  X      [out]  column-major, leading dimension ldx elements, or by SL_ROWS. May be B itself (then
+ *                ldx = ldb). On error untouched.
+ *  B      [in]   column-major, leading dimension ldb elements, or by SL_ROWS.
  *  nrhs, W       as in sl_plan_solve.
  *  Returns  as sl_factor_solve_part; SL_ERR_ARGUMENT: other parts; SL_ERR_STATE: a factor of
  *           another analysis; SL_ERR_UNSUPPORTED: a plan in a region.
@@ -2126,11 +2108,11 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 
 /** One solve of a batch: a plan and its right-hand sides, or a full solve. */
 typedef struct sl_request {
-    const sl_plan *plan; /* NULL: a full solve, as sl_factor_solve */
-    double *X;           /* nx x nrhs (full: n x nrhs), leading dimension ldx elements */
-    size_t ldx;
-    const double *B; /* nb x nrhs (full: n x nrhs), leading dimension ldb elements */
-    size_t ldb;
+    const sl_plan *plan;     /* NULL: a full solve, as sl_factor_solve */
+    double *X;               /* nx x nrhs (full: n x nrhs), column-major */
+    size_t ldx;              /* leading dimension in elements; row-major if it is SL_ROWS(ld) */
+    const double *B;         /* nb x nrhs (full: n x nrhs), column-major */
+    size_t ldb;              /* as ldx */
     sl_int nrhs;             /* 0 or more; blocks of 8 are distributed like separate requests */
     const sl_factor *factor; /* NULL: the factor of the call */
 } sl_request;
@@ -2142,8 +2124,8 @@ typedef struct sl_request {
  *
  *  F         [in]      the factor of the requests that name none; NULL if all do. A plan needs a
  *                      factor of its analysis.
- *  requests  [in]      count requests, X and B column-major. Each X may be its own B (then ldx =
- *                      ldb) and overlaps nothing else of the batch.
+ *  requests  [in]      count requests. Each X may be its own B (then ldx = ldb) and overlaps
+ *                      nothing else of the batch.
  *  opt       [in]      threads; NULL: the calling thread only.
  *  works     [in,out]  one workspace per thread, max(opt->threads.count, 1) of them, or NULL:
  *                      allocated for this call.
@@ -2160,17 +2142,6 @@ typedef struct sl_request {
 SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests,
                                                sl_int count, const sl_options *opt,
                                                sl_work *const *works, sl_int *failed);
-
-/** sl_batch_solve with interleaved right-hand sides: X and B of every request are row-major.
- *
- *  Arguments, status, cost and threads as in sl_batch_solve, but ldx and ldb count elements from
- *  row to row and are at least nrhs.
- *  Example   tests/core/test_batch.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_batch_solve_interleaved(const sl_factor *F,
-                                                           const sl_request *requests, sl_int count,
-                                                           const sl_options *opt,
-                                                           sl_work *const *works, sl_int *failed);
 
 /* src/public/several.h: several matrices of one pattern: weighted sums of value arrays over one analysis */
 
@@ -2352,7 +2323,6 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
 
 #else
 #define sl_batch_solve(...) sl_batch_solve_needs_SL_WITH_BATCH
-#define sl_batch_solve_interleaved(...) sl_batch_solve_interleaved_needs_SL_WITH_BATCH
 #define sl_matrix_sum(...) sl_matrix_sum_needs_SL_WITH_BATCH
 #define sl_symbolic_entries(...) sl_symbolic_entries_needs_SL_WITH_BATCH
 #define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
@@ -3430,6 +3400,10 @@ SLI_INLINE void sli_shared_write(sl_int *a, sl_int value) {
 #endif
 
 #define SLI_ROWS_MAX (INT32_MAX - 7)
+
+SLI_INLINE int sli_is_ld(size_t ld, sl_int rows) {
+  return ld >= (size_t)rows && ld <= SIZE_MAX / 2;
+}
 
 SLI_INLINE sl_int sli_min(sl_int a, sl_int b) {
   return a < b ? a : b;
@@ -5368,7 +5342,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
   if (nrhs == 0 || A->n_rows == 0) {
     return SL_OK;
   }
-  if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols ||
+  if (Y == NULL || !sli_is_ld(ldy, A->n_rows) || !sli_is_ld(ldx, A->n_cols) ||
     (A->n_cols > 0 && (X == NULL || X == Y))) {
     return SL_ERR_ARGUMENT;
   }
@@ -5427,8 +5401,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
     }
     return SL_OK;
   }
-  if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows || R == X ||
-    (R == B && (backward_error != NULL || ldr != ldb))) {
+  if (B == NULL || R == NULL || X == NULL || !sli_is_ld(ldb, n) || !sli_is_ld(ldr, n) ||
+    !sli_is_ld(ldx, n) || R == X || (R == B && (backward_error != NULL || ldr != ldb))) {
     return SL_ERR_ARGUMENT;
   }
   triangle = sli_triangle_scan(A);
@@ -14667,26 +14641,44 @@ static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory)
   return v;
 }
 
-typedef enum sli_layout { SLI_COLUMN_MAJOR, SLI_INTERLEAVED } sli_layout;
-
 typedef struct sli_dense {
   size_t row, column;
 } sli_dense;
 
-SLI_INLINE sli_dense sli_dense_of(sli_layout layout, size_t ld) {
+SLI_INLINE sli_dense sli_dense_by_rows(size_t row) {
   sli_dense at;
-  at.row = layout == SLI_INTERLEAVED ? ld : 1;
-  at.column = layout == SLI_INTERLEAVED ? 1 : ld;
+  at.row = row;
+  at.column = 1;
   return at;
 }
 
+SLI_INLINE sli_dense sli_dense_by_columns(size_t column) {
+  sli_dense at;
+  at.row = 1;
+  at.column = column;
+  return at;
+}
+
+SLI_INLINE sli_dense sli_dense_of(size_t ld) {
+  return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
+}
+
+SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+  return (ld & ~SL_ROW_MAJOR) >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+}
+
 static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B,
-                 size_t ldb, sl_int nb, sli_layout layout, sl_int nrhs) {
-  const int by_rows = layout == SLI_INTERLEAVED;
-  const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)(by_rows ? nrhs : nx));
-  const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)(by_rows ? nrhs : nb));
+                 size_t ldb, sl_int nb, sl_int nrhs) {
+  const int bad_x = nx > 0 && (X == NULL || !sli_dense_spans(ldx, nx, nrhs));
+  const int bad_b = nb > 0 && (B == NULL || !sli_dense_spans(ldb, nb, nrhs));
   const int is_misaligned = X == B && ldx != ldb && nx > 0 && nb > 0;
   return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+static sl_status sli_check_dense_columns(const double *X, size_t ldx, sl_int nx, const double *B,
+                     size_t ldb, sl_int nb, sl_int nrhs) {
+  return nrhs > 0 && ((ldx | ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                          : sli_check_dense(X, ldx, nx, B, ldb, nb, nrhs);
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -14758,8 +14750,7 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
   } else if (nrhs % 8 == 0) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
-      sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_of(SLI_INTERLEAVED, at.row),
-              8);
+      sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_by_rows(at.row), 8);
     }
   } else if (nrhs == 3) {
     sli_pack_rows(y, 4, index, count, B, at, 3);
@@ -14784,8 +14775,7 @@ static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X
   } else if (nrhs % 8 == 0) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
-      sli_unpack_rows(X + r, sli_dense_of(SLI_INTERLEAVED, at.row), x + r, lanes, index,
-              count, 8);
+      sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r, lanes, index, count, 8);
     }
   } else if (nrhs == 3) {
     sli_unpack_rows(X, at, x, 4, index, count, 3);
@@ -15564,17 +15554,15 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
 }
 
 static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
-               const double *B, size_t ldb, sli_layout layout, sl_int nrhs,
-               sl_work *W) {
-  const sl_status status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, layout, nrhs);
+               const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+  const sl_status status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, nrhs);
   if (status != SL_OK) {
     return status;
   }
   if (!sli_query_fits(q, F)) {
     return SL_ERR_STATE;
   }
-  return sli_query_solve(F, q, X, sli_dense_of(layout, ldx), B, sli_dense_of(layout, ldb), nrhs,
-               W);
+  return sli_query_solve(F, q, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, W);
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
@@ -15584,17 +15572,7 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
     return SL_ERR_ARGUMENT;
   }
   q = sli_query_all(F->S);
-  return sli_solve(F, &q, X, ldx, B, ldb, SLI_COLUMN_MAJOR, nrhs, W);
-}
-
-SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size_t ldx,
-                       const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  sli_query q;
-  if (F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  q = sli_query_all(F->S);
-  return sli_solve(F, &q, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
+  return sli_solve(F, &q, X, ldx, B, ldb, nrhs, W);
 }
 
 /* src/impl/solve/compile.h: compiles a b-set and an x-set into a query: sorting, reaches, row indices */
@@ -15816,17 +15794,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                  const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  return P == NULL || F == NULL
-         ? SL_ERR_ARGUMENT
-         : sli_solve(F, &P->query, X, ldx, B, ldb, SLI_COLUMN_MAJOR, nrhs, W);
-}
-
-SL_API sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F, double *X,
-                       size_t ldx, const double *B, size_t ldb, sl_int nrhs,
-                       sl_work *W) {
-  return P == NULL || F == NULL
-         ? SL_ERR_ARGUMENT
-         : sli_solve(F, &P->query, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
+  return P == NULL || F == NULL ? SL_ERR_ARGUMENT
+                  : sli_solve(F, &P->query, X, ldx, B, ldb, nrhs, W);
 }
 
 /* src/impl/solve/local.h: sl_local_solve: one local solve without a plan, compiled in the workspace */
@@ -15906,7 +15875,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   l.x = sli_set_of(F->S, xset, nx);
   l.nrhs = nrhs;
   l.stats = stats;
-  status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, SLI_COLUMN_MAJOR, nrhs);
+  status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, nrhs);
   if (status != SL_OK) {
     return status;
   }
@@ -15923,8 +15892,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     stats->plan.bytes = 0;
   }
   if (status == SL_OK && nrhs > 0 && l.query.nx > 0) {
-    status = sli_sweep(F, &l.query, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
-               sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs, l.memory);
+    status = sli_sweep(F, &l.query, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, l.memory);
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -16090,9 +16058,9 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
 
 static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double *B, size_t ldb,
                  sl_int nrhs, sl_work *W) {
-  const sli_dense x_at = sli_dense_of(SLI_COLUMN_MAJOR, ldx);
-  const sli_dense b_at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
-  sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, SLI_COLUMN_MAJOR, nrhs);
+  const sli_dense x_at = sli_dense_of(ldx);
+  const sli_dense b_at = sli_dense_of(ldb);
+  sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, nrhs);
   sli_block b = {NULL, 0, 0};
   sl_work own;
   sl_int r;
@@ -16247,7 +16215,7 @@ static double sli_row_error(const sli_refinement *f, double *r, const double *x,
 
 static void sli_correct(const sli_refinement *f, sl_int columns) {
   const sli_query q = sli_query_all(f->F->S);
-  const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
+  const sli_dense at = sli_dense_by_columns((size_t)f->F->S->n);
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
   sli_pack(&q, f->F->kernels, v.y, f->R, at, lanes, columns);
@@ -16329,7 +16297,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   if (F == NULL || steps < 0) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+  status = sli_check_dense_columns(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
   if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
     return SL_ERR_ARGUMENT;
   }
@@ -16432,8 +16400,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
   }
   sli_sweep_forward(f->F, f->q, &v, columns);
   sli_sweep_backward(f->F, f->q, &v, columns);
-  sli_unpack(f->q, f->F->kernels, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes,
-         columns);
+  sli_unpack(f->q, f->F->kernels, f->current, sli_dense_by_columns(nx), v.x, lanes, columns);
   for (c = 0; c < columns; c++) {
     double error = 0.0;
     for (m = 0; m < f->count; m++) {
@@ -16466,7 +16433,7 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
     }
     return;
   }
-  sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
+  sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_by_columns(ldb), lanes, columns);
   for (c = 0; c < columns; c++) {
     norms[c] = 0.0;
   }
@@ -16479,7 +16446,7 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
 
 static void sli_local_refinement_block(sli_local_refinement *f, double *X, size_t ldx,
                      const double *B, size_t ldb, sl_int columns, sl_int steps) {
-  const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
+  const sli_dense at = sli_dense_by_columns(ldb);
   const size_t nx = (size_t)f->q->nx;
   double norms[SLI_TILE];
   sl_int c, step, todo = columns;
@@ -16534,13 +16501,13 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   if (P == NULL || F == NULL || steps < 0) {
     return SL_ERR_ARGUMENT;
   }
+  status = sli_check_dense_columns(X, ldx, P->query.nx, B, ldb, P->query.nb, nrhs);
+  if (status != SL_OK) {
+    return status;
+  }
   if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
     status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
     return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
-  }
-  status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, SLI_COLUMN_MAJOR, nrhs);
-  if (status != SL_OK) {
-    return status;
   }
   if (!sli_query_fits(&P->query, F)) {
     return SL_ERR_STATE;
@@ -16715,8 +16682,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
   for (c = 0; c < nrhs; c += sli_min(8, nrhs - c)) {
     const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(q, block, memory);
-    sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
-         lanes, block);
+    sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_by_columns(ldb), lanes, block);
     if (F->null_vectors > 1) {
       (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
     }
@@ -16742,7 +16708,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   if (!F->is_valid) {
     return SL_ERR_STATE;
   }
-  status = sli_check_dense(Y, ldy, F->n_nulls, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+  status = sli_check_dense_columns(Y, ldy, F->n_nulls, B, ldb, F->S->n, nrhs);
   if (status != SL_OK || (Y == B && Y != NULL)) {
     return SL_ERR_ARGUMENT;
   }
@@ -19149,7 +19115,8 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
   sl_status status;
   sli_stats_clear_error(stats);
   if (F == NULL || n_rows < 0 || n_columns < 0 || (n_rows > 0 && rows == NULL) ||
-    (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
+    (n_columns > 0 && columns == NULL) ||
+    (!is_empty && (Z == NULL || !sli_is_ld(ldz, n_rows)))) {
     return SL_ERR_ARGUMENT;
   }
   status = sli_check_entries(F, rows, n_rows, columns, n_columns, stats);
@@ -23875,8 +23842,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     return SL_ERR_ARGUMENT;
   }
   all = sli_query_all(P->F->S);
-  status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, SLI_COLUMN_MAJOR, nrhs);
-  if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || ldg < (size_t)P->count))) {
+  status = sli_check_dense_columns(X, ldx, q->nx, B, ldb, q->nb, nrhs);
+  if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || !sli_is_ld(ldg, P->count)))) {
     return SL_ERR_ARGUMENT;
   }
   if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
@@ -23897,10 +23864,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     status = sli_pins_nulls_factor(&w.nulls, P);
     for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
       const sl_int block = sli_min(8, nrhs - r);
-      status = sli_pins_block(
-        P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
-        q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
-        P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
+      status = sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_by_columns(ldx),
+                  q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_by_columns(ldb),
+                  P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
     }
   }
   sli_free(&own.allocator, own.block);
@@ -29686,7 +29652,6 @@ typedef struct sli_solve_batch {
   const sl_factor *F;
   const sl_request *requests;
   sl_int count, workers;
-  sli_layout layout;
   sl_off blocks;
   double total;
   sl_work *const *works;
@@ -29721,7 +29686,7 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
                      const sli_query *q, sl_int first, sl_int last,
                      void *memory) {
   const sl_factor *F = sli_request_factor(b, r);
-  const sli_dense x_at = sli_dense_of(b->layout, r->ldx), b_at = sli_dense_of(b->layout, r->ldb);
+  const sli_dense x_at = sli_dense_of(r->ldx), b_at = sli_dense_of(r->ldb);
   const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
   if (b->only_checks) {
     return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
@@ -29779,7 +29744,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
       return SL_ERR_ARGUMENT;
     }
     q = sli_request_query(F, r);
-    status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, b->layout, r->nrhs);
+    status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
     if (status != SL_OK) {
       return status;
     }
@@ -29832,9 +29797,8 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
   return status;
 }
 
-static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *requests, sl_int count,
-                   sli_layout layout, const sl_options *opt,
-                   sl_work *const *works, sl_int *failed) {
+SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
+                const sl_options *opt, sl_work *const *works, sl_int *failed) {
   const sl_threads serial = {0, NULL, NULL};
   const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
   sli_solve_batch b;
@@ -29854,7 +29818,6 @@ static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *reque
   b.F = F;
   b.requests = requests;
   b.count = count;
-  b.layout = layout;
   status = sli_solve_batch_check(&b, &at);
   b.workers = sli_workers(threads);
   b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
@@ -29875,17 +29838,6 @@ static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *reque
     *failed = at;
   }
   return status;
-}
-
-SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
-                const sl_options *opt, sl_work *const *works, sl_int *failed) {
-  return sli_solve_batch_run(F, requests, count, SLI_COLUMN_MAJOR, opt, works, failed);
-}
-
-SL_API sl_status sl_batch_solve_interleaved(const sl_factor *F, const sl_request *requests,
-                      sl_int count, const sl_options *opt,
-                      sl_work *const *works, sl_int *failed) {
-  return sli_solve_batch_run(F, requests, count, SLI_INTERLEAVED, opt, works, failed);
 }
 
 /* src/impl/batch/batch_factor.h: factors several matrices of one analysis; a worker takes whole factors */
@@ -30224,7 +30176,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
     return status;
   }
   n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-  if (n_rows < 0 || (n_rows > 0 && (out == NULL || ldo < (size_t)n_rows))) {
+  if (n_rows < 0 || (n_rows > 0 && (out == NULL || !sli_is_ld(ldo, n_rows)))) {
     return SL_ERR_ARGUMENT;
   }
   status = works == NULL ? SL_OK : sli_check_works(works, d.workers);

@@ -206,9 +206,9 @@ void bench_call_full(void *state) {
 void bench_call_full_interleaved(void *state) {
     bench_queries *q = state;
     size_t ld = (size_t)q->nrhs;
-    bench_must(
-        sl_factor_solve_interleaved(q->system->F, q->X_full, ld, q->B_full, ld, q->nrhs, q->W),
-        "full solve, interleaved");
+    bench_must(sl_factor_solve(q->system->F, q->X_full, SL_ROWS(ld), q->B_full, SL_ROWS(ld),
+                               q->nrhs, q->W),
+               "full solve, interleaved");
 }
 
 void bench_call_full_one_by_one(void *state) {

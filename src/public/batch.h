@@ -2,16 +2,15 @@
 #ifndef SL_PUBLIC_BATCH_H
 #define SL_PUBLIC_BATCH_H
 
-#include "options.h"
-#include "stats.h"
+#include "solve.h"
 
 /** One solve of a batch: a plan and its right-hand sides, or a full solve. */
 typedef struct sl_request {
-    const sl_plan *plan; /* NULL: a full solve, as sl_factor_solve */
-    double *X;           /* nx x nrhs (full: n x nrhs), leading dimension ldx elements */
-    size_t ldx;
-    const double *B; /* nb x nrhs (full: n x nrhs), leading dimension ldb elements */
-    size_t ldb;
+    const sl_plan *plan;     /* NULL: a full solve, as sl_factor_solve */
+    double *X;               /* nx x nrhs (full: n x nrhs), column-major */
+    size_t ldx;              /* leading dimension in elements; row-major if it is SL_ROWS(ld) */
+    const double *B;         /* nb x nrhs (full: n x nrhs), column-major */
+    size_t ldb;              /* as ldx */
     sl_int nrhs;             /* 0 or more; blocks of 8 are distributed like separate requests */
     const sl_factor *factor; /* NULL: the factor of the call */
 } sl_request;
@@ -23,8 +22,8 @@ typedef struct sl_request {
  *
  *  F         [in]      the factor of the requests that name none; NULL if all do. A plan needs a
  *                      factor of its analysis.
- *  requests  [in]      count requests, X and B column-major. Each X may be its own B (then ldx =
- *                      ldb) and overlaps nothing else of the batch.
+ *  requests  [in]      count requests. Each X may be its own B (then ldx = ldb) and overlaps
+ *                      nothing else of the batch.
  *  opt       [in]      threads; NULL: the calling thread only.
  *  works     [in,out]  one workspace per thread, max(opt->threads.count, 1) of them, or NULL:
  *                      allocated for this call.
@@ -41,16 +40,5 @@ typedef struct sl_request {
 SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests,
                                                sl_int count, const sl_options *opt,
                                                sl_work *const *works, sl_int *failed);
-
-/** sl_batch_solve with interleaved right-hand sides: X and B of every request are row-major.
- *
- *  Arguments, status, cost and threads as in sl_batch_solve, but ldx and ldb count elements from
- *  row to row and are at least nrhs.
- *  Example   tests/core/test_batch.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_batch_solve_interleaved(const sl_factor *F,
-                                                           const sl_request *requests, sl_int count,
-                                                           const sl_options *opt,
-                                                           sl_work *const *works, sl_int *failed);
 
 #endif

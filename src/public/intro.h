@@ -27,10 +27,11 @@
  *              parent. nnz counts stored entries.
  * Conventions  Every function that can fail returns sl_status. On error, outputs are NULL or
  *              untouched. Options and stats may be NULL. Dense arguments are column-major with a
- *              leading dimension in elements; the calls named interleaved take row-major ones. Row
+ *              leading dimension in elements; solves take row-major ones, too (SL_ROWS). Row
  *              numbers are the caller's, also in errors. A b-set comes before an x-set, and a
  *              length follows its array. The library never prints or aborts and has no mutable
- *              globals; for METIS, an option, see sl_symbolic_create.
+ *              globals; for METIS, an option, see sl_symbolic_create. What is marked EXPERIMENTAL
+ *              may change in any version; all else keeps its promises from 1.0 on.
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work.

@@ -2,8 +2,7 @@
 #ifndef SL_PUBLIC_PLAN_H
 #define SL_PUBLIC_PLAN_H
 
-#include "options.h"
-#include "stats.h"
+#include "solve.h"
 
 /** Prepares solves of A x = b where b is nonzero only in bset and x is wanted only in xset.
  *
@@ -47,9 +46,10 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
  *
  *  F      [in]   a factor over the plan's analysis.
  *  X      [out]  nx x nrhs, column-major, leading dimension ldx elements, rows in the order of
- *                xset. May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, rows in the order of
- *                bset.
+ *                xset; row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   nb x nrhs, column-major, leading dimension ldb elements, or row-major as X; rows
+ *                in the order of bset.
  *  nrhs   [in]   number of right-hand sides, 0 or more.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, a factor of another analysis,
@@ -63,24 +63,6 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats);
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X,
                                               size_t ldx, const double *B, size_t ldb, sl_int nrhs,
                                               sl_work *W);
-
-/** sl_plan_solve with interleaved right-hand sides: the same bits.
- *
- *  F      [in]   a factor over the plan's analysis.
- *  X      [out]  nx x nrhs, row-major, ldx >= nrhs elements from row to row, rows in the order of
- *                xset. May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   nb x nrhs, row-major, ldb >= nrhs elements from row to row, rows in the order of
- *                bset.
- *  nrhs   [in]   number of right-hand sides, 0 or more.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  as sl_plan_solve.
- *  Cost     as sl_plan_solve.
- *  Threads  any number at once on one P and one F, each with its own W.
- *  Example  tests/core/test_interleaved.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_plan_solve_interleaved(const sl_plan *P, const sl_factor *F,
-                                                          double *X, size_t ldx, const double *B,
-                                                          size_t ldb, sl_int nrhs, sl_work *W);
 
 /** One local solve without a plan: sl_plan_create and sl_plan_solve in the caller's workspace.
  *

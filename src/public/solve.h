@@ -5,6 +5,23 @@
 #include "options.h"
 #include "stats.h"
 
+/** EXPERIMENTAL. A leading dimension of rows: the block is row-major, ld elements from row to row.
+ *
+ *  The fastest layout for several right-hand sides: gathering and scattering 8 separate columns
+ *  takes about a fifth of a solve. The solutions have the same bits. With B and X of n x 8:
+ *
+ *      sl_factor_solve(F, X, SL_ROWS(8), B, SL_ROWS(8), 8, W);
+ *
+ *  ld must be at least the number of right-hand sides, and have its top bit clear, which says the
+ *  layout. X and B of a call may have different layouts, unless they are one array. Accepted by
+ *  sl_factor_solve, sl_plan_solve, sl_local_solve, the requests of sl_batch_solve, and the half
+ *  solves and products of parts.h; all other calls refuse it with SL_ERR_ARGUMENT.
+ */
+#define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
+
+/** The bit of a size_t that SL_ROWS sets. */
+#define SL_ROW_MAJOR (~((size_t)-1 >> 1))
+
 /** Creates an empty workspace for one thread. It grows when a call needs more and never shrinks.
  *
  *  out  [out]  the workspace, or NULL on error; release with sl_work_free.
@@ -56,9 +73,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
 /** Solves A X = B. For a singular A, sl_factor_create describes which solution is computed.
  *
  *  F      [in]   factor of A, n x n.
- *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A.
- *                May be B itself (then ldx = ldb). On error untouched.
- *  B      [in]   n x nrhs, column-major, leading dimension ldb elements.
+ *  X      [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
+ *                row-major if ldx is SL_ROWS(ld). May be B itself (then ldx = ldb). On error
+ *                untouched.
+ *  B      [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X.
  *  nrhs   [in]   number of right-hand sides, 0 or more. They are solved in blocks of 32, then 16,
  *                then up to 8, for which a solution has the same bits. 8 take as long as two to
  *                three single solves, 32 as long as six to eight.
@@ -72,30 +90,10 @@ SL_API SL_WARN_UNUSED sl_status sl_work_reserve(sl_work *W, size_t bytes);
  *  Threads  any number at once on one F, each with its own W. A single right-hand side, and more
  *           than 8, of a regular A are distributed over the threads that W was created with, with
  *           the same bits; W then grows to twice the size, or to that for each thread.
- *  Example  tests/core/test_solve.c
+ *  Example  tests/core/test_solve.c, test_interleaved.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx,
                                                 const double *B, size_t ldb, sl_int nrhs,
                                                 sl_work *W);
-
-/** Solves A X = B with interleaved right-hand sides: the numbers of one row are contiguous.
- *
- *  The same bits as sl_factor_solve, and the fastest layout for several right-hand sides:
- *  gathering and scattering 8 separate columns takes about a fifth of a solve.
- *
- *  F      [in]   factor of A, n x n.
- *  X      [out]  n x nrhs, row-major, ldx >= nrhs elements from row to row. May be B itself (then
- *                ldx = ldb). On error untouched.
- *  B      [in]   n x nrhs, row-major, ldb >= nrhs elements from row to row.
- *  nrhs   [in]   as in sl_factor_solve.
- *  W      [in,out]  workspace; NULL: allocated for this call.
- *  Returns  as sl_factor_solve.
- *  Cost     as sl_factor_solve.
- *  Threads  any number at once on one F, each with its own W.
- *  Example  tests/core/test_interleaved.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X,
-                                                            size_t ldx, const double *B, size_t ldb,
-                                                            sl_int nrhs, sl_work *W);
 
 #endif

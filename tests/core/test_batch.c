@@ -11,28 +11,26 @@ typedef struct batch_t {
     sl_request request[REQUESTS];
     double *X[REQUESTS], *B[REQUESTS], *expected[REQUESTS];
     size_t size[REQUESTS]; /* doubles in X */
-    int is_interleaved;    /* X and B are row-major */
 } batch_t;
 
 /* The result of request k by a single call. */
 static void solve_single(batch_t *t, int k) {
     const sl_request *r = &t->request[k];
     if (!r->plan) {
-        SL_CHECK((t->is_interleaved ? sl_factor_solve_interleaved : sl_factor_solve)(
-            t->y.F, t->expected[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+        SL_CHECK(sl_factor_solve(t->y.F, t->expected[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
     } else {
-        SL_CHECK((t->is_interleaved ? sl_plan_solve_interleaved : sl_plan_solve)(
-            r->plan, t->y.F, t->expected[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
+        SL_CHECK(
+            sl_plan_solve(r->plan, t->y.F, t->expected[k], r->ldx, r->B, r->ldb, r->nrhs, NULL));
     }
 }
 
-static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa, int is_interleaved) {
+/* layouts: 0 all by columns, 1 all by rows, 2 X and B by turns in one or the other. */
+static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa, int layouts) {
     static const sl_int columns[REQUESTS] = {1, 3, 8, 0, 40, 17, 2, 9, 21};
     sl_options opt = options_none();
     batch_t t;
     uint64_t seed = 5;
     memset(&t, 0, sizeof t);
-    t.is_interleaved = is_interleaved;
     opt.isa = isa;
     t.y = factored_make(kind, size, 0, 0, &opt);
     sl_int n = t.y.M.view.n_cols;
@@ -49,12 +47,16 @@ static batch_t batch_make(gen_kind_t kind, sl_int size, sl_isa isa, int is_inter
         sl_request *r = &t.request[k];
         r->plan = t.plan[k];
         r->nrhs = columns[k];
-        size_t across = (size_t)columns[k];
-        r->ldb = is_interleaved ? across + 3 : (size_t)nb + 2;
-        r->ldx = is_interleaved ? across + 1 : (size_t)nx + 1;
-        t.size[k] = r->ldx * (t.is_interleaved ? (size_t)nx : across);
+        const size_t across = (size_t)columns[k];
+        const int b_by_rows = layouts == 2 ? k / 2 % 2 : layouts;
+        const int x_by_rows = layouts == 2 ? k % 2 : layouts;
+        const size_t ldb = b_by_rows ? across + 3 : (size_t)nb + 2;
+        const size_t ldx = x_by_rows ? across + 1 : (size_t)nx + 1;
+        r->ldb = b_by_rows ? SL_ROWS(ldb) : ldb;
+        r->ldx = x_by_rows ? SL_ROWS(ldx) : ldx;
+        t.size[k] = ldx * (x_by_rows ? (size_t)nx : across);
         t.X[k] = r->X = test_reals(t.size[k]);
-        size_t size_b = r->ldb * (t.is_interleaved ? (size_t)nb : across);
+        const size_t size_b = ldb * (b_by_rows ? (size_t)nb : across);
         t.B[k] = test_reals(size_b);
         t.expected[k] = test_reals(t.size[k]);
         gen_reals(t.B[k], size_b, gen_bits(&seed));
@@ -85,17 +87,16 @@ static void batch_check(batch_t *t) {
 
 static sl_status batch_solve(const batch_t *t, const sl_options *opt, sl_work *const *works,
                              sl_int *failed) {
-    return (t->is_interleaved ? sl_batch_solve_interleaved
-                              : sl_batch_solve)(t->y.F, t->request, REQUESTS, opt, works, failed);
+    return sl_batch_solve(t->y.F, t->request, REQUESTS, opt, works, failed);
 }
 
 static void a_batch_gives_the_bits_of_single_solves(void **state) {
     (void)state;
     static const gen_kind_t kinds[4] = {GEN_GRID2, GEN_COMPONENTS, GEN_PATH, GEN_ONE};
     isa_list_t isas = isas_present();
-    for (int kind = 0; kind < 8; kind++) {
+    for (int kind = 0; kind < 12; kind++) {
         for (int isa = 0; isa < isas.count; isa++) {
-            batch_t t = batch_make(kinds[kind / 2], 200, isas.isa[isa], kind % 2);
+            batch_t t = batch_make(kinds[kind / 3], 200, isas.isa[isa], kind % 3);
             sl_work *works[40];
             for (int k = 0; k < 40; k++) {
                 SL_CHECK(sl_work_create(&works[k], NULL));

@@ -77,15 +77,15 @@ static void assert_every_solve(fixture_t *f, const sl_factor *F, sl_int nrhs, sl
         if (form == 0) {
             status = sl_factor_solve(F, X, N, f->B, N, nrhs, W);
         } else if (form == 1) { /* in place */
-            status = sl_factor_solve_interleaved(F, turned, (size_t)nrhs, turned, (size_t)nrhs,
-                                                 nrhs, NULL);
+            status = sl_factor_solve(F, turned, SL_ROWS((size_t)nrhs), turned,
+                                     SL_ROWS((size_t)nrhs), nrhs, NULL);
             assert_int_equal(status != SL_OK,
                              memcmp(turned, kept, (size_t)(N * nrhs) * sizeof *kept) == 0);
         } else if (form == 2) {
             status = sl_plan_solve(f->P, F, X, NX, f->C, NB, nrhs, W);
         } else if (form == 3) {
-            status =
-                sl_plan_solve_interleaved(f->P, F, X, (size_t)nrhs, turned, (size_t)nrhs, nrhs, W);
+            status = sl_plan_solve(f->P, F, X, SL_ROWS((size_t)nrhs), turned, SL_ROWS((size_t)nrhs),
+                                   nrhs, W);
         } else if (form == 4) {
             status = sl_local_solve(F, f->bset, NB, f->xset, NX, X, NX, f->C, NB, nrhs, W, NULL);
         } else if (form == 5) { /* in place */

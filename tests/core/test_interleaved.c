@@ -42,10 +42,11 @@ static void full_solves_of_both_layouts_have_the_same_bits(void **state) {
             gen_reals(B, n * MOST, 6);
             SL_CHECK(sl_factor_solve(y.F, X, n, B, n, nrhs, NULL));
             double *Bi = to_rows(B, n, cols, ldb, 77.0), *Xi = to_rows(B, n, 0, ldx, 1234.5);
-            SL_CHECK(sl_factor_solve_interleaved(y.F, Xi, ldx, Bi, ldb, nrhs, NULL));
+            SL_CHECK(sl_factor_solve(y.F, Xi, SL_ROWS(ldx), Bi, SL_ROWS(ldb), nrhs, NULL));
             assert_rows(Xi, ldx, X, n, cols, 1234.5);
             assert_rows(Bi, ldb, B, n, cols, 77.0);
-            SL_CHECK(sl_factor_solve_interleaved(y.F, Bi, ldb, Bi, ldb, nrhs, NULL)); /* in place */
+            SL_CHECK(sl_factor_solve(y.F, Bi, SL_ROWS(ldb), Bi, SL_ROWS(ldb), nrhs,
+                                     NULL)); /* in place */
             assert_rows(Bi, ldb, X, n, cols, 77.0);
             free(B);
             free(X);
@@ -78,11 +79,11 @@ static void plan_solves_of_both_layouts_have_the_same_bits(void **state) {
             gen_reals(B, 30 * MOST, 9);
             SL_CHECK(sl_plan_solve(P, y.F, X, 45, B, 30, nrhs, NULL));
             double *Bi = to_rows(B, 30, cols, ld, 77.0), *Xi = to_rows(B, 45, 0, ld, 1234.5);
-            SL_CHECK(sl_plan_solve_interleaved(P, y.F, Xi, ld, Bi, ld, nrhs, NULL));
+            SL_CHECK(sl_plan_solve(P, y.F, Xi, SL_ROWS(ld), Bi, SL_ROWS(ld), nrhs, NULL));
             assert_rows(Xi, ld, X, 45, cols, 1234.5);
             assert_rows(Bi, ld, B, 30, cols, 77.0);
             memcpy(Xi, Bi, 30 * ld * sizeof *Bi); /* in place, with more rows of X than of B */
-            SL_CHECK(sl_plan_solve_interleaved(P, y.F, Xi, ld, Xi, ld, nrhs, NULL));
+            SL_CHECK(sl_plan_solve(P, y.F, Xi, SL_ROWS(ld), Xi, SL_ROWS(ld), nrhs, NULL));
             for (size_t q = 0; q < 45; q++) {
                 for (size_t r = 0; r < cols; r++) {
                     SAME_VALUES(Xi + q * ld + r, X + q + r * 45, 1);
@@ -104,33 +105,143 @@ static void invalid_arguments_are_refused(void **state) {
     double X[18] = {1, 2}, B[18] = {3, 4};
     sl_plan *P = NULL;
     SL_CHECK(sl_plan_create(&P, y.S, set, 2, set, 2, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(NULL, X, 3, B, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, NULL, 3, B, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, NULL, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 2, B, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 2, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, B, 3, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(NULL, X, SL_ROWS(3), B, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, NULL, SL_ROWS(3), B, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, SL_ROWS(3), NULL, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, SL_ROWS(2), B, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, SL_ROWS(3), B, SL_ROWS(2), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, SL_ROWS(3), B, SL_ROWS(3), -1, NULL));
     /* in place with different strides */
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve_interleaved(y.F, X, 3, X, 2, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(NULL, y.F, X, 3, B, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, NULL, X, 3, B, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 2, B, 3, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve_interleaved(P, y.F, X, 3, B, 2, 3, NULL));
-    SL_EXPECT(SL_ERR_STATE,
-              sl_plan_solve_interleaved(P, z.F, X, 3, B, 3, 3, NULL)); /* of another analysis */
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, SL_ROWS(3), X, SL_ROWS(2), 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, 6, X, SL_ROWS(6), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_solve(y.F, X, SL_ROWS(0), B, 6, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(NULL, y.F, X, SL_ROWS(3), B, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, NULL, X, SL_ROWS(3), B, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, SL_ROWS(2), B, SL_ROWS(3), 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_plan_solve(P, y.F, X, SL_ROWS(3), B, SL_ROWS(2), 3, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, z.F, X, SL_ROWS(3), B, SL_ROWS(3), 3,
+                                          NULL)); /* of another analysis */
     assert_true(X[0] == 1 && X[1] == 2 && X[2] == 0);
     /* a leading dimension below n */
-    SL_CHECK(sl_factor_solve_interleaved(y.F, X, 1, B, 1, 1, NULL));
+    SL_CHECK(sl_factor_solve(y.F, X, SL_ROWS(1), B, SL_ROWS(1), 1, NULL));
     sl_plan_free(P);
     factored_free(&y);
     factored_free(&z);
+}
+
+/* One-shot local solves, half solves and products take rows; X and B may have different layouts. */
+static void every_solve_takes_any_layout(void **state) {
+    (void)state;
+    enum { NB = 20, NX = 33, SIZE = 200 };
+    factored_t y = factored_make(GEN_GRID2, SIZE, 1, 0, NULL);
+    const size_t n = (size_t)y.M.view.n_cols;
+    const unsigned forward = SL_PART_P | SL_PART_L;
+    sl_int bset[SIZE], xset[SIZE];
+    sl_plan *P = NULL;
+    gen_set(bset, NB, SIZE / 2, 1);
+    gen_set(xset, NX, SIZE / 2, 2);
+    SL_CHECK(sl_plan_create(&P, y.S, bset, NB, xset, NX, NULL, NULL));
+    sl_stats stats;
+    sl_plan_stats(P, &stats);
+    const size_t reached = (size_t)stats.plan.b_columns;
+    for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
+        for (int call = 0; call < 5; call++) {
+            const size_t cols = (size_t)nrhs, ld = cols + GUARD;
+            const size_t nb = call == 0 || call == 4 ? NB : n;
+            const size_t nx = call == 0 ? NX : call == 4 ? reached : n;
+            double *B = test_reals(nb * cols), *X = test_reals(nx * cols);
+            gen_reals(B, nb * cols, 9);
+            for (int layout = 0; layout < 4; layout++) { /* 0: both by columns, the reference */
+                double *Bt = layout & 1 ? to_rows(B, nb, cols, ld, 77.0) : B;
+                double *Xt = layout & 2 ? to_rows(B, nx, 0, ld, 1234.5) : test_reals(nx * cols);
+                const size_t ldb = layout & 1 ? SL_ROWS(ld) : nb;
+                const size_t ldx = layout & 2 ? SL_ROWS(ld) : nx;
+                SL_CHECK(
+                    call == 0   ? sl_local_solve(y.F, bset, NB, xset, NX, Xt, ldx, Bt, ldb, nrhs,
+                                                 NULL, NULL)
+                    : call == 1 ? sl_factor_solve(y.F, Xt, ldx, Bt, ldb, nrhs, NULL)
+                    : call == 2 ? sl_factor_solve_part(y.F, forward, Xt, ldx, Bt, ldb, nrhs, NULL)
+                    : call == 3
+                        ? sl_factor_multiply_part(y.F, SL_PART_LT, Xt, ldx, Bt, ldb, nrhs, NULL)
+                        : sl_plan_solve_part(P, y.F, forward, Xt, ldx, Bt, ldb, nrhs, NULL));
+                if (layout == 0) {
+                    memcpy(X, Xt, nx * cols * sizeof *X);
+                } else if (layout & 2) {
+                    assert_rows(Xt, ld, X, nx, cols, 1234.5);
+                } else {
+                    assert_memory_equal(Xt, X, nx * cols * sizeof *X);
+                }
+                if (layout & 1) {
+                    assert_rows(Bt, ld, B, nb, cols, 77.0);
+                    free(Bt);
+                }
+                free(Xt);
+            }
+            free(B);
+            free(X);
+        }
+    }
+    sl_plan_free(P);
+    factored_free(&y);
+}
+
+/* Calls that take columns only refuse rows, as they would refuse too small a leading dimension,
+ * and write nothing. Without the check, the first column would be right. */
+static void other_calls_refuse_rows(void **state) {
+    (void)state;
+    const size_t wrong[4] = {SL_ROWS(6), SL_ROWS(0), SL_ROWS(1000), SIZE_MAX};
+    factored_t y = factored_make(GEN_PATH, 6, 1, 0, NULL);
+    const sl_csc *A = &y.M.view;
+    const sl_factor *F = y.F;
+    double X[12] = {1, 2}, B[12] = {3, 4}, G[2] = {0}, before[12];
+    const sl_int set[6] = {0, 1, 2, 3, 4, 5};
+    sl_plan *P = NULL;
+    sl_pins *pins = NULL;
+    SL_CHECK(sl_plan_create(&P, y.S, set, 6, set, 6, NULL, NULL));
+    SL_CHECK(sl_pins_create(&pins, F, NULL));
+    SL_CHECK(sl_pins_add(pins, 2, NULL));
+    memcpy(before, X, sizeof X);
+    for (int k = 0; k < 4; k++) {
+        const size_t w = wrong[k];
+        for (sl_int nrhs = 1; nrhs <= 2; nrhs++) {
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refine(F, A, X, w, B, 6, nrhs, 1, NULL, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refine(F, A, X, 6, B, w, nrhs, 1, NULL, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_plan_solve_refined(P, F, X, w, B, 6, nrhs, 1, NULL, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_plan_solve_refined(P, F, X, 6, B, w, nrhs, 1, NULL, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, X, w, B, 6, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_defects(F, X, 6, B, w, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(pins, NULL, X, w, B, 6, G, 1, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(pins, NULL, X, 6, B, w, G, 1, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(pins, NULL, X, 6, B, 6, G, w, nrhs, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(A, SL_AS_STORED, X, w, B, 6, nrhs));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(A, SL_AS_STORED, X, 6, B, w, nrhs));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(A, X, w, NULL, B, 6, B, 6, nrhs));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(A, X, 6, NULL, B, w, B, 6, nrhs));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_residual(A, X, 6, NULL, B, 6, B, w, nrhs));
+            SL_EXPECT(SL_ERR_ARGUMENT, sl_inverse_block(F, X, w, set, 6, set, nrhs, NULL, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_complex_inverse_block(F, X, w, set, 3, set, nrhs, NULL, NULL));
+        }
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_diagonal(&F, 1, X, w, set, 6, NULL, NULL, NULL, NULL));
+        /* a leading dimension of columns may be as large as there are bits left for it */
+        SL_CHECK(sl_factor_solve(F, X, SIZE_MAX / 2, B, 6, 1, NULL));
+        memcpy(X, before, sizeof X);
+    }
+    assert_memory_equal(X, before, sizeof X);
+    sl_pins_free(pins);
+    sl_plan_free(P);
+    factored_free(&y);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(full_solves_of_both_layouts_have_the_same_bits),
         cmocka_unit_test(plan_solves_of_both_layouts_have_the_same_bits),
+        cmocka_unit_test(every_solve_takes_any_layout),
         cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(other_calls_refuse_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

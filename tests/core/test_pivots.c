@@ -277,7 +277,7 @@ static void other_calls_work_or_are_refused(void **state) {
     sl_matrix_free(L);
     gen_reals(b, 90, 1);
     SL_CHECK(sl_factor_solve(F, x, 90, b, 90, 1, NULL));
-    SL_CHECK(sl_factor_solve_interleaved(F, y, 1, b, 1, 1, NULL));
+    SL_CHECK(sl_factor_solve(F, y, SL_ROWS(1), b, SL_ROWS(1), 1, NULL));
     SAME_VALUES(x, y, 90);
     sl_factor_free(F);
     sl_symbolic_free(S);

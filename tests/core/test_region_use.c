@@ -91,7 +91,8 @@ static void stale_values_are_refused(void **state) {
         }
         memset(f->X, 0, sizeof f->X);
         SL_EXPECT(SL_ERR_STATE, fixture_solve(f, f->y.F));
-        SL_EXPECT(SL_ERR_STATE, sl_plan_solve_interleaved(f->P, f->y.F, f->X, 3, f->B, 3, 3, NULL));
+        SL_EXPECT(SL_ERR_STATE,
+                  sl_plan_solve(f->P, f->y.F, f->X, SL_ROWS(3), f->B, SL_ROWS(3), 3, NULL));
         SL_EXPECT(SL_ERR_STATE, sl_batch_solve(f->y.F, &request, 1, NULL, NULL, &failed));
         assert_int_equal(failed, 0);
         assert_true(f->X[0] == 0.0);

@@ -106,9 +106,9 @@ static void check_plan(local_solve_t *q, const sl_plan *P, const sl_plan *once,
                 B[(size_t)k * ld + (size_t)r] = q->B[k + LD * r];
             }
         }
-        SL_CHECK(sl_plan_solve_interleaved(P, F, X, ld, B, ld, nrhs, NULL));
+        SL_CHECK(sl_plan_solve(P, F, X, SL_ROWS(ld), B, SL_ROWS(ld), nrhs, NULL));
         assert_interleaved(q, X, ld, nrhs);
-        SL_CHECK(sl_plan_solve_interleaved(P, F, B, ld, B, ld, nrhs, NULL)); /* in place */
+        SL_CHECK(sl_plan_solve(P, F, B, SL_ROWS(ld), B, SL_ROWS(ld), nrhs, NULL)); /* in place */
         assert_interleaved(q, B, ld, nrhs);
     }
 }

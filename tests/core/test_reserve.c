@@ -90,9 +90,9 @@ static void full_and_planned_solves(void **state) {
             reserved_done(&planned);
             for (sl_int nrhs = 0; nrhs <= most; nrhs++) {
                 SL_CHECK(sl_factor_solve(y.F, X, ld, B, ld, nrhs, full.W));
-                SL_CHECK(sl_factor_solve_interleaved(y.F, X, R, B, R, nrhs, full.W));
+                SL_CHECK(sl_factor_solve(y.F, X, SL_ROWS(R), B, SL_ROWS(R), nrhs, full.W));
                 SL_CHECK(sl_plan_solve(P, y.F, X, ld, B, ld, nrhs, planned.W));
-                SL_CHECK(sl_plan_solve_interleaved(P, y.F, X, R, B, R, nrhs, planned.W));
+                SL_CHECK(sl_plan_solve(P, y.F, X, SL_ROWS(R), B, SL_ROWS(R), nrhs, planned.W));
             }
             reserved_end(&full);
             reserved_end(&planned);

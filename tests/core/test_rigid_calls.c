@@ -25,7 +25,7 @@ static void expect_solves(const bodies_t *f, sl_status status, const sl_int *row
     }
     x[0] = y[0] = -7.5;
     SL_EXPECT(status, sl_factor_solve(f->F, x, f->n, full, f->n, 1, NULL));
-    SL_EXPECT(status, sl_factor_solve_interleaved(f->F, y, 1, full, 1, 1, NULL));
+    SL_EXPECT(status, sl_factor_solve(f->F, y, SL_ROWS(1), full, SL_ROWS(1), 1, NULL));
     SAME_VALUES(x, y, f->n);
     assert_true((x[0] == -7.5) == (status != SL_OK));
     y[0] = y[1] = y[2] = -7.5;

@@ -63,9 +63,9 @@ static void solve_all(buffers_t *y, const sl_csc *A, const sl_symbolic *S, const
         /* singular systems are inconsistent here, and some are changed by regularization */
         const sl_status refined = sl_factor_refine(F, A, y->X, n, y->B, n, nrhs, 2, W, &stats);
         assert_true(refined == SL_OK || refined == SL_ERR_INACCURATE);
-        SL_CHECK(sl_factor_solve_interleaved(F, signalling(y), row, y->B, row, nrhs, W));
+        SL_CHECK(sl_factor_solve(F, signalling(y), SL_ROWS(row), y->B, SL_ROWS(row), nrhs, W));
         SL_CHECK(sl_plan_solve(P, F, signalling(y), n, y->B, n, nrhs, W));
-        SL_CHECK(sl_plan_solve_interleaved(P, F, signalling(y), row, y->B, row, nrhs, W));
+        SL_CHECK(sl_plan_solve(P, F, signalling(y), SL_ROWS(row), y->B, SL_ROWS(row), nrhs, W));
         SL_CHECK(sl_local_solve(F, y->bset, y->nb, y->xset, y->nx, signalling(y), n, y->B, n, nrhs,
                                 W, &stats));
         SL_CHECK(sl_factor_defects(F, signalling(y), n, y->B, n, nrhs, W));
@@ -98,8 +98,7 @@ static void invert_all(buffers_t *y, const sl_symbolic *S, const sl_factor *F) {
     SL_CHECK(sl_inverse_diagonal(F, signalling(y), y->bset, y->nb, W, &stats));
     SL_CHECK(sl_inverse_diagonal(F, signalling(y), NULL, y->n, W, &stats));
     SL_CHECK(sl_inverse_pairs(F, signalling(y), y->bset, y->xset, y->nb, W, &stats));
-    SL_CHECK(sl_inverse_block(F, signalling(y), n, y->bset, y->nb, y->xset, y->nb, W,
-                              &stats));
+    SL_CHECK(sl_inverse_block(F, signalling(y), n, y->bset, y->nb, y->xset, y->nb, W, &stats));
     SL_CHECK(sl_inverse_bilinear(F, signalling(y), y->bset, y->B, y->nb, y->xset, y->B, y->nx, W,
                                  &stats));
     SL_CHECK(sl_selected_create(&Z, F, NULL, 0, &y->opt, &stats));

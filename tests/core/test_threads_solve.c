@@ -38,8 +38,8 @@ static void solves_give_the_same_bits(void **state) {
                 memcpy(X, B, n * (size_t)nrhs * sizeof *X);
                 SL_CHECK(sl_factor_solve(y.F, X, n, X, n, nrhs, W));
                 assert_memory_equal(X, one, n * (size_t)nrhs * sizeof *X);
-                SL_CHECK(sl_factor_solve_interleaved(y.F, one, RHS, B, RHS, nrhs, NULL));
-                SL_CHECK(sl_factor_solve_interleaved(y.F, X, RHS, B, RHS, nrhs, W));
+                SL_CHECK(sl_factor_solve(y.F, one, SL_ROWS(RHS), B, SL_ROWS(RHS), nrhs, NULL));
+                SL_CHECK(sl_factor_solve(y.F, X, SL_ROWS(RHS), B, SL_ROWS(RHS), nrhs, W));
                 for (size_t k = 0; k < n; k++) {
                     assert_memory_equal(X + RHS * k, one + RHS * k, (size_t)nrhs * sizeof *X);
                 }

@@ -47,8 +47,8 @@ static void check_query(const sl_plan *P, const sl_factor *F, sl_int nb, sl_int 
     SAME_VALUES(X, Y, ldx * cols);
     interleave(Bi, cols + 1, B, ldb, (size_t)nb, cols);
     interleave(Yi, cols, Y, ldx, (size_t)nx, cols);
-    SL_CHECK(P ? sl_plan_solve_interleaved(P, F, Xi, cols, Bi, cols + 1, nrhs, W)
-               : sl_factor_solve_interleaved(F, Xi, cols, Bi, cols + 1, nrhs, W));
+    SL_CHECK(P ? sl_plan_solve(P, F, Xi, SL_ROWS(cols), Bi, SL_ROWS(cols + 1), nrhs, W)
+               : sl_factor_solve(F, Xi, SL_ROWS(cols), Bi, SL_ROWS(cols + 1), nrhs, W));
     SAME_VALUES(Xi, Yi, (size_t)nx * cols);
     assert_int_equal(bytes, sl_work_bytes(W));
     sl_work_free(W);

@@ -142,7 +142,7 @@ static void interleaved_and_batch_solves_give_the_same_bits(void **state) {
                 Y[r + R * i] = B[i + N * r];
             }
         }
-        SL_CHECK(sl_factor_solve_interleaved(F, Y, R, Y, R, R, NULL));
+        SL_CHECK(sl_factor_solve(F, Y, SL_ROWS(R), Y, SL_ROWS(R), R, NULL));
         for (int i = 0; i < N; i++) {
             for (int r = 0; r < R; r++) {
                 assert_true(same_value(Y[r + R * i], X[i + N * r]));

@@ -28,7 +28,7 @@ static void solve_rows(input_t *in) {
     for (int q = 0; q < MOST * RHS; q++) {
         Bt[q] = B[q / RHS + MOST * (q % RHS)];
     }
-    const sl_status rows = sl_factor_solve_interleaved(f->F, Bt, RHS, Bt, RHS, nrhs, work);
+    const sl_status rows = sl_factor_solve(f->F, Bt, SL_ROWS(RHS), Bt, SL_ROWS(RHS), nrhs, work);
     const sl_status columns = sl_factor_solve(f->F, X, MOST, B, MOST, nrhs, work);
     if (no_memory(rows) || no_memory(columns)) {
         return;

@@ -82,7 +82,7 @@ static sl_status solve_plan(const plan_t *p, const factor_t *f, int how, sl_int 
             Bt[q] = q % RHS < nrhs ? B[q / RHS + SET * (q % RHS)] : 0.0;
         }
         const sl_status status =
-            sl_plan_solve_interleaved(p->P, f->F, Xt, RHS, Bt, RHS, nrhs, work);
+            sl_plan_solve(p->P, f->F, Xt, SL_ROWS(RHS), Bt, SL_ROWS(RHS), nrhs, work);
         for (sl_int q = 0; status == SL_OK && q < p->x.count * RHS; q++) {
             if (q % RHS < nrhs) {
                 X[q / RHS + SET * (q % RHS)] = Xt[q];
@@ -208,10 +208,10 @@ static void reserve(input_t *in) {
     PROMISE(!has_failed && sl_work_bytes(work) == bytes);
 }
 
-/* sl_batch_solve_interleaved on copies of the right-hand sides; the solutions go to the X of the
+/* sl_batch_solve on copies of the right-hand sides, by rows; the solutions go to the X of the
  * requests. */
-static sl_status batch_interleaved(const sl_request *requests, int count, const sl_options *opt,
-                                   sl_int *failed) {
+static sl_status batch_by_rows(const sl_request *requests, int count, const sl_options *opt,
+                               sl_int *failed) {
     static double X[REQUESTS][SET * RHS], B[REQUESTS][SET * RHS];
     sl_request rows[REQUESTS];
     memset(rows, 0, sizeof rows);
@@ -219,13 +219,13 @@ static sl_status batch_interleaved(const sl_request *requests, int count, const 
         rows[k] = requests[k];
         rows[k].X = X[k];
         rows[k].B = B[k];
-        rows[k].ldx = rows[k].ldb = RHS;
+        rows[k].ldx = rows[k].ldb = SL_ROWS(RHS);
         for (int q = 0; q < SET * RHS; q++) {
             B[k][q] = requests[k].B[q / RHS + SET * (q % RHS)];
             X[k][q] = 0.0;
         }
     }
-    const sl_status status = sl_batch_solve_interleaved(NULL, rows, count, opt, NULL, failed);
+    const sl_status status = sl_batch_solve(NULL, rows, count, opt, NULL, failed);
     for (int k = 0; k < count; k++) {
         for (int q = 0; q < SET * RHS; q++) {
             requests[k].X[q / RHS + SET * (q % RHS)] = X[k][q];
@@ -265,7 +265,7 @@ static void solve_batch(input_t *in) {
     const sl_options opt = threaded(1 + form % 4);
     memset(X, 0, sizeof X);
     const sl_status status = form / 4 % 2
-                                 ? batch_interleaved(requests, count, &opt, &failed)
+                                 ? batch_by_rows(requests, count, &opt, &failed)
                                  : sl_batch_solve(NULL, requests, count, &opt, NULL, &failed);
     PROMISE((failed == -1) == (status == SL_OK) || no_memory(status));
     PROMISE(all_valid || status == SL_ERR_STATE || no_memory(status));

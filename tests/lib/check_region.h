@@ -127,7 +127,7 @@ static inline void assert_region_solves(const sl_region *R, const sl_factor *F, 
         }
     }
     assert_true(X[ldx * columns] == 4321.5);
-    SL_CHECK(sl_plan_solve_interleaved(P, F, out, columns, across, columns, nrhs, W));
+    SL_CHECK(sl_plan_solve(P, F, out, SL_ROWS(columns), across, SL_ROWS(columns), nrhs, W));
     for (size_t r = 0; r < columns; r++) {
         for (sl_int i = 0; i < nx; i++) {
             assert_true(out[(size_t)i * columns + r] == X[(size_t)i + r * ldx]);

@@ -12,8 +12,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
     for (c = 0; c < nrhs; c += sli_min(8, nrhs - c)) {
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
-        sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
-                 lanes, block);
+        sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_by_columns(ldb), lanes, block);
         if (F->null_vectors > 1) {
             (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
         }
@@ -39,7 +38,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     if (!F->is_valid) {
         return SL_ERR_STATE;
     }
-    status = sli_check_dense(Y, ldy, F->n_nulls, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    status = sli_check_dense_columns(Y, ldy, F->n_nulls, B, ldb, F->S->n, nrhs);
     if (status != SL_OK || (Y == B && Y != NULL)) {
         return SL_ERR_ARGUMENT;
     }

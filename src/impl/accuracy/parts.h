@@ -173,9 +173,9 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
 /* Runs a call whose query is set. */
 static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double *B, size_t ldb,
                                sl_int nrhs, sl_work *W) {
-    const sli_dense x_at = sli_dense_of(SLI_COLUMN_MAJOR, ldx);
-    const sli_dense b_at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
-    sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, SLI_COLUMN_MAJOR, nrhs);
+    const sli_dense x_at = sli_dense_of(ldx);
+    const sli_dense b_at = sli_dense_of(ldb);
+    sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, nrhs);
     sli_block b = {NULL, 0, 0};
     sl_work own;
     sl_int r;

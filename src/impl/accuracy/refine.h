@@ -64,7 +64,7 @@ static double sli_row_error(const sli_refinement *f, double *r, const double *x,
 /* R := A^-1 R by the factor, whether consistent or not. */
 static void sli_correct(const sli_refinement *f, sl_int columns) {
     const sli_query q = sli_query_all(f->F->S);
-    const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, (size_t)f->F->S->n);
+    const sli_dense at = sli_dense_by_columns((size_t)f->F->S->n);
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
     const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
     sli_pack(&q, f->F->kernels, v.y, f->R, at, lanes, columns);
@@ -152,7 +152,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     if (F == NULL || steps < 0) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_check_dense(X, ldx, F->S->n, B, ldb, F->S->n, SLI_COLUMN_MAJOR, nrhs);
+    status = sli_check_dense_columns(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
     if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
         return SL_ERR_ARGUMENT;
     }

@@ -82,8 +82,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
     }
     sli_sweep_forward(f->F, f->q, &v, columns);
     sli_sweep_backward(f->F, f->q, &v, columns);
-    sli_unpack(f->q, f->F->kernels, f->current, sli_dense_of(SLI_COLUMN_MAJOR, nx), v.x, lanes,
-               columns);
+    sli_unpack(f->q, f->F->kernels, f->current, sli_dense_by_columns(nx), v.x, lanes, columns);
     for (c = 0; c < columns; c++) {
         double error = 0.0;
         for (m = 0; m < f->count; m++) {
@@ -118,7 +117,7 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
         }
         return;
     }
-    sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_of(SLI_COLUMN_MAJOR, ldb), lanes, columns);
+    sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_by_columns(ldb), lanes, columns);
     for (c = 0; c < columns; c++) {
         norms[c] = 0.0;
     }
@@ -131,7 +130,7 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
 
 static void sli_local_refinement_block(sli_local_refinement *f, double *X, size_t ldx,
                                        const double *B, size_t ldb, sl_int columns, sl_int steps) {
-    const sli_dense at = sli_dense_of(SLI_COLUMN_MAJOR, ldb);
+    const sli_dense at = sli_dense_by_columns(ldb);
     const size_t nx = (size_t)f->q->nx;
     double norms[SLI_TILE];
     sl_int c, step, todo = columns;
@@ -187,13 +186,13 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     if (P == NULL || F == NULL || steps < 0) {
         return SL_ERR_ARGUMENT;
     }
+    status = sli_check_dense_columns(X, ldx, P->query.nx, B, ldb, P->query.nb, nrhs);
+    if (status != SL_OK) {
+        return status;
+    }
     if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
         status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
         return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
-    }
-    status = sli_check_dense(X, ldx, P->query.nx, B, ldb, P->query.nb, SLI_COLUMN_MAJOR, nrhs);
-    if (status != SL_OK) {
-        return status;
     }
     if (!sli_query_fits(&P->query, F)) {
         return SL_ERR_STATE;

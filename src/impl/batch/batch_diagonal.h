@@ -144,7 +144,7 @@ SL_API sl_status sl_batch_diagonal(const sl_factor *const *factors, sl_int count
         return status;
     }
     n_rows = d.n_rows = rows == NULL ? factors[0]->S->n : n_rows;
-    if (n_rows < 0 || (n_rows > 0 && (out == NULL || ldo < (size_t)n_rows))) {
+    if (n_rows < 0 || (n_rows > 0 && (out == NULL || !sli_is_ld(ldo, n_rows)))) {
         return SL_ERR_ARGUMENT;
     }
     status = works == NULL ? SL_OK : sli_check_works(works, d.workers);

@@ -11,7 +11,6 @@ typedef struct sli_solve_batch {
     const sl_factor *F; /* of requests without a factor */
     const sl_request *requests;
     sl_int count, workers;
-    sli_layout layout;     /* of every X and B */
     sl_off blocks;         /* of up to 8 right-hand sides */
     double total;          /* entries of L that all blocks read */
     sl_work *const *works; /* one per worker; NULL: memory is used */
@@ -51,7 +50,7 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
                                          const sli_query *q, sl_int first, sl_int last,
                                          void *memory) {
     const sl_factor *F = sli_request_factor(b, r);
-    const sli_dense x_at = sli_dense_of(b->layout, r->ldx), b_at = sli_dense_of(b->layout, r->ldb);
+    const sli_dense x_at = sli_dense_of(r->ldx), b_at = sli_dense_of(r->ldb);
     const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
     if (b->only_checks) {
         return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
@@ -115,7 +114,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
             return SL_ERR_ARGUMENT;
         }
         q = sli_request_query(F, r);
-        status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, b->layout, r->nrhs);
+        status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
         if (status != SL_OK) {
             return status;
         }
@@ -171,9 +170,8 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
     return status;
 }
 
-static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *requests, sl_int count,
-                                     sli_layout layout, const sl_options *opt,
-                                     sl_work *const *works, sl_int *failed) {
+SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
+                                const sl_options *opt, sl_work *const *works, sl_int *failed) {
     const sl_threads serial = {0, NULL, NULL};
     const sl_threads *threads = opt == NULL ? &serial : &opt->threads;
     sli_solve_batch b;
@@ -193,7 +191,6 @@ static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *reque
     b.F = F;
     b.requests = requests;
     b.count = count;
-    b.layout = layout;
     status = sli_solve_batch_check(&b, &at);
     b.workers = sli_workers(threads);
     b.workers = b.blocks < b.workers ? (sl_int)b.blocks : b.workers;
@@ -214,17 +211,6 @@ static sl_status sli_solve_batch_run(const sl_factor *F, const sl_request *reque
         *failed = at;
     }
     return status;
-}
-
-SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, sl_int count,
-                                const sl_options *opt, sl_work *const *works, sl_int *failed) {
-    return sli_solve_batch_run(F, requests, count, SLI_COLUMN_MAJOR, opt, works, failed);
-}
-
-SL_API sl_status sl_batch_solve_interleaved(const sl_factor *F, const sl_request *requests,
-                                            sl_int count, const sl_options *opt,
-                                            sl_work *const *works, sl_int *failed) {
-    return sli_solve_batch_run(F, requests, count, SLI_INTERLEAVED, opt, works, failed);
 }
 
 #endif

@@ -259,8 +259,8 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
         return SL_ERR_ARGUMENT;
     }
     all = sli_query_all(P->F->S);
-    status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, SLI_COLUMN_MAJOR, nrhs);
-    if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || ldg < (size_t)P->count))) {
+    status = sli_check_dense_columns(X, ldx, q->nx, B, ldb, q->nb, nrhs);
+    if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || !sli_is_ld(ldg, P->count)))) {
         return SL_ERR_ARGUMENT;
     }
     if (!sli_numbers_are_of(&P->numbers, P->F) || !sli_query_fits(q, P->F)) {
@@ -281,10 +281,9 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
         status = sli_pins_nulls_factor(&w.nulls, P);
         for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
             const sl_int block = sli_min(8, nrhs - r);
-            status = sli_pins_block(
-                P, q, &w, X + (size_t)r * ldx, sli_dense_of(SLI_COLUMN_MAJOR, ldx),
-                q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_of(SLI_COLUMN_MAJOR, ldb),
-                P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
+            status = sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_by_columns(ldx),
+                                    q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_by_columns(ldb),
+                                    P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
         }
     }
     sli_free(&own.allocator, own.block);

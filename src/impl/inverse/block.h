@@ -225,7 +225,8 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
     sl_status status;
     sli_stats_clear_error(stats);
     if (F == NULL || n_rows < 0 || n_columns < 0 || (n_rows > 0 && rows == NULL) ||
-        (n_columns > 0 && columns == NULL) || (!is_empty && (Z == NULL || ldz < (size_t)n_rows))) {
+        (n_columns > 0 && columns == NULL) ||
+        (!is_empty && (Z == NULL || !sli_is_ld(ldz, n_rows)))) {
         return SL_ERR_ARGUMENT;
     }
     status = sli_check_entries(F, rows, n_rows, columns, n_columns, stats);

@@ -40,7 +40,7 @@ SL_API sl_status sl_csc_multiply(const sl_csc *A, sl_reading reading, double *Y,
     if (nrhs == 0 || A->n_rows == 0) {
         return SL_OK;
     }
-    if (Y == NULL || ldy < (size_t)A->n_rows || ldx < (size_t)A->n_cols ||
+    if (Y == NULL || !sli_is_ld(ldy, A->n_rows) || !sli_is_ld(ldx, A->n_cols) ||
         (A->n_cols > 0 && (X == NULL || X == Y))) {
         return SL_ERR_ARGUMENT;
     }
@@ -103,8 +103,8 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
         }
         return SL_OK;
     }
-    if (B == NULL || R == NULL || X == NULL || ldb < rows || ldr < rows || ldx < rows || R == X ||
-        (R == B && (backward_error != NULL || ldr != ldb))) {
+    if (B == NULL || R == NULL || X == NULL || !sli_is_ld(ldb, n) || !sli_is_ld(ldr, n) ||
+        !sli_is_ld(ldx, n) || R == X || (R == B && (backward_error != NULL || ldr != ldb))) {
         return SL_ERR_ARGUMENT;
     }
     triangle = sli_triangle_scan(A);

@@ -83,7 +83,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     l.x = sli_set_of(F->S, xset, nx);
     l.nrhs = nrhs;
     l.stats = stats;
-    status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, SLI_COLUMN_MAJOR, nrhs);
+    status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, nrhs);
     if (status != SL_OK) {
         return status;
     }
@@ -100,8 +100,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
         stats->plan.bytes = 0;
     }
     if (status == SL_OK && nrhs > 0 && l.query.nx > 0) {
-        status = sli_sweep(F, &l.query, X, sli_dense_of(SLI_COLUMN_MAJOR, ldx), B,
-                           sli_dense_of(SLI_COLUMN_MAJOR, ldb), nrhs, l.memory);
+        status = sli_sweep(F, &l.query, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, l.memory);
     }
     sli_free(&own.allocator, own.block);
     return status;

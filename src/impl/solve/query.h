@@ -137,30 +137,50 @@ static sli_vectors sli_vectors_of(const sli_query *q, sl_int nrhs, void *memory)
     return v;
 }
 
-/* The layout of a dense block of the caller's, and its strides between rows and between columns. */
-typedef enum sli_layout { SLI_COLUMN_MAJOR, SLI_INTERLEAVED } sli_layout;
-
+/* A dense block of the caller's: its strides between rows and between columns. */
 typedef struct sli_dense {
     size_t row, column; /* one of them is 1 */
 } sli_dense;
 
-SLI_INLINE sli_dense sli_dense_of(sli_layout layout, size_t ld) {
+SLI_INLINE sli_dense sli_dense_by_rows(size_t row) {
     sli_dense at;
-    at.row = layout == SLI_INTERLEAVED ? ld : 1;
-    at.column = layout == SLI_INTERLEAVED ? 1 : ld;
+    at.row = row;
+    at.column = 1;
     return at;
 }
 
-/* Checks the dense arguments of a solve. A leading dimension spans the rows of a column or,
- * interleaved, the columns of a row. */
+SLI_INLINE sli_dense sli_dense_by_columns(size_t column) {
+    sli_dense at;
+    at.row = 1;
+    at.column = column;
+    return at;
+}
+
+/* The strides of a leading dimension as the caller gives it: by rows if it is one of SL_ROWS. */
+SLI_INLINE sli_dense sli_dense_of(size_t ld) {
+    return ld & SL_ROW_MAJOR ? sli_dense_by_rows(ld & ~SL_ROW_MAJOR) : sli_dense_by_columns(ld);
+}
+
+/* Does a leading dimension span the rows of a column or, by rows, the columns of a row? */
+SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
+    return (ld & ~SL_ROW_MAJOR) >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
+}
+
+/* Checks the dense arguments of a solve, in any layout. */
 static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B,
-                                 size_t ldb, sl_int nb, sli_layout layout, sl_int nrhs) {
-    const int by_rows = layout == SLI_INTERLEAVED;
-    const int bad_x = nx > 0 && (X == NULL || ldx < (size_t)(by_rows ? nrhs : nx));
-    const int bad_b = nb > 0 && (B == NULL || ldb < (size_t)(by_rows ? nrhs : nb));
-    /* in place, but with different leading dimensions */
+                                 size_t ldb, sl_int nb, sl_int nrhs) {
+    const int bad_x = nx > 0 && (X == NULL || !sli_dense_spans(ldx, nx, nrhs));
+    const int bad_b = nb > 0 && (B == NULL || !sli_dense_spans(ldb, nb, nrhs));
+    /* in place, but with different leading dimensions or layouts */
     const int is_misaligned = X == B && ldx != ldb && nx > 0 && nb > 0;
     return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT : SL_OK;
+}
+
+/* The same for calls that take columns only. */
+static sl_status sli_check_dense_columns(const double *X, size_t ldx, sl_int nx, const double *B,
+                                         size_t ldb, sl_int nb, sl_int nrhs) {
+    return nrhs > 0 && ((ldx | ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                                                    : sli_check_dense(X, ldx, nx, B, ldb, nb, nrhs);
 }
 
 /* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which
@@ -247,8 +267,7 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
     } else if (nrhs % 8 == 0) {
         sl_int r;
         for (r = 0; r < nrhs; r += 8) {
-            sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_of(SLI_INTERLEAVED, at.row),
-                          8);
+            sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_by_rows(at.row), 8);
         }
     } else if (nrhs == 3) {
         sli_pack_rows(y, 4, index, count, B, at, 3);
@@ -274,8 +293,7 @@ static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X
     } else if (nrhs % 8 == 0) {
         sl_int r;
         for (r = 0; r < nrhs; r += 8) {
-            sli_unpack_rows(X + r, sli_dense_of(SLI_INTERLEAVED, at.row), x + r, lanes, index,
-                            count, 8);
+            sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r, lanes, index, count, 8);
         }
     } else if (nrhs == 3) {
         sli_unpack_rows(X, at, x, 4, index, count, 3);

@@ -166,17 +166,15 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double 
 
 /* Checks the arguments, then solves a query. */
 static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
-                           const double *B, size_t ldb, sli_layout layout, sl_int nrhs,
-                           sl_work *W) {
-    const sl_status status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, layout, nrhs);
+                           const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+    const sl_status status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, nrhs);
     if (status != SL_OK) {
         return status;
     }
     if (!sli_query_fits(q, F)) {
         return SL_ERR_STATE;
     }
-    return sli_query_solve(F, q, X, sli_dense_of(layout, ldx), B, sli_dense_of(layout, ldb), nrhs,
-                           W);
+    return sli_query_solve(F, q, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, W);
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
@@ -186,17 +184,7 @@ SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, cons
         return SL_ERR_ARGUMENT;
     }
     q = sli_query_all(F->S);
-    return sli_solve(F, &q, X, ldx, B, ldb, SLI_COLUMN_MAJOR, nrhs, W);
-}
-
-SL_API sl_status sl_factor_solve_interleaved(const sl_factor *F, double *X, size_t ldx,
-                                             const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    sli_query q;
-    if (F == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    q = sli_query_all(F->S);
-    return sli_solve(F, &q, X, ldx, B, ldb, SLI_INTERLEAVED, nrhs, W);
+    return sli_solve(F, &q, X, ldx, B, ldb, nrhs, W);
 }
 
 #endif

@@ -148,11 +148,15 @@ def rows(chosen):
     return array, address(array), array.size
 
 
+# SL_ROW_MAJOR: the highest bit of a size_t
+_ROW_MAJOR = 1 << (8 * ctypes.sizeof(ctypes.c_size_t) - 1)
+
+
 class Dense:
     """A right-hand side B and its solution: vectors or matrices, in rows or in columns.
 
-    A matrix in row-major order (NumPy's default) is used in place by the interleaved calls of the
-    library, one in column-major order by the others.
+    A matrix is used in place, in row-major order (NumPy's default) or in column-major order: the
+    leading dimensions tell the library which (SL_ROWS).
     """
 
     def __init__(self, B, n_b, n_x):
@@ -163,13 +167,13 @@ class Dense:
         self.count = B.shape[1] if B.ndim == 2 else 1
         if self.count > _LIMIT:
             raise TooLargeError("%d right-hand sides" % self.count)
-        self.is_interleaved = B.ndim == 2 and self.count > 1 and not B.flags.f_contiguous
-        order = "C" if self.is_interleaved else "F"
-        self.B = np.require(B, requirements=["C" if order == "C" else "F", "A"])
+        by_rows = B.ndim == 2 and self.count > 1 and not B.flags.f_contiguous
+        order = "C" if by_rows else "F"
+        self.B = np.require(B, requirements=[order, "A"])
         shape = (n_x,) if B.ndim == 1 else (n_x, self.count)
         self.X = np.empty(shape, order=order)
-        self.ldb = self.count if self.is_interleaved else max(n_b, 1)
-        self.ldx = self.count if self.is_interleaved else max(n_x, 1)
+        self.ldb = self.count | _ROW_MAJOR if by_rows else max(n_b, 1)
+        self.ldx = self.count | _ROW_MAJOR if by_rows else max(n_x, 1)
 
     def arguments(self):
         """X, ldx, B, ldb, nrhs of a call."""

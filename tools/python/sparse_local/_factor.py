@@ -203,7 +203,7 @@ class Factor:
         return self._part(lib.sl_factor_multiply_part, parts, B)
 
     def _part(self, call, parts, B):
-        dense = arrays.Dense(np.asfortranarray(B), self.n, self.n)
+        dense = arrays.Dense(B, self.n, self.n)
         check(call(self._factor.pointer, part_bits(parts), *dense.arguments(), self._work()))
         return dense.X
 
@@ -223,8 +223,7 @@ class Factor:
         InconsistentError: A is singular and B has no solution (null_pivots='skip' without mass).
         """
         dense = arrays.Dense(B, self.n, self.n)
-        call = lib.sl_factor_solve_interleaved if dense.is_interleaved else lib.sl_factor_solve
-        check(call(self._factor.pointer, *dense.arguments(), self._work()))
+        check(lib.sl_factor_solve(self._factor.pointer, *dense.arguments(), self._work()))
         return dense.X
 
     def refine(self, A, X, B, steps=2):
@@ -255,8 +254,7 @@ class Factor:
         """
         keep_b, b_rows, nb = arrays.rows(bset)
         keep_x, x_rows, nx = arrays.rows(xset)
-        dense = arrays.Dense(np.asfortranarray(B), self.n if bset is None else nb,
-                             self.n if xset is None else nx)
+        dense = arrays.Dense(B, self.n if bset is None else nb, self.n if xset is None else nx)
         stats = Stats()
         check(lib.sl_local_solve(self._factor.pointer, b_rows, nb, x_rows, nx,
                                  *dense.arguments(), self._work(), ctypes.byref(stats)), stats)

@@ -61,9 +61,9 @@ class Plan:
     def solve(self, B):
         """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
         dense = arrays.Dense(B, self.nb, self.nx)
-        call = lib.sl_plan_solve_interleaved if dense.is_interleaved else lib.sl_plan_solve
         factor = self._factor
-        check(call(self._plan.pointer, factor._factor.pointer, *dense.arguments(), factor._work()))
+        check(lib.sl_plan_solve(self._plan.pointer, factor._factor.pointer, *dense.arguments(),
+                                factor._work()))
         return dense.X
 
     def solve_part(self, parts, B):
@@ -75,7 +75,7 @@ class Plan:
         bits = part_bits(parts)
         is_forward = bits & _PARTS["P"]
         info = self.stats
-        dense = arrays.Dense(np.asfortranarray(B), self.nb if is_forward else info["x_columns"],
+        dense = arrays.Dense(B, self.nb if is_forward else info["x_columns"],
                              info["b_columns"] if is_forward else self.nx)
         factor = self._factor
         check(lib.sl_plan_solve_part(self._plan.pointer, factor._factor.pointer, bits,
