@@ -1,110 +1,109 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d00bcdfddf594846
+ * FNV-1a of the lines after this comment, without the license: acf6c278ee27ce6e
  * The comments of the implementation are in src/impl.
  *
  * Contents
  * (what a user reads)
- *    112 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    182 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    215 config.h     macros that a user may define before the include, the version, and the integer types
- *    293 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    463 options.h    options of all calls, threads, and the allocator
- *    603 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    800 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    972 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1110 factor.h     the numerical factorization P A P' = L D L'
- *   1399 solve.h      full solves, and the workspace of all solves
- *   1492 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1570 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1669 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1793 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1892 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   2000 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2107 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2146 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2336 save.h       a factor in a file or in memory: saved, loaded, and mapped without a copy (SL_WITH_SAVE)
- *   2475 saved_set.h  a factor with its selected inverse and regions in one file or block of memory (SL_WITH_SAVE)
- *   2611 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2704 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2856 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2911 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   3014 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *    111 intro.h      what the library does, a quick start, notation, conventions, threads, references
+ *    181 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    214 config.h     macros that a user may define before the include, the version, and the integer types
+ *    292 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    462 options.h    options of all calls, threads, and the allocator
+ *    602 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    799 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    971 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1109 factor.h     the numerical factorization P A P' = L D L'
+ *   1398 solve.h      full solves, and the workspace of all solves
+ *   1491 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1569 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1668 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1792 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1891 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1999 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2106 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2145 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2335 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2523 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2616 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2768 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2823 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2926 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
  * (bodies, in one source file)
  * (base: the compiler, status, memory, sorting, threads)
- *   3164 base.h   3464 status.h   3525 options.h   3586 alloc.h   3749 hash.h   3879 sort.h
- *   3944 parallel.h
+ *   3076 base.h   3376 status.h   3437 options.h   3498 alloc.h   3661 hash.h   3791 sort.h
+ *   3856 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4134 panel.h   4159 step.h   4238 pivot_rule.h   4312 front.h   4372 pairs.h   4579 table.h
- *   4595 simd.h   4698 simd_scalar.h   4725 simd_avx2.h   4792 simd_avx512.h   4824 simd_neon.h
- *   4854 dispatch.h
+ *   4046 panel.h   4071 step.h   4150 pivot_rule.h   4224 front.h   4284 pairs.h   4491 table.h
+ *   4507 simd.h   4610 simd_scalar.h   4637 simd_avx2.h   4704 simd_avx512.h   4736 simd_neon.h
+ *   4766 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4968 csc.h   5111 csc_build.h   5245 csc_triangle.h   5310 csc_products.h   5427 permute.h
+ *   4880 csc.h   5023 csc_build.h   5157 csc_triangle.h   5222 csc_products.h   5339 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5494 graph.h   5665 job.h   5701 reduce.h   6006 contract.h   6187 coarsen.h   6401 labels.h
- *   6627 subgraph.h   6821 bisect.h   7089 separator.h   7351 mindeg.h   7534 dissection.h
- *   7744 dissect.h   7998 levelset.h   8135 thin.h   8404 nd.h   8668 compress.h   8822 metis.h
- *   8952 levels.h   9026 quotient.h   9360 quotient_order.h   9454 choice.h   9626 order.h
+ *   5406 graph.h   5577 job.h   5613 reduce.h   5918 contract.h   6099 coarsen.h   6313 labels.h
+ *   6539 subgraph.h   6733 bisect.h   7001 separator.h   7263 mindeg.h   7446 dissection.h
+ *   7656 dissect.h   7910 levelset.h   8047 thin.h   8316 nd.h   8580 compress.h   8734 metis.h
+ *   8864 levels.h   8938 quotient.h   9272 quotient_order.h   9366 choice.h   9538 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9830 symbolic_types.h   9873 etree.h  10070 supernodes.h  10328 pattern.h  10409 structure.h
- *  10580 schedule.h  10911 symbolic.h  11399 reach.h
+ *   9742 symbolic_types.h   9785 etree.h   9982 supernodes.h  10240 pattern.h  10321 structure.h
+ *  10492 schedule.h  10823 symbolic.h  11311 reach.h
  * (factor: the numbers of L and D)
- *  11675 factor_types.h  11865 storage_type.h  11930 panel_load.h  11971 pivot_check.h
- *  12075 null_product.h  12279 null_dense.h  12356 null_basis.h  12676 null_vectors.h
- *  12803 multifrontal.h  12946 uplooking.h  13020 front_tasks.h  13334 null_center.h
- *  13458 nullspace.h  13665 growth.h  13743 factor_setup.h  14079 factor.h  14294 factor_query.h
+ *  11587 factor_types.h  11777 storage_type.h  11842 panel_load.h  11883 pivot_check.h
+ *  11987 null_product.h  12191 null_dense.h  12268 null_basis.h  12588 null_vectors.h
+ *  12715 multifrontal.h  12858 uplooking.h  12932 front_tasks.h  13246 null_center.h
+ *  13370 nullspace.h  13577 growth.h  13655 factor_setup.h  13991 factor.h  14206 factor_query.h
  * (solve: full and local solves)
- *  14430 work.h  14534 query.h  14789 singular.h  15049 backward.h  15079 sweep_tasks.h
- *  15410 sweep.h  15578 compile.h  15713 plan.h  15801 local.h
+ *  14342 work.h  14446 query.h  14701 singular.h  14961 backward.h  14991 sweep_tasks.h
+ *  15322 sweep.h  15490 compile.h  15625 plan.h  15713 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  15903 parts.h  16163 refine.h  16330 refine_local.h  16529 rcond.h  16677 defects.h
+ *  15815 parts.h  16075 refine.h  16242 refine_local.h  16441 rcond.h  16589 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  16733 pivot_search.h  17079 pivoted.h
+ *  16645 pivot_search.h  16991 pivoted.h
  * (float: L and fronts in single precision)
- *  17151 simd_scalar_single.h  17182 simd_avx2_single.h  17239 simd_avx512_single.h
- *  17294 simd_neon_single.h  17339 float_kernels.h  17437 float_storage.h
+ *  17063 simd_scalar_single.h  17094 simd_avx2_single.h  17151 simd_avx512_single.h
+ *  17206 simd_neon_single.h  17251 float_kernels.h  17349 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  17602 inverse_front.h  17674 inverse_kernels.h  17746 traversal.h  18000 traversal_run.h
- *  18209 row_sets.h  18243 unit_vectors.h  18464 bilinear.h  18636 entries.h  18913 block.h
- *  19143 selected.h  19340 selected_query.h  19442 region_types.h  19542 region_choose.h
- *  19769 region_ending.h  19885 region.h
+ *  17514 inverse_front.h  17586 inverse_kernels.h  17658 traversal.h  17912 traversal_run.h
+ *  18121 row_sets.h  18155 unit_vectors.h  18376 bilinear.h  18548 entries.h  18825 block.h
+ *  19055 selected.h  19252 selected_query.h  19354 region_types.h  19454 region_choose.h
+ *  19681 region_ending.h  19797 region.h
  * (change: a factor that follows changes of its matrix)
- *  20127 change_kernels.h  20200 gather.h  20248 kept.h  20405 leftlooking.h  20574 update_pivots.h
- *  20745 update.h  20979 path.h  21081 rank.h  21473 edges.h  21627 choose.h  21877 pins_types.h
- *  21943 pins_nulls.h  22124 pins_capacitance.h  22390 pins_rows.h  22510 pins_balance.h
- *  22672 pins_held.h  22900 pins_choose.h  22966 pins_rebuild.h  23189 pins_matrix.h  23340 pins.h
- *  23602 pins_solve.h  23876 subset.h  24029 restrict_kept.h  24227 restrict_analysis.h
- *  24472 restrict_symbolic.h  24667 restrict.h  24898 edit_match.h  25097 edit_place.h
- *  25346 edit_separate.h  25660 edit_order.h  25823 edit_graph.h  25905 edit_join.h  26181 edit.h
- *  26344 edit_factor.h
+ *  20039 change_kernels.h  20112 gather.h  20160 kept.h  20317 leftlooking.h  20486 update_pivots.h
+ *  20657 update.h  20891 path.h  20993 rank.h  21385 edges.h  21539 choose.h  21789 pins_types.h
+ *  21855 pins_nulls.h  22036 pins_capacitance.h  22302 pins_rows.h  22422 pins_balance.h
+ *  22584 pins_held.h  22812 pins_choose.h  22878 pins_rebuild.h  23101 pins_matrix.h  23252 pins.h
+ *  23514 pins_solve.h  23788 subset.h  23941 restrict_kept.h  24139 restrict_analysis.h
+ *  24384 restrict_symbolic.h  24579 restrict.h  24810 edit_match.h  25009 edit_place.h
+ *  25258 edit_separate.h  25572 edit_order.h  25735 edit_graph.h  25817 edit_join.h  26093 edit.h
+ *  26256 edit_factor.h
  * (io: files that are written and mapped)
- *  26632 output_file.h  26841 file_map.h
+ *  26544 output_file.h  26753 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  26942 csc64.h  27013 text_reader.h  27194 matrix_market.h
+ *  26854 csc64.h  26925 text_reader.h  27106 matrix_market.h
  * (save: factors in files)
- *  27464 format.h  27761 decode.h  27909 check.h  28239 write.h  28547 load.h  28816 load_inverse.h
- *  29146 load_calls.h
+ *  27376 format.h  27673 decode.h  27821 check.h  28151 write.h  28433 load.h  28702 load_inverse.h
+ *  29032 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  29349 matrix_sum.h  29431 scatter.h  29589 combination.h  29649 batch_solve.h
- *  29843 batch_factor.h
+ *  29192 matrix_sum.h  29274 scatter.h  29432 combination.h  29492 batch_solve.h
+ *  29686 batch_factor.h
  * (batch: diagonals of many inverses)
- *  30047 batch_diagonal.h
+ *  29890 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30189 complex_kernels.h  30301 complex_storage.h  30422 hermitian.h  30584 complex_rows.h
+ *  30032 complex_kernels.h  30144 complex_storage.h  30265 hermitian.h  30427 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  30753 storage_types.h
+ *  30596 storage_types.h
  * (last: undefine every internal macro)
- *  30780 undef.h
+ *  30623 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  31078 words_scalar.inl.h  31174 change.inl.h  31430 lanes_scalar.inl.h  31462 products.inl.h
- *  31500 inverse_front.inl.h  31805 inverse_set.inl.h  31818 front.inl.h  31820 product.inl.h
- *  32308 complex_groups.inl.h  32399 copy_rows.inl.h  32437 sweeps.inl.h  32439 unit_triangle.inl.h
- *  32476 two_rhs.inl.h  32646 small_supernode.inl.h  32848 single_rhs.inl.h  33088 multi_rhs.inl.h
- *  33151 multi_rhs_small.inl.h  33330 multi_rhs_tiles.inl.h  33569 complex_small.inl.h
- *  33765 complex_rows.inl.h  33988 complex_set.inl.h  34006 float_set.inl.h  34024 kernel_set.inl.h
- *  34026 row.inl.h  34058 interleave.inl.h  34160 lanes_undef.inl.h  34187 words_undef.inl.h
- *  34270 words_avx2.inl.h  34402 lanes_avx2.inl.h  34464 words_avx512.inl.h
- *  34573 lanes_avx512.inl.h  34620 words_neon.inl.h  34769 lanes_neon.inl.h  34848 fronts.inl.h
- *  35079 fronts_undef.inl.h
+ *  30921 words_scalar.inl.h  31017 change.inl.h  31273 lanes_scalar.inl.h  31305 products.inl.h
+ *  31343 inverse_front.inl.h  31648 inverse_set.inl.h  31661 front.inl.h  31663 product.inl.h
+ *  32151 complex_groups.inl.h  32242 copy_rows.inl.h  32280 sweeps.inl.h  32282 unit_triangle.inl.h
+ *  32319 two_rhs.inl.h  32489 small_supernode.inl.h  32691 single_rhs.inl.h  32931 multi_rhs.inl.h
+ *  32994 multi_rhs_small.inl.h  33173 multi_rhs_tiles.inl.h  33412 complex_small.inl.h
+ *  33608 complex_rows.inl.h  33831 complex_set.inl.h  33849 float_set.inl.h  33867 kernel_set.inl.h
+ *  33869 row.inl.h  33901 interleave.inl.h  34003 lanes_undef.inl.h  34030 words_undef.inl.h
+ *  34113 words_avx2.inl.h  34245 lanes_avx2.inl.h  34307 words_avx512.inl.h
+ *  34416 lanes_avx512.inl.h  34463 words_neon.inl.h  34612 lanes_neon.inl.h  34691 fronts.inl.h
+ *  34922 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2333,24 +2332,48 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
 #define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH
 #endif
 #if defined(SL_WITH_SAVE)
-/* src/public/save.h: a factor in a file or in memory: saved, loaded, and mapped without a copy */
+/* src/public/save.h: a factor and what belongs to it in a file or in memory: saved, loaded, mapped */
 
 /* A saved factor outlives its process, and any number of processes can map one file and share one
- * copy of it in memory. The format is that of the arrays in memory: src/FORMAT.md specifies it. It
- * is the same for every instruction set and for 32 and 64 bits. Files of processors of the other
- * byte order are loaded, but not mapped. The same analysis and factor give the same bytes; times
- * are not saved.
+ * copy of it in memory:
+ *
+ *     sl_saved_set set = {0}, got = {0};
+ *     set.symbolic = S;  set.factor = F;
+ *     sl_save_file(path, &set, NULL);
+ *     sl_map_file(&got, path, SL_LOAD_CHECKED, NULL);       here or in any other process
+ *     sl_factor_solve(got.factor, x, n, b, n, 1, NULL);     the bits that F gives
+ *     sl_saved_set_free(&got);
+ *
+ * The format is that of the arrays in memory: src/FORMAT.md specifies it. It is the same for every
+ * instruction set and for 32 and 64 bits. Files of processors of the other byte order are loaded,
+ * but not mapped. The same objects give the same bytes; times are not saved.
  *
  * A loaded or mapped factor solves like the saved one, with the same bits on the same instruction
  * set. It works with plans, regions and selected inverses that are made over the analysis that came
- * with it. A plan of another analysis is refused (SL_ERR_STATE), also if both were loaded from one
- * file.
+ * with it, and with those that were loaded with it: they have the bits of the saved ones. A plan of
+ * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
- * Calls of saved_set.h save selected inverses and regions too. The calls below read their files and
- * leave those out.
- *
- * A loaded factor can be refactored; the first refactorization allocates the memory of its fronts.
- * A mapped one is immutable, so that refactorizations give SL_ERR_STATE. */
+ * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
+ * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_STATE. */
+
+/** How much of a file a load creates. */
+typedef enum sl_saved_content {
+    SL_SAVED_ALL = 0, /* every object that was saved */
+    SL_SAVED_FACTOR,  /* the analysis and the factor */
+    SL_SAVED_ANALYSIS /* the analysis */
+} sl_saved_content;
+
+/** EXPERIMENTAL. What one file holds. All zero at first: then the caller fills in objects to save,
+ *  or a load does. A load replaces all fields but `wanted`. */
+typedef struct sl_saved_set {
+    sl_symbolic *symbolic;
+    sl_factor *factor;     /* over symbolic; NULL: none */
+    sl_selected *selected; /* of the present numbers of factor, or alone; NULL: none */
+    sl_region **regions;   /* n_regions, of the present numbers of factor; NULL if n_regions is 0 */
+    sl_int n_regions;
+    sl_allocator allocator;  /* of the array regions; set by loads, not read by saves */
+    sl_saved_content wanted; /* read by loads: the others are left out, and take no time */
+} sl_saved_set;
 
 /** How a saved factor is checked before it is used. The header and the table of sections are always
  *  checked, with their checksums. */
@@ -2366,35 +2389,35 @@ typedef enum sl_load_checks {
     SL_LOAD_VERIFIED
 } sl_load_checks;
 
-/** The bytes that an analysis and a factor take when they are saved.
+/** The bytes that a set takes when it is saved.
  *
  *  bytes  [out]  a multiple of 64.
- *  S      [in]   the analysis.
- *  F      [in]   a factor over S, or NULL: the analysis alone.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, one over another analysis, or
- *           objects from a file that a newer version has written and this one reads in part;
- *           SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     O(1).
- *  Threads  reads S and F.
+ *  set    [in]   an analysis and what belongs to it. A selected inverse may be saved without a
+ *                factor; regions may not. The same region may be given more than once.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
+ *           SL_ERR_STATE: a failed factor, one over another analysis, a selected inverse or region
+ *           that is of another analysis or not of the present numbers of factor, or objects from a
+ *           file that a newer version has written and this one reads in part;
+ *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
+ *  Cost     O(1 + n_regions).
+ *  Threads  reads the objects.
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S,
-                                              const sl_factor *F);
+SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set);
 
-/** Saves an analysis and a factor in the caller's memory.
+/** Saves a set in the caller's memory.
  *
  *  memory  [out]  of `bytes` bytes, at least those of sl_save_bytes; the rest is not written. For
  *                 sl_map_memory it must be aligned to 64 bytes.
  *  bytes   [in]   the size of memory.
- *  S, F    [in]   as in sl_save_bytes.
+ *  set     [in]   as in sl_save_bytes.
  *  Returns  as sl_save_bytes; SL_ERR_ARGUMENT: also if memory is too small.
- *  Cost     reads S and F twice.
- *  Threads  reads S and F.
- *  Example  tests/core/test_save.c
+ *  Cost     reads the objects twice.
+ *  Threads  reads the objects.
+ *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
-                                               const sl_factor *F);
+SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set);
 
-/** Saves an analysis and a factor in a file.
+/** Saves a set in a file.
  *
  *  The file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
  *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
@@ -2402,36 +2425,39 @@ SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const
  *  systems. A device or a symbolic link is written in place.
  *
  *  path  [in]  the name of the file.
- *  S, F  [in]  as in sl_save_bytes.
+ *  set   [in]  as in sl_save_bytes.
  *  opt   [in]  allocator; may be NULL.
  *  Returns  as sl_save_bytes; SL_ERR_IO; SL_ERR_MEMORY.
- *  Cost     reads S and F twice; waits until the file is on its device.
- *  Threads  reads S and F.
+ *  Cost     reads the objects twice; waits until the file is on its device.
+ *  Threads  reads the objects.
  *  Example  tests/core/test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_symbolic *S,
-                                             const sl_factor *F, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_set *set,
+                                             const sl_options *opt);
 
-/** Creates the analysis and the factor that memory holds, as copies.
+/** Creates the objects that memory holds, as copies.
  *
- *  S       [out]  the analysis, or NULL on error; release with sl_symbolic_free, after the factor.
- *  F       [out]  the factor, NULL on error and if none was saved; release with sl_factor_free. If
- *                 F is NULL, the analysis alone is loaded.
- *  memory  [in]   what sl_save_memory or sl_save_file wrote, of any alignment.
- *  bytes   [in]   the size that was saved, exactly.
- *  checks  [in]   see sl_load_checks.
- *  opt     [in]   allocator, threads, isa; may be NULL. threads are those of refactorizations.
+ *  A selected inverse that was saved without a factor answers queries and can be refactored;
+ *  sl_region_create refuses it.
+ *
+ *  set     [in,out]  in: `wanted`, nothing else. Out: the objects, or NULL and 0 on error and for
+ *                    what was not saved or is not wanted. Release with sl_saved_set_free.
+ *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
+ *  bytes   [in]      the size that was saved, exactly.
+ *  checks  [in]      see sl_load_checks.
+ *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
  *           cannot read, or the isa; SL_ERR_IO: incomplete, damaged or inconsistent;
  *           SL_ERR_TOO_LARGE: sizes do not fit size_t; SL_ERR_MEMORY.
- *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A). Never allocates
- *           more than `bytes` and the size of the two objects, whatever the memory contains.
+ *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
+ *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
+ *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
+ *           factor, or 8 times `bytes` with regions, whatever the memory contains.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c
+ *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory,
-                                               size_t bytes, sl_load_checks checks,
-                                               const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                                               sl_load_checks checks, const sl_options *opt);
 
 /** sl_load_memory from a file, which is closed when the call returns.
  *
@@ -2440,154 +2466,47 @@ SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, c
  *  cannot be read.
  *  Example  tests/core/test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_saved_set *set, const char *path,
                                              sl_load_checks checks, const sl_options *opt);
 
-/** Creates an analysis and a factor whose arrays are those in memory, without a copy.
+/** Creates objects whose arrays are those in memory, without a copy.
  *
- *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive both objects and
+ *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive the objects and
  *                not change.
- *  S, F, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
+ *  set, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
  *  Returns  as sl_load_memory; SL_ERR_ARGUMENT: also if memory is not aligned; SL_ERR_UNSUPPORTED:
  *           also if the byte order is not that of this processor.
- *  Cost     the checks; with SL_LOAD_TRUSTED O(1). Keeps less than 4 KB.
+ *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
+ *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
+ *           the boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c
+ *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory,
-                                              size_t bytes, sl_load_checks checks,
-                                              const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                                              sl_load_checks checks, const sl_options *opt);
 
 /** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
  *
- *  The file is unmapped by sl_symbolic_free. Replace it by sl_save_file or by renaming: the system
- *  stops a process that reads a part of a mapped file that was cut off, and changes show in the
- *  factor. Pages are read when they are first needed.
+ *  The file is unmapped when the analysis is released. Replace it by sl_save_file or by renaming:
+ *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
+ *  in the factor. Pages are read when they are first needed.
  *
  *  path  [in]  the file.
  *  Arguments, status, cost and threads otherwise as in sl_map_memory; SL_ERR_IO: the file cannot be
  *  read; SL_ERR_UNSUPPORTED: also with SL_NO_MMAP, and on systems other than POSIX and Windows.
  *  Example  tests/core/test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
                                             sl_load_checks checks, const sl_options *opt);
 
-/* src/public/saved_set.h: a factor with its selected inverse and regions in one file or block of memory */
-
-/* Regions and selected inverses take longer to make than to read. The calls below save them
- * together with their factor. Without them, the file is the same as that of sl_save_file. */
-
-/** What one file holds. The caller fills one in to save objects; a load fills in new ones, which
- *  sl_saved_set_free releases. */
-typedef struct sl_saved_set {
-    sl_symbolic *symbolic;
-    sl_factor *factor;     /* over symbolic; NULL: none */
-    sl_selected *selected; /* of the present numbers of factor, or alone; NULL: none */
-    sl_region **regions;   /* n_regions, of the present numbers of factor; NULL if n_regions is 0 */
-    sl_int n_regions;
-    sl_allocator allocator; /* of the array regions; set by loads, not read by saves */
-} sl_saved_set;
-
-/** The bytes that a set takes when it is saved.
+/** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
+ *  inverse, factor, and the analysis at last.
  *
- *  bytes  [out]  a multiple of 64.
- *  set    [in]   a selected inverse may be saved without a factor; regions may not. The same region
- *                may be given more than once.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
- *           SL_ERR_STATE: as sl_save_bytes, or a selected inverse or region that is of another
- *           analysis or not of the present numbers of factor; SL_ERR_TOO_LARGE.
- *  Cost     O(1 + n_regions).
- *  Threads  reads the objects.
+ *  To keep an object, copy its pointer and set the field to NULL before. It must be released before
+ *  the analysis it is over; release an analysis that was kept with sl_symbolic_free, after the
+ *  others. A set that the caller has filled in to save owns nothing: do not pass it. NULL is
+ *  allowed.
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set);
-
-/** Saves a set in the caller's memory. The same objects give the same bytes.
- *
- *  memory, bytes  [out]  as in sl_save_memory, at least what sl_save_set_bytes gives.
- *  set            [in]   as in sl_save_set_bytes.
- *  Returns  as sl_save_set_bytes; SL_ERR_ARGUMENT: also if memory is too small.
- *  Cost     reads the objects twice.
- *  Threads  reads the objects.
- *  Example  tests/core/test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_set_memory(void *memory, size_t bytes,
-                                                   const sl_saved_set *set);
-
-/** Saves a set in a file, which is replaced as by sl_save_file.
- *
- *  path  [in]  the name of the file.
- *  set   [in]  as in sl_save_set_bytes.
- *  opt   [in]  allocator; may be NULL.
- *  Returns  as sl_save_set_bytes; SL_ERR_IO; SL_ERR_MEMORY.
- *  Cost     reads the objects twice; waits until the file is on its device.
- *  Threads  reads the objects.
- *  Example  tests/core/test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
-                                                 const sl_options *opt);
-
-/** Creates all objects that memory holds, as copies.
- *
- *  Selected inverse and regions are those of the loaded factor: they have the bits of the saved
- *  ones, and plans in the regions solve with it. They can be refactored with it. A selected inverse
- *  that was saved without a factor answers queries and can be refactored; sl_region_create refuses
- *  it.
- *
- *  set     [out]  the objects; all zero on error. Release with sl_saved_set_free.
- *  memory, bytes, checks  [in]  as in sl_load_memory.
- *  opt     [in]   allocator, threads, isa; may be NULL. threads are those of refactorizations.
- *  Returns  as sl_load_memory.
- *  Cost     the copy, and checks as in sl_load_memory, in O(supernodes) for the selected inverse
- *           and in O(roots and rows of the boundary, log n each, and rows below the roots) for the
- *           regions. Never allocates more than 8 times `bytes`, whatever the memory contains.
- *  Threads  any number of calls at once.
- *  Example  tests/core/test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_load_set_memory(sl_saved_set *set, const void *memory,
-                                                   size_t bytes, sl_load_checks checks,
-                                                   const sl_options *opt);
-
-/** sl_load_set_memory from a file, which is closed when the call returns.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_load_set_memory; SL_ERR_IO: also if the
- *  file cannot be read.
- *  Example  tests/core/test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_load_set_file(sl_saved_set *set, const char *path,
-                                                 sl_load_checks checks, const sl_options *opt);
-
-/** Creates objects whose numbers are those in memory, without a copy.
- *
- *  All of them are immutable: sl_selected_refactor and sl_region_refactor give SL_ERR_STATE, as
- *  refactorizations do.
- *
- *  memory  [in]  as in sl_map_memory: borrowed, aligned to 64 bytes.
- *  set, bytes, checks, opt  as in sl_load_set_memory; isa only, threads are those of the inverse.
- *  Returns  as sl_map_memory.
- *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
- *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
- *           the boundary and each subtree.
- *  Threads  any number of calls at once.
- *  Example  tests/core/test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_set_memory(sl_saved_set *set, const void *memory,
-                                                  size_t bytes, sl_load_checks checks,
-                                                  const sl_options *opt);
-
-/** sl_map_set_memory of a file that is mapped into memory as by sl_map_file. The file is unmapped
- *  when the analysis is released.
- *
- *  path  [in]  the file.
- *  Arguments, status, cost and threads otherwise as in sl_map_set_memory; SL_ERR_IO and
- *  SL_ERR_UNSUPPORTED also as in sl_map_file.
- *  Example  tests/core/test_saved_set.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_map_set_file(sl_saved_set *set, const char *path,
-                                                sl_load_checks checks, const sl_options *opt);
-
-/** Releases the objects of a set that a load filled in, then sets it to all zero. To keep an
- *  object, set its pointer to NULL before. NULL is allowed. */
 SL_API void sl_saved_set_free(sl_saved_set *set);
 
 #else
@@ -2598,13 +2517,6 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
 #define sl_load_file(...) sl_load_file_needs_SL_WITH_SAVE
 #define sl_map_memory(...) sl_map_memory_needs_SL_WITH_SAVE
 #define sl_map_file(...) sl_map_file_needs_SL_WITH_SAVE
-#define sl_save_set_bytes(...) sl_save_set_bytes_needs_SL_WITH_SAVE
-#define sl_save_set_memory(...) sl_save_set_memory_needs_SL_WITH_SAVE
-#define sl_save_set_file(...) sl_save_set_file_needs_SL_WITH_SAVE
-#define sl_load_set_memory(...) sl_load_set_memory_needs_SL_WITH_SAVE
-#define sl_load_set_file(...) sl_load_set_file_needs_SL_WITH_SAVE
-#define sl_map_set_memory(...) sl_map_set_memory_needs_SL_WITH_SAVE
-#define sl_map_set_file(...) sl_map_set_file_needs_SL_WITH_SAVE
 #define sl_saved_set_free(...) sl_saved_set_free_needs_SL_WITH_SAVE
 #endif
 #if defined(SL_WITH_CHANGE)
@@ -28464,7 +28376,7 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
   }
 }
 
-SL_API sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set) {
+SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
   sli_saved f;
   sl_status status;
   if (bytes == NULL || set == NULL) {
@@ -28477,7 +28389,7 @@ SL_API sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set) {
   return status;
 }
 
-SL_API sl_status sl_save_set_memory(void *memory, size_t bytes, const sl_saved_set *set) {
+SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set) {
   sli_saved f;
   sli_sink to;
   sl_status status = set == NULL ? SL_ERR_ARGUMENT : sli_save_prepare(&f, set);
@@ -28493,8 +28405,7 @@ SL_API sl_status sl_save_set_memory(void *memory, size_t bytes, const sl_saved_s
   return status;
 }
 
-SL_API sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
-                  const sl_options *opt) {
+SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const sl_options *opt) {
   const int saved = errno;
   const sl_allocator a = sli_allocator(opt);
   sli_output output;
@@ -28517,31 +28428,6 @@ SL_API sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
   }
   errno = saved;
   return status;
-}
-
-static sl_saved_set sli_saved_pair(const sl_symbolic *S, const sl_factor *F) {
-  sl_saved_set set;
-  memset(&set, 0, sizeof set);
-  set.symbolic = (sl_symbolic *)(uintptr_t)S;
-  set.factor = (sl_factor *)(uintptr_t)F;
-  return set;
-}
-
-SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
-  const sl_saved_set set = sli_saved_pair(S, F);
-  return sl_save_set_bytes(bytes, &set);
-}
-
-SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
-                const sl_factor *F) {
-  const sl_saved_set set = sli_saved_pair(S, F);
-  return sl_save_set_memory(memory, bytes, &set);
-}
-
-SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
-                const sl_options *opt) {
-  const sl_saved_set set = sli_saved_pair(S, F);
-  return sl_save_set_file(path, &set, opt);
 }
 
 /* src/impl/save/load.h: reads the table, an analysis and a factor from saved bytes, as copies or in place */
@@ -29143,9 +29029,7 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
   return status;
 }
 
-/* src/impl/save/load_calls.h: loads and maps from memory and files, a factor or a set; sl_saved_set_free */
-
-typedef enum sli_wanted { SLI_WANTS_ANALYSIS, SLI_WANTS_FACTOR, SLI_WANTS_ALL } sli_wanted;
+/* src/impl/save/load_calls.h: loads and maps sets from memory and files; sl_saved_set_free */
 
 SL_API void sl_saved_set_free(sl_saved_set *set) {
   sl_int k;
@@ -29164,23 +29048,25 @@ SL_API void sl_saved_set_free(sl_saved_set *set) {
   memset(set, 0, sizeof *set);
 }
 
-static sl_status sli_read(sli_reading *r, sl_saved_set *set, sli_wanted wanted) {
+static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
+  const sl_saved_content wanted = set->wanted;
   sl_status status = sli_read_front(r);
   if (status == SL_OK && r->is_mapped && r->swapped) {
     return SL_ERR_UNSUPPORTED;
   }
   status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
-  if (status == SL_OK && wanted >= SLI_WANTS_FACTOR && r->has_factor) {
+  if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
     status = sli_read_factor(r, set->symbolic, &set->factor);
   }
-  if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_region > 0) {
+  if (status == SL_OK && wanted == SL_SAVED_ALL && r->first_region > 0) {
     status = sli_read_regions(r, set->factor, set);
   }
-  if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_selected > 0) {
+  if (status == SL_OK && wanted == SL_SAVED_ALL && r->first_selected > 0) {
     status = sli_read_selected(r, set->symbolic, set->factor, &set->selected);
   }
   if (status != SL_OK) {
     sl_saved_set_free(set);
+    set->wanted = wanted;
   }
   return status;
 }
@@ -29192,31 +29078,29 @@ typedef struct sli_origin {
   int is_mapped;
 } sli_origin;
 
-static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set,
-                 sli_wanted wanted) {
+static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
   sl_status status = SL_ERR_IO;
   r->file = fopen(path, "rb");
   if (r->file != NULL) {
     r->size = sli_file_size(r->file);
-    status = sli_read(r, set, wanted);
+    status = sli_read(r, set);
     fclose(r->file);
   }
   return status;
 }
 
 static sl_status sli_read_memory(sli_reading *r, const void *memory, size_t bytes,
-                 sl_saved_set *set, sli_wanted wanted) {
+                 sl_saved_set *set) {
   r->memory = (const unsigned char *)memory;
   r->size = bytes;
-  return sli_read(r, set, wanted);
+  return sli_read(r, set);
 }
 
-static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *set,
-                sli_wanted wanted) {
+static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *set) {
   sli_mapping map;
   sl_status status = sli_map(path, &map);
   if (status == SL_OK) {
-    status = sli_read_memory(r, map.bytes, map.size, set, wanted);
+    status = sli_read_memory(r, map.bytes, map.size, set);
     if (status == SL_OK) {
       set->symbolic->backing.release = sli_unmap;
       set->symbolic->backing.bytes = map.bytes;
@@ -29228,13 +29112,21 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
   return status;
 }
 
-static sl_status sli_read_from(const sli_origin *from, sl_saved_set *set, sli_wanted wanted,
-                 sl_load_checks checks, const sl_options *opt) {
+static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
+                const sl_options *opt) {
   const int saved = errno;
   const int is_file = from->path != NULL;
+  sl_saved_content wanted;
   sli_reading r;
   sl_status status;
-  if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
+  if (set == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  wanted = set->wanted;
+  memset(set, 0, sizeof *set);
+  set->wanted = wanted;
+  if ((unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS ||
+    (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
     !sli_options_are_valid(opt, SLI_READS_ISA) || (!is_file && from->memory == NULL) ||
     (!is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0)) {
     return SL_ERR_ARGUMENT;
@@ -29245,11 +29137,11 @@ static sl_status sli_read_from(const sli_origin *from, sl_saved_set *set, sli_wa
   r.allocator = sli_allocator(opt);
   r.is_mapped = from->is_mapped;
   if (!is_file) {
-    status = sli_read_memory(&r, from->memory, from->bytes, set, wanted);
+    status = sli_read_memory(&r, from->memory, from->bytes, set);
   } else if (from->is_mapped) {
-    status = sli_map_path(&r, from->path, set, wanted);
+    status = sli_map_path(&r, from->path, set);
   } else {
-    status = sli_read_path(&r, from->path, set, wanted);
+    status = sli_read_path(&r, from->path, set);
   }
   errno = saved;
   return status;
@@ -29270,75 +29162,26 @@ static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
   return from;
 }
 
-static sl_status sli_read_pair(const sli_origin *from, sl_symbolic **S, sl_factor **F,
-                 sl_load_checks checks, const sl_options *opt) {
-  const sli_wanted wanted = F != NULL ? SLI_WANTS_FACTOR : SLI_WANTS_ANALYSIS;
-  sl_saved_set set;
-  sl_status status = SL_ERR_ARGUMENT;
-  memset(&set, 0, sizeof set);
-  if (S != NULL) {
-    status = sli_read_from(from, &set, wanted, checks, opt);
-    *S = set.symbolic;
-  }
-  if (F != NULL) {
-    *F = set.factor;
-  }
-  return status;
-}
-
-SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+SL_API sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
                 sl_load_checks checks, const sl_options *opt) {
   const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-  return sli_read_pair(&from, S, F, checks, opt);
+  return sli_read_set(&from, set, checks, opt);
 }
 
-SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+SL_API sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
                  sl_load_checks checks, const sl_options *opt) {
   const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-  return sli_read_pair(&from, S, F, checks, opt);
+  return sli_read_set(&from, set, checks, opt);
 }
 
-SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
-                sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_file(path, 0);
-  return sli_read_pair(&from, S, F, checks, opt);
-}
-
-SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
-               sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_file(path, 1);
-  return sli_read_pair(&from, S, F, checks, opt);
-}
-
-static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
+SL_API sl_status sl_load_file(sl_saved_set *set, const char *path, sl_load_checks checks,
                 const sl_options *opt) {
-  if (set == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  memset(set, 0, sizeof *set);
-  return sli_read_from(from, set, SLI_WANTS_ALL, checks, opt);
-}
-
-SL_API sl_status sl_load_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                  sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                   sl_load_checks checks, const sl_options *opt) {
-  const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-  return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_load_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                  const sl_options *opt) {
   const sli_origin from = sli_origin_in_file(path, 0);
   return sli_read_set(&from, set, checks, opt);
 }
 
-SL_API sl_status sl_map_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                 const sl_options *opt) {
+SL_API sl_status sl_map_file(sl_saved_set *set, const char *path, sl_load_checks checks,
+               const sl_options *opt) {
   const sli_origin from = sli_origin_in_file(path, 1);
   return sli_read_set(&from, set, checks, opt);
 }

@@ -31,7 +31,6 @@ extern "C" {
 #endif
 #if defined(SL_WITH_SAVE)
 #include "public/save.h"
-#include "public/saved_set.h"
 #endif
 #if defined(SL_WITH_CHANGE)
 #include "public/change.h"

@@ -33,30 +33,29 @@ static void make(const file_case *c, sl_saved_set *set, sl_region **R) {
 
 /* Maps the factor and makes the rest anew. */
 static void map_and_make(const file_case *c) {
-    sl_saved_set set;
+    sl_saved_set set = {.wanted = SL_SAVED_FACTOR}, made;
     sl_region *R = NULL;
-    memset(&set, 0, sizeof set);
-    bench_must(sl_map_file(&set.symbolic, &set.factor, c->path, SL_LOAD_CHECKED, NULL), "mapping");
-    make(c, &set, &R);
+    bench_must(sl_map_file(&set, c->path, SL_LOAD_CHECKED, NULL), "mapping");
+    made = set;
+    make(c, &made, &R);
     sl_region_free(R);
-    sl_selected_free(set.selected);
-    sl_factor_free(set.factor);
-    sl_symbolic_free(set.symbolic);
+    sl_selected_free(made.selected);
+    sl_saved_set_free(&set);
 }
 
 static void open_set(const file_case *c, int way) {
-    sl_saved_set set;
-    bench_must(way == 3 ? sl_load_set_file(&set, c->path, SL_LOAD_CHECKED, NULL)
-                        : sl_map_set_file(&set, c->path,
-                                          way == 1 ? SL_LOAD_CHECKED : SL_LOAD_TRUSTED, NULL),
+    sl_saved_set set = {0};
+    bench_must(way == 3
+                   ? sl_load_file(&set, c->path, SL_LOAD_CHECKED, NULL)
+                   : sl_map_file(&set, c->path, way == 1 ? SL_LOAD_CHECKED : SL_LOAD_TRUSTED, NULL),
                "opening");
     sl_saved_set_free(&set);
 }
 
 static int same_bits(const file_case *c, const sl_saved_set *made) {
-    sl_saved_set got;
+    sl_saved_set got = {0};
     int same = 1;
-    bench_must(sl_map_set_file(&got, c->path, SL_LOAD_VERIFIED, NULL), "mapping");
+    bench_must(sl_map_file(&got, c->path, SL_LOAD_VERIFIED, NULL), "mapping");
     if (c->what == PART_SELECTED) {
         const sl_selected_arrays a = sl_selected_view(made->selected),
                                  b = sl_selected_view(got.selected);
@@ -133,7 +132,7 @@ void bench_saved_inverses(bench_run *run, bench_report *report, const bench_syst
         set.symbolic = system->S;
         set.factor = system->F;
         make(&c, &set, &R);
-        bench_must(sl_save_set_file(c.path, &set, NULL), "saving");
+        bench_must(sl_save_file(c.path, &set, NULL), "saving");
         if (bench_expect(run, same_bits(&c, &set),
                          "a region or selected inverse of a file differs")) {
             time_ways(report, system, &c);

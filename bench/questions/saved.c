@@ -25,35 +25,35 @@ typedef struct saved_case {
     unsigned char *buffer; /* CHUNK bytes */
     sl_load_checks checks;
     uint64_t rng;
-    /* the mapped factor of the solves, and that in memory */
-    sl_symbolic *S;
-    sl_factor *F;
+    sl_saved_set mapped; /* the factor of the solves, beside that in memory */
     sl_work *W;
 } saved_case;
 
 /* ---- contenders ---- */
 
+static sl_saved_set set_of(const saved_case *c) {
+    const sl_saved_set set = {.symbolic = c->system->S, .factor = c->system->F};
+    return set;
+}
+
 static void call_save(void *state) {
     const saved_case *c = state;
-    bench_must(sl_save_file(c->copy, c->system->S, c->system->F, NULL), "saving");
+    const sl_saved_set set = set_of(c);
+    bench_must(sl_save_file(c->copy, &set, NULL), "saving");
 }
 
 static void call_load(void *state) {
     const saved_case *c = state;
-    sl_symbolic *S;
-    sl_factor *F;
-    bench_must(sl_load_file(&S, &F, c->path, c->checks, NULL), "loading");
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    sl_saved_set set = {0};
+    bench_must(sl_load_file(&set, c->path, c->checks, NULL), "loading");
+    sl_saved_set_free(&set);
 }
 
 static void call_map(void *state) {
     const saved_case *c = state;
-    sl_symbolic *S;
-    sl_factor *F;
-    bench_must(sl_map_file(&S, &F, c->path, c->checks, NULL), "mapping");
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    sl_saved_set set = {0};
+    bench_must(sl_map_file(&set, c->path, c->checks, NULL), "mapping");
+    sl_saved_set_free(&set);
 }
 
 /* Copies the file as cp does, and waits until the copy is on the device, as a save does. */
@@ -101,16 +101,15 @@ static double solve_at(const sl_factor *F, sl_int v, sl_work *W) {
 
 static void map_again(void *state) {
     saved_case *c = state;
-    sl_factor_free(c->F);
-    sl_symbolic_free(c->S);
+    sl_saved_set_free(&c->mapped);
     sl_work_free(c->W);
-    bench_must(sl_map_file(&c->S, &c->F, c->path, SL_LOAD_TRUSTED, NULL), "mapping");
+    bench_must(sl_map_file(&c->mapped, c->path, SL_LOAD_TRUSTED, NULL), "mapping");
     bench_must(sl_work_create(&c->W, NULL), "workspace");
 }
 
 static void call_first_solve(void *state) {
     saved_case *c = state;
-    (void)solve_at(c->F, bench_random_below(&c->rng, c->system->n), c->W);
+    (void)solve_at(c->mapped.factor, bench_random_below(&c->rng, c->system->n), c->W);
 }
 
 static void call_memory_solve(void *state) {
@@ -127,18 +126,16 @@ static int check_bits(bench_run *run, saved_case *c) {
     sl_work *W;
     bench_must(sl_work_create(&W, NULL), "workspace");
     for (int way = 0; way < 4; way++) {
-        sl_symbolic *S;
-        sl_factor *F;
-        bench_must(way < 3 ? sl_map_file(&S, &F, c->path, (sl_load_checks)way, NULL)
-                           : sl_load_file(&S, &F, c->path, SL_LOAD_CHECKED, NULL),
+        sl_saved_set set = {0};
+        bench_must(way < 3 ? sl_map_file(&set, c->path, (sl_load_checks)way, NULL)
+                           : sl_load_file(&set, c->path, SL_LOAD_CHECKED, NULL),
                    "mapping");
         for (int k = 0; k < 100; k++) {
             const sl_int v = bench_random_below(&rng, c->system->n);
-            const double x = solve_at(c->system->F, v, W), y = solve_at(F, v, W);
+            const double x = solve_at(c->system->F, v, W), y = solve_at(set.factor, v, W);
             same &= memcmp(&x, &y, sizeof x) == 0;
         }
-        sl_factor_free(F);
-        sl_symbolic_free(S);
+        sl_saved_set_free(&set);
     }
     sl_work_free(W);
     return bench_expect(run, same, "a mapped factor gives other bits than the one in memory");
@@ -256,20 +253,19 @@ static double private_bytes(void) {
 }
 
 static void be_child(const saved_case *c, int solves, child_result *out) {
-    sl_symbolic *S;
-    sl_factor *F;
+    sl_saved_set set = {0};
     sl_work *W;
     uint64_t rng = 99;
     const double before = private_bytes();
-    bench_must(sl_map_file(&S, &F, c->path, SL_LOAD_CHECKED, NULL), "mapping");
+    bench_must(sl_map_file(&set, c->path, SL_LOAD_CHECKED, NULL), "mapping");
     bench_must(sl_work_create(&W, NULL), "workspace");
     for (int k = 0; k < solves / 10; k++) {
-        (void)solve_at(F, bench_random_below(&rng, c->system->n), W);
+        (void)solve_at(set.factor, bench_random_below(&rng, c->system->n), W);
     }
     out->private_bytes = private_bytes() - before - (double)sl_work_bytes(W);
     const double start = bench_now(), processor = bench_processor_seconds();
     for (int k = 0; k < solves; k++) {
-        (void)solve_at(F, bench_random_below(&rng, c->system->n), W);
+        (void)solve_at(set.factor, bench_random_below(&rng, c->system->n), W);
     }
     out->seconds = bench_now() - start;
     out->processor = bench_processor_seconds() - processor;
@@ -303,9 +299,9 @@ static void time_processes(bench_run *run, bench_report *report, const saved_cas
     const int solves = CHILD_SOLVES;
     double alone[2] = {1e9, 1e9}, both[2] = {1e9, 1e9}, private_most = 0;
     int ok = 1;
-    sl_symbolic *S; /* maps all pages here, so that those of a single child are shared too */
-    sl_factor *F;
-    bench_must(sl_map_file(&S, &F, c->path, SL_LOAD_VERIFIED, NULL), "mapping");
+    sl_saved_set set = {
+        0}; /* maps all pages here, so that those of a single child are shared too */
+    bench_must(sl_map_file(&set, c->path, SL_LOAD_VERIFIED, NULL), "mapping");
     child_result *r = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (r == MAP_FAILED) {
         bench_must(SL_ERR_MEMORY, "sharing memory");
@@ -323,8 +319,7 @@ static void time_processes(bench_run *run, bench_report *report, const saved_cas
         private_most = larger(private_most, larger(r[0].private_bytes, r[1].private_bytes));
     }
     munmap(r, 4096);
-    sl_factor_free(F);
-    sl_symbolic_free(S);
+    sl_saved_set_free(&set);
     if (!bench_expect(run, ok, "a process that maps the file failed")) {
         return;
     }
@@ -349,8 +344,9 @@ void bench_saved(bench_run *run) {
     snprintf(c.copy, sizeof c.copy, "%s/saved_copy.slf", run->out_dir);
     c.buffer = bench_alloc(CHUNK, 1);
     c.rng = 5;
-    bench_must(sl_save_bytes(&c.bytes, c.system->S, c.system->F), "saving");
-    bench_must(sl_save_file(c.path, c.system->S, c.system->F, NULL), "saving");
+    const sl_saved_set set = set_of(&c);
+    bench_must(sl_save_bytes(&c.bytes, &set), "saving");
+    bench_must(sl_save_file(c.path, &set, NULL), "saving");
     if (check_bits(run, &c)) {
         bench_report *report = bench_report_open(run, "saved", "factors in files",
                                                  "cp or read; map, checked; a factor in memory");
@@ -361,8 +357,7 @@ void bench_saved(bench_run *run) {
         bench_saved_inverses(run, report, c.system);
         bench_report_close(report);
     }
-    sl_factor_free(c.F);
-    sl_symbolic_free(c.S);
+    sl_saved_set_free(&c.mapped);
     sl_work_free(c.W);
     (void)remove(c.path);
     free(c.buffer);

@@ -1,25 +1,49 @@
-/* save.h: a factor in a file or in memory: saved, loaded, and mapped without a copy */
+/* save.h: a factor and what belongs to it in a file or in memory: saved, loaded, mapped */
 #ifndef SL_PUBLIC_SAVE_H
 #define SL_PUBLIC_SAVE_H
 
 #include "options.h"
 
 /* A saved factor outlives its process, and any number of processes can map one file and share one
- * copy of it in memory. The format is that of the arrays in memory: src/FORMAT.md specifies it. It
- * is the same for every instruction set and for 32 and 64 bits. Files of processors of the other
- * byte order are loaded, but not mapped. The same analysis and factor give the same bytes; times
- * are not saved.
+ * copy of it in memory:
+ *
+ *     sl_saved_set set = {0}, got = {0};
+ *     set.symbolic = S;  set.factor = F;
+ *     sl_save_file(path, &set, NULL);
+ *     sl_map_file(&got, path, SL_LOAD_CHECKED, NULL);       here or in any other process
+ *     sl_factor_solve(got.factor, x, n, b, n, 1, NULL);     the bits that F gives
+ *     sl_saved_set_free(&got);
+ *
+ * The format is that of the arrays in memory: src/FORMAT.md specifies it. It is the same for every
+ * instruction set and for 32 and 64 bits. Files of processors of the other byte order are loaded,
+ * but not mapped. The same objects give the same bytes; times are not saved.
  *
  * A loaded or mapped factor solves like the saved one, with the same bits on the same instruction
  * set. It works with plans, regions and selected inverses that are made over the analysis that came
- * with it. A plan of another analysis is refused (SL_ERR_STATE), also if both were loaded from one
- * file.
+ * with it, and with those that were loaded with it: they have the bits of the saved ones. A plan of
+ * another analysis is refused (SL_ERR_STATE), also if both were loaded from one file.
  *
- * Calls of saved_set.h save selected inverses and regions too. The calls below read their files and
- * leave those out.
- *
- * A loaded factor can be refactored; the first refactorization allocates the memory of its fronts.
- * A mapped one is immutable, so that refactorizations give SL_ERR_STATE. */
+ * Loaded objects can be refactored; the first refactorization of a factor allocates the memory of
+ * its fronts. Mapped ones are immutable, so that refactorizations give SL_ERR_STATE. */
+
+/** How much of a file a load creates. */
+typedef enum sl_saved_content {
+    SL_SAVED_ALL = 0, /* every object that was saved */
+    SL_SAVED_FACTOR,  /* the analysis and the factor */
+    SL_SAVED_ANALYSIS /* the analysis */
+} sl_saved_content;
+
+/** EXPERIMENTAL. What one file holds. All zero at first: then the caller fills in objects to save,
+ *  or a load does. A load replaces all fields but `wanted`. */
+typedef struct sl_saved_set {
+    sl_symbolic *symbolic;
+    sl_factor *factor;     /* over symbolic; NULL: none */
+    sl_selected *selected; /* of the present numbers of factor, or alone; NULL: none */
+    sl_region **regions;   /* n_regions, of the present numbers of factor; NULL if n_regions is 0 */
+    sl_int n_regions;
+    sl_allocator allocator;  /* of the array regions; set by loads, not read by saves */
+    sl_saved_content wanted; /* read by loads: the others are left out, and take no time */
+} sl_saved_set;
 
 /** How a saved factor is checked before it is used. The header and the table of sections are always
  *  checked, with their checksums. */
@@ -35,35 +59,35 @@ typedef enum sl_load_checks {
     SL_LOAD_VERIFIED
 } sl_load_checks;
 
-/** The bytes that an analysis and a factor take when they are saved.
+/** The bytes that a set takes when it is saved.
  *
  *  bytes  [out]  a multiple of 64.
- *  S      [in]   the analysis.
- *  F      [in]   a factor over S, or NULL: the analysis alone.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed factor, one over another analysis, or
- *           objects from a file that a newer version has written and this one reads in part;
- *           SL_ERR_TOO_LARGE: more than size_t holds.
- *  Cost     O(1).
- *  Threads  reads S and F.
+ *  set    [in]   an analysis and what belongs to it. A selected inverse may be saved without a
+ *                factor; regions may not. The same region may be given more than once.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, n_regions below 0, or regions without a factor;
+ *           SL_ERR_STATE: a failed factor, one over another analysis, a selected inverse or region
+ *           that is of another analysis or not of the present numbers of factor, or objects from a
+ *           file that a newer version has written and this one reads in part;
+ *           SL_ERR_UNSUPPORTED: SL_STORAGE_COMPLEX; SL_ERR_TOO_LARGE: more than size_t holds.
+ *  Cost     O(1 + n_regions).
+ *  Threads  reads the objects.
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S,
-                                              const sl_factor *F);
+SL_API SL_WARN_UNUSED sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set);
 
-/** Saves an analysis and a factor in the caller's memory.
+/** Saves a set in the caller's memory.
  *
  *  memory  [out]  of `bytes` bytes, at least those of sl_save_bytes; the rest is not written. For
  *                 sl_map_memory it must be aligned to 64 bytes.
  *  bytes   [in]   the size of memory.
- *  S, F    [in]   as in sl_save_bytes.
+ *  set     [in]   as in sl_save_bytes.
  *  Returns  as sl_save_bytes; SL_ERR_ARGUMENT: also if memory is too small.
- *  Cost     reads S and F twice.
- *  Threads  reads S and F.
- *  Example  tests/core/test_save.c
+ *  Cost     reads the objects twice.
+ *  Threads  reads the objects.
+ *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
-                                               const sl_factor *F);
+SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set);
 
-/** Saves an analysis and a factor in a file.
+/** Saves a set in a file.
  *
  *  The file gets its name only when it is complete and, on Linux, macOS and Windows, on its device.
  *  An error, a full disk or a crash leaves the old file as it was, and processes that have mapped
@@ -71,36 +95,39 @@ SL_API SL_WARN_UNUSED sl_status sl_save_memory(void *memory, size_t bytes, const
  *  systems. A device or a symbolic link is written in place.
  *
  *  path  [in]  the name of the file.
- *  S, F  [in]  as in sl_save_bytes.
+ *  set   [in]  as in sl_save_bytes.
  *  opt   [in]  allocator; may be NULL.
  *  Returns  as sl_save_bytes; SL_ERR_IO; SL_ERR_MEMORY.
- *  Cost     reads S and F twice; waits until the file is on its device.
- *  Threads  reads S and F.
+ *  Cost     reads the objects twice; waits until the file is on its device.
+ *  Threads  reads the objects.
  *  Example  tests/core/test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_symbolic *S,
-                                             const sl_factor *F, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_set *set,
+                                             const sl_options *opt);
 
-/** Creates the analysis and the factor that memory holds, as copies.
+/** Creates the objects that memory holds, as copies.
  *
- *  S       [out]  the analysis, or NULL on error; release with sl_symbolic_free, after the factor.
- *  F       [out]  the factor, NULL on error and if none was saved; release with sl_factor_free. If
- *                 F is NULL, the analysis alone is loaded.
- *  memory  [in]   what sl_save_memory or sl_save_file wrote, of any alignment.
- *  bytes   [in]   the size that was saved, exactly.
- *  checks  [in]   see sl_load_checks.
- *  opt     [in]   allocator, threads, isa; may be NULL. threads are those of refactorizations.
+ *  A selected inverse that was saved without a factor answers queries and can be refactored;
+ *  sl_region_create refuses it.
+ *
+ *  set     [in,out]  in: `wanted`, nothing else. Out: the objects, or NULL and 0 on error and for
+ *                    what was not saved or is not wanted. Release with sl_saved_set_free.
+ *  memory  [in]      what sl_save_memory or sl_save_file wrote, of any alignment.
+ *  bytes   [in]      the size that was saved, exactly.
+ *  checks  [in]      see sl_load_checks.
+ *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
  *           cannot read, or the isa; SL_ERR_IO: incomplete, damaged or inconsistent;
  *           SL_ERR_TOO_LARGE: sizes do not fit size_t; SL_ERR_MEMORY.
- *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A). Never allocates
- *           more than `bytes` and the size of the two objects, whatever the memory contains.
+ *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
+ *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
+ *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
+ *           factor, or 8 times `bytes` with regions, whatever the memory contains.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c
+ *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory,
-                                               size_t bytes, sl_load_checks checks,
-                                               const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                                               sl_load_checks checks, const sl_options *opt);
 
 /** sl_load_memory from a file, which is closed when the call returns.
  *
@@ -109,36 +136,47 @@ SL_API SL_WARN_UNUSED sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, c
  *  cannot be read.
  *  Example  tests/core/test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
+SL_API SL_WARN_UNUSED sl_status sl_load_file(sl_saved_set *set, const char *path,
                                              sl_load_checks checks, const sl_options *opt);
 
-/** Creates an analysis and a factor whose arrays are those in memory, without a copy.
+/** Creates objects whose arrays are those in memory, without a copy.
  *
- *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive both objects and
+ *  memory  [in]  as in sl_load_memory, aligned to 64 bytes; borrowed, must outlive the objects and
  *                not change.
- *  S, F, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
+ *  set, bytes, checks, opt  as in sl_load_memory; isa only, threads are those of the inverse.
  *  Returns  as sl_load_memory; SL_ERR_ARGUMENT: also if memory is not aligned; SL_ERR_UNSUPPORTED:
  *           also if the byte order is not that of this processor.
- *  Cost     the checks; with SL_LOAD_TRUSTED O(1). Keeps less than 4 KB.
+ *  Cost     the checks; with SL_LOAD_TRUSTED O(1) and O(rows of the boundary) for each region.
+ *           Keeps less than 4 KB, and for each region less than 500 bytes and 16 for each row of
+ *           the boundary and each subtree.
  *  Threads  any number of calls at once.
- *  Example  tests/core/test_save.c
+ *  Example  tests/core/test_save.c, test_saved_set.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory,
-                                              size_t bytes, sl_load_checks checks,
-                                              const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
+                                              sl_load_checks checks, const sl_options *opt);
 
 /** sl_map_memory of a file that is mapped into memory, read-only and shared with other processes.
  *
- *  The file is unmapped by sl_symbolic_free. Replace it by sl_save_file or by renaming: the system
- *  stops a process that reads a part of a mapped file that was cut off, and changes show in the
- *  factor. Pages are read when they are first needed.
+ *  The file is unmapped when the analysis is released. Replace it by sl_save_file or by renaming:
+ *  the system stops a process that reads a part of a mapped file that was cut off, and changes show
+ *  in the factor. Pages are read when they are first needed.
  *
  *  path  [in]  the file.
  *  Arguments, status, cost and threads otherwise as in sl_map_memory; SL_ERR_IO: the file cannot be
  *  read; SL_ERR_UNSUPPORTED: also with SL_NO_MMAP, and on systems other than POSIX and Windows.
  *  Example  tests/core/test_save_file.c
  */
-SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
+SL_API SL_WARN_UNUSED sl_status sl_map_file(sl_saved_set *set, const char *path,
                                             sl_load_checks checks, const sl_options *opt);
+
+/** Releases what a load put into a set, then sets it to all zero: regions and their array, selected
+ *  inverse, factor, and the analysis at last.
+ *
+ *  To keep an object, copy its pointer and set the field to NULL before. It must be released before
+ *  the analysis it is over; release an analysis that was kept with sl_symbolic_free, after the
+ *  others. A set that the caller has filled in to save owns nothing: do not pass it. NULL is
+ *  allowed.
+ */
+SL_API void sl_saved_set_free(sl_saved_set *set);
 
 #endif

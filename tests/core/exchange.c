@@ -78,18 +78,18 @@ static void ask(const sl_saved_set *set, double *x) {
 
 int main(int argc, char **argv) {
     static double own[2 * N + 1], other[2 * N + 1];
-    sl_saved_set made, loaded;
+    sl_saved_set made, loaded = {0};
     sl_region *R = NULL;
     if (argc < 3) {
         return 2;
     }
     make(&made, &R, argv[1]);
     if (argc == 3) {
-        must(sl_save_set_file(argv[2], &made, NULL), argv[2]);
+        must(sl_save_file(argv[2], &made, NULL), argv[2]);
     } else {
         /* D and the order are those of double; L in float is rounded once more */
         const double bound = strcmp(argv[1], "float") == 0 ? 1e-5 : 1e-13;
-        must(sl_load_set_file(&loaded, argv[3], SL_LOAD_VERIFIED, NULL), argv[3]);
+        must(sl_load_file(&loaded, argv[3], SL_LOAD_VERIFIED, NULL), argv[3]);
         ask(&made, own);
         ask(&loaded, other);
         for (int k = 0; k < 2 * N + 1; k++) {
@@ -98,7 +98,7 @@ int main(int argc, char **argv) {
                 return 1;
             }
         }
-        must(sl_save_set_file(argv[2], &loaded, NULL), argv[2]);
+        must(sl_save_file(argv[2], &loaded, NULL), argv[2]);
         sl_saved_set_free(&loaded);
     }
     sl_region_free(R);

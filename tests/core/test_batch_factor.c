@@ -1,5 +1,6 @@
 /* test_batch_factor.c: sl_batch_factor and sl_batch_refactor: bits, threads, errors, memory */
 #include "tests/lib/factor_array.h"
+#include "tests/lib/saved_pair.h"
 
 static void assert_factors(const matrix_pair_t *y, sl_factor *const *F, const double *c, int count,
                            sl_options opt) {
@@ -267,9 +268,9 @@ static void loaded_factors_allocate_when_they_are_refactored(void **state) {
     size_t size, bytes = 0;
     coefficients_of(c, 1, 1);
     sl_factor *made = matrix_pair_factor(&y, c, NULL);
-    SL_CHECK(sl_save_bytes(&size, y.S, made));
+    SL_CHECK(pair_save_bytes(&size, y.S, made));
     unsigned char *memory = (unsigned char *)test_array(size, 1);
-    SL_CHECK(sl_save_memory(memory, size, y.S, made));
+    SL_CHECK(pair_save_memory(memory, size, y.S, made));
     for (int turn = 0; turn < 2; turn++) {
         counter_t counter = counter_make();
         sl_options opt = options_counted(&counter);
@@ -282,7 +283,7 @@ static void loaded_factors_allocate_when_they_are_refactored(void **state) {
         sl_status status = SL_ERR_MEMORY;
         memcpy(twice, c, sizeof c);
         memcpy(twice + TERMS, c, sizeof c);
-        SL_CHECK(sl_load_memory(&S, &F[0], memory, size, SL_LOAD_CHECKED, &opt));
+        SL_CHECK(pair_load_memory(&S, &F[0], memory, size, SL_LOAD_CHECKED, &opt));
         SL_CHECK(sl_factor_create_combination(&F[1], S, c, matrix_pair_values(&y), TERMS, NULL,
                                               NULL));
         for (int k = 0; status != SL_OK; k++) {

@@ -1,5 +1,6 @@
 /* test_change_use.c: sl_factor_update, _update_entries: what is refused and leaves F as it was */
 #include "tests/lib/changed.h"
+#include "tests/lib/saved_pair.h"
 
 typedef struct kept_t {
     double *L, *D;
@@ -227,16 +228,16 @@ static void mapped_factors_are_refused(void **state) {
     sl_int i = 3;
     double d = 1.0;
     SL_CHECK(sl_factor_update_entries(c.y.F, &i, &i, &d, 1, NULL, NULL));
-    SL_CHECK(sl_save_bytes(&bytes, c.y.S, c.y.F));
+    SL_CHECK(pair_save_bytes(&bytes, c.y.S, c.y.F));
     double *memory = test_reals(bytes / sizeof(double) + 16);
     unsigned char *block = (unsigned char *)memory;
     block += (64 - (uintptr_t)block % 64) % 64;
-    SL_CHECK(sl_save_memory(block, bytes, c.y.S, c.y.F));
-    SL_CHECK(sl_map_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
+    SL_CHECK(pair_save_memory(block, bytes, c.y.S, c.y.F));
+    SL_CHECK(pair_map_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_factor_update_entries(F, &i, &i, &d, 1, NULL, NULL));
     sl_factor_free(F);
     sl_symbolic_free(S);
-    SL_CHECK(sl_load_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
+    SL_CHECK(pair_load_memory(&S, &F, block, bytes, SL_LOAD_VERIFIED, NULL));
     SL_CHECK(sl_factor_update_entries(F, &i, &i, &d, 1, NULL, NULL));
     SL_CHECK(sl_factor_update_entries(c.y.F, &i, &i, &d, 1, NULL, NULL));
     assert_same_bits(F, c.y.F);

@@ -99,7 +99,7 @@ static void assert_old_text(void) {
 static sl_status save(const factored_t *y, fault_t which, int number) {
     fault = which;
     fault_number = number;
-    const sl_status status = sl_save_file(files_path("a.slf"), y->S, y->F, NULL);
+    const sl_status status = pair_save_file(files_path("a.slf"), y->S, y->F, NULL);
     fault = NO_FAULT;
     return status;
 }
@@ -111,8 +111,8 @@ static sl_status load(int is_mapped, fault_t which, int number) {
     const char *path = files_path("a.slf");
     fault = which;
     fault_number = number;
-    const sl_status status = is_mapped ? sl_map_file(&S, &F, path, SL_LOAD_VERIFIED, NULL)
-                                       : sl_load_file(&S, &F, path, SL_LOAD_VERIFIED, NULL);
+    const sl_status status = is_mapped ? pair_map_file(&S, &F, path, SL_LOAD_VERIFIED, NULL)
+                                       : pair_load_file(&S, &F, path, SL_LOAD_VERIFIED, NULL);
     fault = NO_FAULT;
     assert_true((S != NULL) == (status == SL_OK) && (F != NULL) == (status == SL_OK));
     sl_factor_free(F);
@@ -141,13 +141,13 @@ static void files_that_are_not_read_to_their_end(void **state) {
     sl_options opt = options_counted(&counter);
     const char *path = files_path("a.slf");
     sl_status status = SL_ERR_IO;
-    sl_saved_set set;
+    sl_saved_set set = {0};
     int reads = 0;
-    SL_CHECK(sl_save_set_file(path, set_of(&q), NULL));
+    SL_CHECK(sl_save_file(path, set_of(&q), NULL));
     for (; status != SL_OK; reads++) {
         fault = FREAD_FAILS;
         fault_number = reads;
-        status = sl_load_set_file(&set, path, SL_LOAD_VERIFIED, &opt);
+        status = sl_load_file(&set, path, SL_LOAD_VERIFIED, &opt);
         fault = NO_FAULT;
         assert_true(status == SL_OK || status == SL_ERR_IO);
         assert_true((set.symbolic != NULL) == (status == SL_OK));

@@ -1,5 +1,6 @@
 /* test_restrict_use.c: sl_factor_restrict: what is refused, and how null pivots are treated */
 #include "tests/lib/restricted.h"
+#include "tests/lib/saved_pair.h"
 
 /* a pointer that is not NULL, to see that a call sets it to NULL */
 static char garbage[1];
@@ -26,7 +27,7 @@ static void numbers_of_a_restriction_stay(void **state) {
         assert_int_equal(sl_factor_refactor_changed(t.G, B, &row, 1, NULL), SL_ERR_STATE);
         assert_int_equal(sl_factor_change(t.G, B, &row, &row, &one, 1, NULL, NULL), SL_ERR_STATE);
         assert_int_equal(sl_factor_update(t.G, &V, NULL, NULL, NULL), SL_ERR_STATE);
-        assert_int_equal(sl_save_bytes(&bytes, t.S, t.G), SL_ERR_STATE);
+        assert_int_equal(pair_save_bytes(&bytes, t.S, t.G), SL_ERR_STATE);
         assert_int_equal(sl_factor_rcond(t.G, B, &rcond, NULL), SL_ERR_PATTERN);
         assert_int_equal(
             sl_factor_refine(t.G, B, x, (size_t)t.count, b, (size_t)t.count, 1, 1, NULL, NULL),

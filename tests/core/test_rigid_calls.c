@@ -282,7 +282,7 @@ static void check_saved(bodies_t *f, const sl_options *opt) {
     SL_CHECK(sl_factor_create(&f->F, f->S, &f->y.A, &any, NULL));
     saved_t m = saved_make(f->S, f->F);
     for (int way = 0; way < 2; way++) {
-        const saved_call_t call = way == 0 ? sl_load_memory : sl_map_memory;
+        const saved_call_t call = way == 0 ? pair_load_memory : pair_map_memory;
         sl_options use = options_none();
         sl_symbolic *S = NULL;
         sl_factor *G = NULL;

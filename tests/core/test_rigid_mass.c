@@ -99,7 +99,7 @@ static void every_way_gives_the_same_bits(void **state) {
         SAME_VALUES(Y, X, f.n * 9);
         saved_t saved = saved_make(f.S, f.F);
         for (int way = 0; way < 2; way++) {
-            const saved_call_t call = way == 0 ? sl_load_memory : sl_map_memory;
+            const saved_call_t call = way == 0 ? pair_load_memory : pair_map_memory;
             sl_options use = options_none();
             sl_symbolic *S = NULL;
             sl_factor *G = NULL;

@@ -58,16 +58,17 @@ static void every_truncation_is_refused(void **state) {
         saved_t cut = saved_of_size(size); /* so that a read past the end is noticed */
         memcpy(cut.bytes, m.bytes, size);
         for (int checks = 0; checks < 3; checks++) {
-            assert_int_equal(attempt(sl_load_memory, &cut, size, (sl_load_checks)checks, NULL),
+            assert_int_equal(attempt(pair_load_memory, &cut, size, (sl_load_checks)checks, NULL),
                              SL_ERR_IO);
-            assert_int_equal(attempt(sl_map_memory, &cut, size, (sl_load_checks)checks, NULL),
+            assert_int_equal(attempt(pair_map_memory, &cut, size, (sl_load_checks)checks, NULL),
                              SL_ERR_IO);
         }
         /* also with a header that agrees with the size */
         if (size >= SAVED_HEADER) {
             saved_put64(cut.bytes + SAVED_BYTES, size);
             saved_repair(cut.bytes, size);
-            assert_int_equal(attempt(sl_load_memory, &cut, size, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
+            assert_int_equal(attempt(pair_load_memory, &cut, size, SL_LOAD_TRUSTED, NULL),
+                             SL_ERR_IO);
         }
         saved_free(&cut);
     }
@@ -89,15 +90,15 @@ static void every_flipped_bit_is_noticed_or_harmless(void **state) {
         for (size_t bit = 0; bit < 8 * m.size; bit += way == SAVED_WEIGHTED ? 1 : 5) {
             memcpy(k.bytes, m.bytes, m.size);
             k.bytes[bit / 8] ^= (unsigned char)(1u << bit % 8);
-            assert_true(attempt(sl_load_memory, &k, m.size, SL_LOAD_VERIFIED, NULL) != SL_OK);
+            assert_true(attempt(pair_load_memory, &k, m.size, SL_LOAD_VERIFIED, NULL) != SL_OK);
             if (bit % 4 == 0) {
-                assert_true(attempt(sl_map_memory, &k, m.size, SL_LOAD_VERIFIED, NULL) != SL_OK);
+                assert_true(attempt(pair_map_memory, &k, m.size, SL_LOAD_VERIFIED, NULL) != SL_OK);
             }
             if (bit / 8 < arrays) {
-                assert_true(attempt(sl_map_memory, &k, m.size, SL_LOAD_TRUSTED, NULL) != SL_OK);
+                assert_true(attempt(pair_map_memory, &k, m.size, SL_LOAD_TRUSTED, NULL) != SL_OK);
             }
             saved_repair(k.bytes, m.size);
-            const int is_ok = attempt(bit % 2 ? sl_load_memory : sl_map_memory, &k, m.size,
+            const int is_ok = attempt(bit % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
                                       SL_LOAD_VERIFIED, &c.y.M.view) == SL_OK;
             accepted += is_ok;
             refused += !is_ok;
@@ -122,8 +123,8 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
                 memcpy(k.bytes, m.bytes, m.size);
                 saved_put32(k.bytes + at, values[v]);
                 saved_repair(k.bytes, m.size);
-                (void)attempt(v % 2 ? sl_load_memory : sl_map_memory, &k, m.size, SL_LOAD_CHECKED,
-                              &c.y.M.view);
+                (void)attempt(v % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
+                              SL_LOAD_CHECKED, &c.y.M.view);
             }
         }
         saved_free(&m);
@@ -146,7 +147,7 @@ static void every_replaced_real_is_noticed_or_harmless(void **state) {
                 memcpy(k.bytes, m.bytes, m.size);
                 memcpy(k.bytes + at, &values[v], sizeof values[v]);
                 saved_repair(k.bytes, m.size);
-                refused += attempt(v % 2 ? sl_load_memory : sl_map_memory, &k, m.size,
+                refused += attempt(v % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
                                    SL_LOAD_CHECKED, &c.y.M.view) != SL_OK;
             }
         }
@@ -177,8 +178,8 @@ static void a_missing_section_is_refused(void **state) {
     saved_put32(k.bytes + SAVED_SECTIONS, SAVED_KNOWN - 1);
     saved_put64(k.bytes + SAVED_BYTES, end - moved);
     saved_repair(k.bytes, end - moved);
-    assert_int_equal(attempt(sl_load_memory, &k, end - moved, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
-    assert_int_equal(attempt(sl_map_memory, &k, end - moved, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
+    assert_int_equal(attempt(pair_load_memory, &k, end - moved, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
+    assert_int_equal(attempt(pair_map_memory, &k, end - moved, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
     saved_free(&m);
     saved_free(&k);
     factored_free(&y);
@@ -196,7 +197,7 @@ static void sections_must_follow_each_other(void **state) {
                 unsigned char *entry = saved_entry(k.bytes, s);
                 saved_put64(entry + field, saved_u64(entry + field) + (uint64_t)moves[v]);
                 saved_repair(k.bytes, m.size);
-                assert_int_equal(attempt(sl_load_memory, &k, m.size, SL_LOAD_TRUSTED, NULL),
+                assert_int_equal(attempt(pair_load_memory, &k, m.size, SL_LOAD_TRUSTED, NULL),
                                  SL_ERR_IO);
             }
         }
@@ -206,14 +207,15 @@ static void sections_must_follow_each_other(void **state) {
             memcpy(saved_entry(k.bytes, s) + SAVED_OFFSET,
                    saved_entry(m.bytes, s - 2) + SAVED_OFFSET, 16);
             saved_repair(k.bytes, m.size);
-            assert_int_equal(attempt(sl_map_memory, &k, m.size, SL_LOAD_TRUSTED, NULL), SL_ERR_IO);
+            assert_int_equal(attempt(pair_map_memory, &k, m.size, SL_LOAD_TRUSTED, NULL),
+                             SL_ERR_IO);
         }
     }
     for (uint32_t count = 0; count < 70; count++) {
         memcpy(k.bytes, m.bytes, m.size);
         saved_put32(k.bytes + SAVED_SECTIONS, count);
         saved_repair(k.bytes, m.size);
-        assert_int_equal(attempt(sl_map_memory, &k, m.size, SL_LOAD_TRUSTED, NULL),
+        assert_int_equal(attempt(pair_map_memory, &k, m.size, SL_LOAD_TRUSTED, NULL),
                          count == SAVED_KNOWN ? SL_OK : SL_ERR_IO);
     }
     saved_free(&m);
@@ -251,7 +253,7 @@ static void later_versions_are_read_only_or_refused(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL);
     saved_t m = saved_make(y.S, y.F), k = later_file(&m);
-    saved_call_t calls[2] = {sl_load_memory, sl_map_memory};
+    saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
     for (int call = 0; call < 2; call++) {
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
@@ -259,25 +261,26 @@ static void later_versions_are_read_only_or_refused(void **state) {
         SL_CHECK(calls[call](&S, &F, k.bytes, k.size, SL_LOAD_VERIFIED, NULL));
         assert_same_answers(y.F, F);
         SL_EXPECT(SL_ERR_STATE, sl_factor_refactor(F, &y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&size, S, F)); /* it would lose the unknown section */
+        SL_EXPECT(SL_ERR_STATE,
+                  pair_save_bytes(&size, S, F)); /* it would lose the unknown section */
         sl_factor_free(F);
         sl_symbolic_free(S);
     }
     for (uint32_t version = 0; version < SAVED_LATER; version++) { /* have no such section */
         saved_put32(k.bytes + SAVED_WRITE, version);
         saved_repair(k.bytes, k.size);
-        assert_int_equal(attempt(sl_load_memory, &k, k.size, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
+        assert_int_equal(attempt(pair_load_memory, &k, k.size, SL_LOAD_CHECKED, NULL), SL_ERR_IO);
     }
     for (uint32_t version = 0; version < 4; version++) {
         saved_put32(m.bytes + SAVED_READ, version);
         saved_repair(m.bytes, m.size);
-        assert_int_equal(attempt(sl_load_memory, &m, m.size, SL_LOAD_CHECKED, &y.M.view),
+        assert_int_equal(attempt(pair_load_memory, &m, m.size, SL_LOAD_CHECKED, &y.M.view),
                          version == 1   ? SL_OK
                          : version == 2 ? SL_ERR_IO /* would have L in float */
                                         : SL_ERR_UNSUPPORTED);
     }
     m.bytes[1] ^= 1; /* the magic number */
-    assert_int_equal(attempt(sl_load_memory, &m, m.size, SL_LOAD_CHECKED, NULL),
+    assert_int_equal(attempt(pair_load_memory, &m, m.size, SL_LOAD_CHECKED, NULL),
                      SL_ERR_UNSUPPORTED);
     saved_free(&m);
     saved_free(&k);
@@ -296,8 +299,8 @@ static void the_other_byte_order_is_loaded_and_not_mapped(void **state) {
         assert_memory_not_equal(k.bytes, m.bytes, m.size);
         for (int checks = 0; checks < 3; checks++) {
             SL_EXPECT(SL_ERR_UNSUPPORTED,
-                      sl_map_memory(&S, &F, k.bytes, k.size, (sl_load_checks)checks, NULL));
-            SL_CHECK(sl_load_memory(&S, &F, k.bytes, k.size, (sl_load_checks)checks, NULL));
+                      pair_map_memory(&S, &F, k.bytes, k.size, (sl_load_checks)checks, NULL));
+            SL_CHECK(pair_load_memory(&S, &F, k.bytes, k.size, (sl_load_checks)checks, NULL));
             assert_same_answers(c.y.F, F);
             SL_CHECK(sl_factor_refactor(F, &c.y.M.view, NULL)); /* the pattern is recognized */
             saved_t again = saved_make(S, F);
@@ -307,7 +310,7 @@ static void the_other_byte_order_is_loaded_and_not_mapped(void **state) {
             sl_symbolic_free(S);
         }
         k.bytes[k.size - 1000] ^= 1;
-        SL_EXPECT(SL_ERR_IO, sl_load_memory(&S, &F, k.bytes, k.size, SL_LOAD_VERIFIED, NULL));
+        SL_EXPECT(SL_ERR_IO, pair_load_memory(&S, &F, k.bytes, k.size, SL_LOAD_VERIFIED, NULL));
         saved_free(&m);
         saved_free(&k);
         saved_case_free(&c);

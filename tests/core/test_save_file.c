@@ -43,31 +43,31 @@ static void a_file_has_the_bytes_of_memory(void **state) {
     sl_factor *F = NULL;
     struct stat found;
     errno = 77;
-    SL_CHECK(sl_save_file(files_path("a.slf"), y.S, y.F, NULL));
+    SL_CHECK(pair_save_file(files_path("a.slf"), y.S, y.F, NULL));
     assert_file_holds(files_path("a.slf"), &y);
     assert_int_equal(chmod(files_path("a.slf"), 0640), 0);
-    SL_CHECK(sl_save_file(files_path("a.slf"), z.S, z.F, NULL)); /* shorter than the old one */
+    SL_CHECK(pair_save_file(files_path("a.slf"), z.S, z.F, NULL)); /* shorter than the old one */
     assert_file_holds(files_path("a.slf"), &z);
     assert_int_equal(stat(files_path("a.slf"), &found), 0);
     assert_int_equal(found.st_mode & 0777, 0640);
-    SL_CHECK(sl_save_file(files_path("a.slf"), y.S, y.F, NULL));
+    SL_CHECK(pair_save_file(files_path("a.slf"), y.S, y.F, NULL));
     assert_int_equal(other_files(), 0);
     for (int checks = 0; checks < 3; checks++) {
-        SL_CHECK(sl_load_file(&S, &F, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_load_file(&S, &F, files_path("a.slf"), (sl_load_checks)checks, NULL));
         assert_same_answers(y.F, F);
         SL_CHECK(sl_factor_refactor(F, &y.M.view, NULL));
         sl_factor_free(F);
         SL_CHECK(sl_factor_create(&F, S, &y.M.view, NULL, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
-        SL_CHECK(sl_map_file(&S, &F, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_map_file(&S, &F, files_path("a.slf"), (sl_load_checks)checks, NULL));
         assert_same_answers(y.F, F);
         SL_EXPECT(SL_ERR_STATE, sl_factor_refactor(F, &y.M.view, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
-        SL_CHECK(sl_load_file(&S, NULL, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_load_file(&S, NULL, files_path("a.slf"), (sl_load_checks)checks, NULL));
         sl_symbolic_free(S);
-        SL_CHECK(sl_map_file(&S, NULL, files_path("a.slf"), (sl_load_checks)checks, NULL));
+        SL_CHECK(pair_map_file(&S, NULL, files_path("a.slf"), (sl_load_checks)checks, NULL));
         sl_symbolic_free(S);
     }
     assert_int_equal(errno, 77);
@@ -81,12 +81,12 @@ static void a_mapped_file_may_be_replaced(void **state) {
                z = factored_make(GEN_PATH, 30, 1, 0, NULL);
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
-    SL_CHECK(sl_save_file(files_path("a.slf"), y.S, y.F, NULL));
-    SL_CHECK(sl_map_file(&S, &F, files_path("a.slf"), SL_LOAD_CHECKED, NULL));
-    SL_CHECK(sl_save_file(files_path("a.slf"), z.S, z.F, NULL));
+    SL_CHECK(pair_save_file(files_path("a.slf"), y.S, y.F, NULL));
+    SL_CHECK(pair_map_file(&S, &F, files_path("a.slf"), SL_LOAD_CHECKED, NULL));
+    SL_CHECK(pair_save_file(files_path("a.slf"), z.S, z.F, NULL));
     assert_same_answers(y.F, F); /* still the old file */
     assert_file_holds(files_path("a.slf"), &z);
-    SL_CHECK(sl_save_file(files_path("a.slf"), S, F, NULL)); /* a mapped factor, saved */
+    SL_CHECK(pair_save_file(files_path("a.slf"), S, F, NULL)); /* a mapped factor, saved */
     assert_file_holds(files_path("a.slf"), &y);
     assert_int_equal(remove(files_path("a.slf")), 0);
     assert_same_answers(y.F, F);
@@ -108,7 +108,7 @@ static void errors_leave_the_old_file(void **state) {
         small = all;
         small.rlim_cur = limits[k];
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-        SL_EXPECT(SL_ERR_IO, sl_save_file(files_path("a.slf"), y.S, y.F, NULL));
+        SL_EXPECT(SL_ERR_IO, pair_save_file(files_path("a.slf"), y.S, y.F, NULL));
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &all), 0);
         size_t length = 0;
         char *text = files_get(files_path("a.slf"), &length);
@@ -118,15 +118,15 @@ static void errors_leave_the_old_file(void **state) {
     }
     (void)signal(SIGXFSZ, old_action);
     if (access("/dev/full", W_OK) == 0) {
-        SL_EXPECT(SL_ERR_IO, sl_save_file("/dev/full", y.S, y.F, NULL));
-        SL_CHECK(sl_save_file("/dev/null", y.S, y.F, NULL));
+        SL_EXPECT(SL_ERR_IO, pair_save_file("/dev/full", y.S, y.F, NULL));
+        SL_CHECK(pair_save_file("/dev/null", y.S, y.F, NULL));
     }
-    SL_EXPECT(SL_ERR_IO, sl_save_file(files_path("no/such/folder"), y.S, y.F, NULL));
-    SL_EXPECT(SL_ERR_IO, sl_save_file(files_folder, y.S, y.F, NULL));
+    SL_EXPECT(SL_ERR_IO, pair_save_file(files_path("no/such/folder"), y.S, y.F, NULL));
+    SL_EXPECT(SL_ERR_IO, pair_save_file(files_folder, y.S, y.F, NULL));
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
     counter.fail_at = 0;
-    SL_EXPECT(SL_ERR_MEMORY, sl_save_file(files_path("a.slf"), y.S, y.F, &opt));
+    SL_EXPECT(SL_ERR_MEMORY, pair_save_file(files_path("a.slf"), y.S, y.F, &opt));
     COUNTER_CLEAN(&counter);
     factored_free(&y);
 }
@@ -149,14 +149,14 @@ static void a_killed_save_leaves_the_old_file(void **state) {
                z = factored_make(GEN_GRID2, 22500, 1, 0, NULL);
     saved_t first = saved_make(y.S, y.F), second = saved_make(z.S, z.F);
     uint64_t random = 7;
-    SL_CHECK(sl_save_file(files_path("a.slf"), y.S, y.F, NULL));
+    SL_CHECK(pair_save_file(files_path("a.slf"), y.S, y.F, NULL));
     for (int k = 0; k < 50; k++) {
         const pid_t child = fork();
         assert_true(child >= 0);
         if (child == 0) {
             for (;;) {
-                if (sl_save_file(files_path("a.slf"), z.S, z.F, NULL) != SL_OK ||
-                    sl_save_file(files_path("a.slf"), y.S, y.F, NULL) != SL_OK) {
+                if (pair_save_file(files_path("a.slf"), z.S, z.F, NULL) != SL_OK ||
+                    pair_save_file(files_path("a.slf"), y.S, y.F, NULL) != SL_OK) {
                     _exit(1);
                 }
             }
@@ -189,13 +189,12 @@ static void what_is_no_saved_factor_is_refused(void **state) {
     factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
     saved_t m = saved_make(y.S, y.F);
     sl_status (*calls[2])(sl_symbolic **, sl_factor **, const char *, sl_load_checks,
-                          const sl_options *) = {sl_load_file, sl_map_file};
+                          const sl_options *) = {pair_load_file, pair_map_file};
     for (int k = 0; k < 2; k++) {
         sl_symbolic *S = y.S;
         sl_factor *F = y.F;
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&S, &F, NULL, SL_LOAD_CHECKED, NULL));
         assert_true(S == NULL && F == NULL);
-        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](NULL, &F, "x", SL_LOAD_CHECKED, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&S, &F, "x", (sl_load_checks)9, NULL));
         SL_EXPECT(SL_ERR_IO, calls[k](&S, &F, files_path("none.slf"), SL_LOAD_CHECKED, NULL));
         SL_EXPECT(SL_ERR_IO, calls[k](&S, &F, files_folder, SL_LOAD_CHECKED, NULL));
@@ -251,7 +250,7 @@ static void files_of_all_versions_are_read(void **state) {
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         double b[100] = {1}, x[100];
-        SL_CHECK(sl_load_file(&S, &F, all.paths[k], SL_LOAD_VERIFIED, NULL));
+        SL_CHECK(pair_load_file(&S, &F, all.paths[k], SL_LOAD_VERIFIED, NULL));
         const sl_int n = sl_symbolic_view(S).n;
         assert_true(n > 1 && n <= 100);
         b[1] = -1;
@@ -262,8 +261,8 @@ static void files_of_all_versions_are_read(void **state) {
         count++;
         sl_factor_free(F);
         sl_symbolic_free(S);
-        sl_saved_set set;
-        SL_CHECK(sl_load_set_file(&set, all.paths[k], SL_LOAD_VERIFIED, NULL));
+        sl_saved_set set = {0};
+        SL_CHECK(sl_load_file(&set, all.paths[k], SL_LOAD_VERIFIED, NULL));
         inverses += set.selected != NULL;
         regions += set.n_regions;
         for (sl_int m = 0; m < set.n_regions; m++) {

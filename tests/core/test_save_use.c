@@ -7,7 +7,7 @@ static void an_analysis_is_saved_without_a_factor(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 144, 1, 0, NULL);
     saved_t m = saved_make(y.S, NULL), whole = saved_make(y.S, y.F);
-    saved_call_t calls[2] = {sl_load_memory, sl_map_memory};
+    saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
     for (int k = 0; k < 2; k++) {
         sl_symbolic *S = NULL;
         sl_factor *F = y.F, *G = NULL;
@@ -38,9 +38,9 @@ static void two_loads_are_independent(void **state) {
     saved_t m = saved_make(y.S, y.F);
     sl_symbolic *S[3];
     sl_factor *F[3], *G = NULL;
-    SL_CHECK(sl_load_memory(&S[0], &F[0], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
-    SL_CHECK(sl_map_memory(&S[1], &F[1], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
-    SL_CHECK(sl_map_memory(&S[2], &F[2], m.bytes, m.size, SL_LOAD_TRUSTED, NULL));
+    SL_CHECK(pair_load_memory(&S[0], &F[0], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(pair_map_memory(&S[1], &F[1], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(pair_map_memory(&S[2], &F[2], m.bytes, m.size, SL_LOAD_TRUSTED, NULL));
     for (int k = 0; k < 3; k++) {
         assert_same_answers(F[k], F[(k + 1) % 3]); /* their plans refuse each other's factor */
     }
@@ -54,7 +54,7 @@ static void two_loads_are_independent(void **state) {
     sl_factor_free(F[1]);
     sl_symbolic_free(S[1]);
     assert_same_answers(y.F, F[2]);
-    SL_EXPECT(SL_ERR_STATE, sl_save_memory(m.bytes, m.size, S[2], y.F)); /* of another analysis */
+    SL_EXPECT(SL_ERR_STATE, pair_save_memory(m.bytes, m.size, S[2], y.F)); /* of another analysis */
     sl_factor_free(F[2]);
     sl_symbolic_free(S[2]);
     saved_free(&m);
@@ -84,7 +84,7 @@ static void a_loaded_factor_can_be_refactored(void **state) {
                 x[p] = A->x[p] * 1.5;
             }
             B.x = x;
-            SL_CHECK(sl_load_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
+            SL_CHECK(pair_load_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
             SL_CHECK(sl_factor_refactor_changed(F, A, columns, 2, NULL));
             SL_CHECK(sl_factor_refactor_changed(c.y.F, A, columns, 2, NULL));
             assert_same_answers(c.y.F, F);
@@ -110,7 +110,7 @@ static void a_mapped_factor_is_immutable(void **state) {
     const double one = 1;
     const double *values = y.M.view.x;
     sl_int failed = 7;
-    SL_CHECK(sl_map_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(pair_map_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_factor_refactor(F, &y.M.view, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_factor_refactor_changed(F, &y.M.view, &column, 1, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_factor_refactor_changed(F, &y.M.view, &column, 0, NULL));
@@ -142,7 +142,7 @@ static void the_growth_limit_is_kept(void **state) {
     SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
     saved_t m = saved_make(S, F);
     for (int changed = 0; changed < 2; changed++) {
-        SL_CHECK(sl_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
         for (int k = 0; k < 2; k++) {
             const sl_status expected = k == 0 ? SL_OK : SL_ERR_INACCURATE;
             x[0] = k == 0 ? 1e-4 : 1e-6;
@@ -172,7 +172,7 @@ static void a_drift_is_kept_as_growth(void **state) {
     SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
     SL_CHECK(sl_factor_update_entries(F, &row, &column, &delta, 1, NULL, &before));
     saved_t m = saved_make(S, F);
-    SL_CHECK(sl_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(pair_load_memory(&T, &G, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     sl_factor_stats(G, &after);
     assert_true(before.change.drift > 1e-11);
     assert_true(DBL_EPSILON * after.factor.growth >= 0.9 * before.change.drift);
@@ -188,7 +188,7 @@ static void the_error_limit_is_kept(void **state) {
     (void)state;
     enum { N = 100 };
     double b[N], x[N], y[N];
-    saved_call_t calls[2] = {sl_load_memory, sl_map_memory};
+    saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
     for (int limited = 0; limited < 2; limited++) {
         sl_options opt = options_none();
         opt.error_limit = limited ? 0.0 : -1.0;
@@ -232,7 +232,7 @@ static void batches_refactor_loaded_factors(void **state) {
     saved_free(&m);
     SL_CHECK(sl_symbolic_scatter(y.S, values, &y.M.view, NULL));
     m = saved_make(y.S, y.F);
-    SL_CHECK(sl_load_memory(&S, &F[0], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+    SL_CHECK(pair_load_memory(&S, &F[0], m.bytes, m.size, SL_LOAD_CHECKED, NULL));
     SL_CHECK(sl_factor_create(&F[1], S, &y.M.view, NULL, NULL));
     SL_CHECK(sl_batch_refactor(F, 2, coefficients, arrays, 1, NULL, NULL, NULL));
     SL_CHECK(sl_batch_factor(G, 2, y.S, coefficients, arrays, 1, NULL, NULL, NULL));
@@ -255,21 +255,21 @@ static void wrong_arguments_are_refused(void **state) {
     factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL),
                z = factored_make(GEN_GRID2, 36, 1, 0, NULL);
     saved_t m = saved_make(y.S, y.F);
-    saved_call_t calls[2] = {sl_load_memory, sl_map_memory};
+    saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
     size_t size = 0;
     sl_options opt = options_none();
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_bytes(NULL, y.S, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_bytes(&size, NULL, y.F));
-    SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&size, y.S, z.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(NULL, m.size, y.S, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(m.bytes, m.size - 1, y.S, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(m.bytes, m.size, NULL, y.F));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_file(NULL, y.S, y.F, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_bytes(NULL, y.S, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_bytes(&size, NULL, y.F));
+    SL_EXPECT(SL_ERR_STATE, pair_save_bytes(&size, y.S, z.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(NULL, m.size, y.S, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, m.size - 1, y.S, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_memory(m.bytes, m.size, NULL, y.F));
+    SL_EXPECT(SL_ERR_ARGUMENT, pair_save_file(NULL, y.S, y.F, NULL));
     double *zeros = test_reals((size_t)y.M.p[25]);
     sl_csc bad = y.M.view;
     bad.x = zeros;
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &bad, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&size, y.S, y.F)); /* a failed factor */
+    SL_EXPECT(SL_ERR_STATE, pair_save_bytes(&size, y.S, y.F)); /* a failed factor */
     assert_int_equal(size, 0);
     for (int k = 0; k < 2; k++) {
         sl_symbolic *S = y.S;
@@ -279,7 +279,6 @@ static void wrong_arguments_are_refused(void **state) {
     F = y.F; \
     SL_EXPECT(status, call); \
     assert_null(F)
-        REFUSED(SL_ERR_ARGUMENT, calls[k](NULL, &F, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
         REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_null(S);
         REFUSED(SL_ERR_ARGUMENT, calls[k](&S, &F, m.bytes, m.size, (sl_load_checks)3, NULL));
@@ -304,8 +303,8 @@ static void wrong_arguments_are_refused(void **state) {
     for (size_t k = 1; k < 64; k++) { /* copies need no alignment */
         memcpy(moved.bytes + k, m.bytes, m.size);
         SL_EXPECT(SL_ERR_ARGUMENT,
-                  sl_map_memory(&S, &F, moved.bytes + k, m.size, SL_LOAD_CHECKED, NULL));
-        SL_CHECK(sl_load_memory(&S, &F, moved.bytes + k, m.size, SL_LOAD_VERIFIED, NULL));
+                  pair_map_memory(&S, &F, moved.bytes + k, m.size, SL_LOAD_CHECKED, NULL));
+        SL_CHECK(pair_load_memory(&S, &F, moved.bytes + k, m.size, SL_LOAD_VERIFIED, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
     }
@@ -328,7 +327,7 @@ static void allocations_may_fail(void **state) {
             sl_symbolic *S = c.y.S;
             sl_factor *F = c.y.F;
             counter.fail_at = k;
-            sl_status status = sl_load_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
+            sl_status status = pair_load_memory(&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             assert_true((S != NULL) == (status == SL_OK) && (F != NULL) == (status == SL_OK));
             if (status == SL_OK) {

@@ -5,7 +5,7 @@
 #include "tests/lib/saved_format.h"
 #include "tests/lib/saved_set.h"
 
-static const set_call_t calls[2] = {sl_load_set_memory, sl_map_set_memory};
+static const set_call_t calls[2] = {sl_load_memory, sl_map_memory};
 
 /* ---- the same answers ---- */
 
@@ -25,7 +25,7 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
         const sl_selected *Z = k == 2 ? got->selected : NULL; /* as it was made */
         if (!is_mapped) { /* the factor has other numbers now, if the same ones */
             size_t bytes = 0;
-            SL_EXPECT(SL_ERR_STATE, sl_save_set_bytes(&bytes, got));
+            SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&bytes, got));
         }
         SL_EXPECT(expected, sl_region_refactor(got->regions[k], F, Z, NULL));
     }
@@ -37,8 +37,9 @@ static void refactor(const set_case_t *q, const sl_saved_set *got, const saved_t
 
 static void round_trip(set_case_t *q, const saved_t *m, int call, sl_load_checks checks,
                        const sl_options *opt) {
-    sl_saved_set got;
+    sl_saved_set got = {0};
     memset(&got, 0xA5, sizeof got);
+    got.wanted = SL_SAVED_ALL;
     SL_CHECK(calls[call](&got, m->bytes, m->size, checks, opt));
     assert_ptr_equal(sl_factor_view(got.factor).symbolic, got.symbolic);
     assert_same_set(set_of(q), &got);
@@ -52,12 +53,12 @@ static void round_trip(set_case_t *q, const saved_t *m, int call, sl_load_checks
     assert_true(got.symbolic == NULL && got.factor == NULL && got.n_regions == 0);
 }
 
-/* The calls for an analysis and a factor read the file, and what they save is their own file. */
+/* Loads that want less leave out the rest, and what they give is saved as if there were no more. */
 static void read_as_pair(const set_case_t *q, const saved_t *m) {
     saved_t plain = saved_make(q->c.y.S, q->c.y.F);
-    saved_call_t pair[2] = {sl_load_memory, sl_map_memory};
+    saved_call_t pair[2] = {pair_load_memory, pair_map_memory};
     for (int k = 0; k < 2; k++) {
-        sl_saved_set got;
+        sl_saved_set got = {0};
         sl_symbolic *S = NULL;
         sl_factor *F = NULL;
         SL_CHECK(pair[k](&S, &F, m->bytes, m->size, SL_LOAD_VERIFIED, NULL));
@@ -65,6 +66,13 @@ static void read_as_pair(const set_case_t *q, const saved_t *m) {
         assert_int_equal(again.size, plain.size);
         assert_memory_equal(again.bytes, plain.bytes, plain.size);
         saved_free(&again);
+        got.wanted = SL_SAVED_ANALYSIS;
+        SL_CHECK(calls[k](&got, m->bytes, m->size, SL_LOAD_VERIFIED, NULL));
+        assert_int_equal(got.wanted, SL_SAVED_ANALYSIS);
+        assert_true(got.factor == NULL && got.selected == NULL && got.regions == NULL);
+        assert_same_analysis(S, got.symbolic);
+        sl_saved_set_free(&got);
+        assert_int_equal(got.wanted, SL_SAVED_ALL);
         SL_EXPECT(k == 0 ? SL_OK : SL_ERR_STATE, sl_factor_refactor(F, &q->c.y.M.view, NULL));
         sl_factor_free(F);
         sl_symbolic_free(S);
@@ -123,7 +131,7 @@ static void a_selected_inverse_is_saved_without_its_factor(void **state) {
         alone.n_regions = 0;
         saved_t m = set_save(&alone);
         for (int k = 0; k < 2; k++) {
-            sl_saved_set got;
+            sl_saved_set got = {0};
             sl_factor *F = NULL;
             sl_region *R = NULL;
             const sl_int row = 3;
@@ -175,12 +183,12 @@ static void the_other_byte_order_is_loaded(void **state) {
     saved_t m = set_save(set_of(&q));
     saved_change_order(m.bytes);
     for (int checks = 0; checks < 3; checks++) {
-        sl_saved_set got;
-        SL_CHECK(sl_load_set_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
+        sl_saved_set got = {0};
+        SL_CHECK(sl_load_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
         assert_same_set(set_of(&q), &got);
         sl_saved_set_free(&got);
         SL_EXPECT(SL_ERR_UNSUPPORTED,
-                  sl_map_set_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
+                  sl_map_memory(&got, m.bytes, m.size, (sl_load_checks)checks, NULL));
     }
     saved_free(&m);
     set_case_free(&q);
@@ -194,33 +202,33 @@ static void a_set_is_saved_in_a_file(void **state) {
     set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 400, 1, 1, &from);
     const char *path = files_path("set.slf");
     saved_t m = set_save(set_of(&q));
-    sl_saved_set got;
+    sl_saved_set got = {0};
     size_t length = 0;
     errno = 77;
-    SL_CHECK(sl_save_set_file(path, set_of(&q), NULL));
+    SL_CHECK(sl_save_file(path, set_of(&q), NULL));
     char *bytes = files_get(path, &length);
     assert_int_equal(length, m.size);
     assert_memory_equal(bytes, m.bytes, m.size);
     free(bytes);
     for (int checks = 0; checks < 3; checks++) {
-        SL_CHECK(sl_load_set_file(&got, path, (sl_load_checks)checks, NULL));
+        SL_CHECK(sl_load_file(&got, path, (sl_load_checks)checks, NULL));
         assert_same_set(set_of(&q), &got);
         refactor(&q, &got, &m, 0);
         sl_saved_set_free(&got);
-        SL_CHECK(sl_map_set_file(&got, path, (sl_load_checks)checks, NULL));
+        SL_CHECK(sl_map_file(&got, path, (sl_load_checks)checks, NULL));
         assert_same_set(set_of(&q), &got);
         refactor(&q, &got, &m, 1);
-        SL_CHECK(sl_save_set_file(path, &got, NULL)); /* over the file that is mapped */
+        SL_CHECK(sl_save_file(path, &got, NULL)); /* over the file that is mapped */
         assert_same_set(set_of(&q), &got);
         sl_saved_set_free(&got);
     }
     assert_int_equal(errno, 77);
     (void)files_put("set.slf", m.bytes, m.size - 64);
-    SL_EXPECT(SL_ERR_IO, sl_load_set_file(&got, path, SL_LOAD_TRUSTED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_load_file(&got, path, SL_LOAD_TRUSTED, NULL));
     assert_null(got.symbolic);
-    SL_EXPECT(SL_ERR_IO, sl_map_set_file(&got, path, SL_LOAD_TRUSTED, NULL));
-    SL_EXPECT(SL_ERR_IO, sl_load_set_file(&got, files_path("none"), SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_IO, sl_save_set_file(files_path("no/such/folder"), set_of(&q), NULL));
+    SL_EXPECT(SL_ERR_IO, sl_map_file(&got, path, SL_LOAD_TRUSTED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_load_file(&got, files_path("none"), SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_IO, sl_save_file(files_path("no/such/folder"), set_of(&q), NULL));
     saved_free(&m);
     set_case_free(&q);
 }
@@ -232,18 +240,18 @@ static void what_does_not_belong_together_is_refused(void **state) {
     sl_options from = options_none();
     set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 1, &from),
                z = set_case_make(SAVED_DEFINITE, GEN_GRID2, 100, 0, 1, &from);
-    sl_saved_set set = *set_of(&q), got;
+    sl_saved_set set = *set_of(&q), got = {0};
     saved_t m = set_save(&set);
     sl_region *mixed[2] = {q.regions[0], NULL};
     size_t size = 7;
 #define REFUSED(status, what) \
-    SL_EXPECT(status, sl_save_set_bytes(&size, what)); \
-    SL_EXPECT(status, sl_save_set_memory(m.bytes, m.size, what)); \
-    SL_EXPECT(status, sl_save_set_file(NOWHERE, what, NULL))
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_bytes(NULL, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_memory(NULL, m.size, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_memory(m.bytes, m.size - 1, &set));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_set_file(NULL, &set, NULL));
+    SL_EXPECT(status, sl_save_bytes(&size, what)); \
+    SL_EXPECT(status, sl_save_memory(m.bytes, m.size, what)); \
+    SL_EXPECT(status, sl_save_file(NOWHERE, what, NULL))
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_bytes(NULL, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(NULL, m.size, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_memory(m.bytes, m.size - 1, &set));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_save_file(NULL, &set, NULL));
     REFUSED(SL_ERR_ARGUMENT, NULL);
     set.symbolic = NULL;
     REFUSED(SL_ERR_ARGUMENT, &set);
@@ -277,15 +285,23 @@ static void what_does_not_belong_together_is_refused(void **state) {
     for (int k = 0; k < 2; k++) {
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](NULL, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
         memset(&got, 0xA5, sizeof got);
+        got.wanted = SL_SAVED_FACTOR;
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&got, NULL, m.size, SL_LOAD_CHECKED, NULL));
         assert_true(got.symbolic == NULL && got.regions == NULL && got.n_regions == 0);
         SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&got, m.bytes, m.size, (sl_load_checks)3, NULL));
+        SL_EXPECT(SL_ERR_IO, calls[k](&got, m.bytes, m.size - 64, SL_LOAD_CHECKED, NULL));
+        assert_int_equal(got.wanted, SL_SAVED_FACTOR);
+        got.wanted = (sl_saved_content)3;
+        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&got, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        got.wanted = (sl_saved_content)-1;
+        SL_EXPECT(SL_ERR_ARGUMENT, calls[k](&got, m.bytes, m.size, SL_LOAD_CHECKED, NULL));
+        got.wanted = SL_SAVED_ALL;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_set_memory(&got, m.bytes + 8, m.size, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_set_file(&got, NULL, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_set_file(NULL, "x", SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_set_file(&got, NULL, SL_LOAD_CHECKED, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_set_file(NULL, "x", SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_memory(&got, m.bytes + 8, m.size, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_file(&got, NULL, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_load_file(NULL, "x", SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_file(&got, NULL, SL_LOAD_CHECKED, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_map_file(NULL, "x", SL_LOAD_CHECKED, NULL));
     sl_saved_set_free(NULL);
     saved_free(&m);
     set_case_free(&q);
@@ -318,7 +334,7 @@ static void parts_of_another_factor_are_refused(void **state) {
         identity[found] ^= 1;
         saved_repair(m.bytes, m.size);
         for (int k = 0; k < 2; k++) {
-            sl_saved_set got;
+            sl_saved_set got = {0};
             SL_EXPECT(SL_ERR_IO, calls[k](&got, m.bytes, m.size, SL_LOAD_TRUSTED, NULL));
         }
         identity[found++] ^= 1;
@@ -339,7 +355,7 @@ static void every_allocation_of_a_load_may_fail(void **state) {
             for (int64_t at = 0; !done; at++) {
                 counter_t counter = counter_make();
                 sl_options opt = options_counted(&counter);
-                sl_saved_set got;
+                sl_saved_set got = {0};
                 counter.fail_at = at;
                 opt.threads.count = 2;
                 const sl_status status = calls[call](&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt);
@@ -369,9 +385,9 @@ static void a_mapped_set_keeps_little(void **state) {
         sl_options opt = options_counted(&counter);
         set_case_t q = set_case_make(SAVED_DEFINITE, GEN_GRID2, n, 0, 1, &from);
         saved_t m = set_save(set_of(&q));
-        sl_saved_set got;
+        sl_saved_set got = {0};
         size_t rows = 0;
-        SL_CHECK(sl_map_set_memory(&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
+        SL_CHECK(sl_map_memory(&got, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
         for (sl_int k = 0; k < got.n_regions; k++) {
             const sl_region_arrays r = sl_region_view(got.regions[k]);
             rows += (size_t)(r.n_roots + r.n_boundary);

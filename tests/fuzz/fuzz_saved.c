@@ -3,6 +3,7 @@
  * to give the answers of what was saved */
 #include "saved_bases.h"
 #include "tests/lib/saved_format.h"
+#include "tests/lib/saved_pair.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -118,7 +119,7 @@ static void use_set(const sl_saved_set *set) {
     sl_region *R = NULL;
     size_t size = 0;
     PROMISE(x != NULL);
-    ignore(sl_save_set_bytes(&size, set));
+    ignore(sl_save_bytes(&size, set));
     for (sl_int k = 0; k < set->n_regions; k++) {
         use_region(set, set->regions[k]);
     }
@@ -146,12 +147,13 @@ static void load_set(const unsigned char *bytes, size_t size, int is_mapped,
                      sl_load_checks checks) {
     sl_options opt;
     sl_saved_set set;
+    memset(&set, 0, sizeof set);
     memset(&opt, 0, sizeof opt);
     opt.allocator.allocate = allocate;
     opt.allocator.release = release;
     limit = size + 4096;
-    const sl_status status = is_mapped ? sl_map_set_memory(&set, bytes, size, checks, &opt)
-                                       : sl_load_set_memory(&set, bytes, size, checks, &opt);
+    const sl_status status = is_mapped ? sl_map_memory(&set, bytes, size, checks, &opt)
+                                       : sl_load_memory(&set, bytes, size, checks, &opt);
     limit = 0;
     PROMISE((set.symbolic != NULL) == (status == SL_OK));
     if (status == SL_OK && checks != SL_LOAD_TRUSTED) {
@@ -168,8 +170,8 @@ static void load(const unsigned char *bytes, size_t size, int is_mapped, sl_load
     opt.allocator.allocate = allocate;
     opt.allocator.release = release;
     limit = size + 4096;
-    const sl_status status = is_mapped ? sl_map_memory(&S, &F, bytes, size, checks, &opt)
-                                       : sl_load_memory(&S, &F, bytes, size, checks, &opt);
+    const sl_status status = is_mapped ? pair_map_memory(&S, &F, bytes, size, checks, &opt)
+                                       : pair_load_memory(&S, &F, bytes, size, checks, &opt);
     limit = 0;
     PROMISE((S != NULL) == (status == SL_OK) && (S != NULL || F == NULL));
     if (F != NULL && checks != SL_LOAD_TRUSTED) {
@@ -234,7 +236,7 @@ static void check_answers(const base_t *base, const unsigned char *bytes) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     double x[MOST];
-    PROMISE(sl_load_memory(&S, &F, bytes, base->size, SL_LOAD_VERIFIED, NULL) == SL_OK);
+    PROMISE(pair_load_memory(&S, &F, bytes, base->size, SL_LOAD_VERIFIED, NULL) == SL_OK);
     const sl_int n = sl_symbolic_view(S).n;
     PROMISE(ask(F, n, x) == base->status);
     for (sl_int i = 0; base->status == SL_OK && i < n; i++) {

@@ -3,6 +3,7 @@
 #define SL_FUZZ_SEQUENCE_SAVED_H
 
 #include "sequence_objects.h"
+#include "tests/lib/saved_pair.h"
 
 /* An aligned place for saved bytes; *block is to be freed. */
 static unsigned char *aligned_room(size_t bytes, unsigned char **block) {
@@ -43,17 +44,17 @@ static void copy(input_t *in) {
         return;
     }
     fill(in, B, MOST);
-    sl_status status = sl_save_bytes(&bytes, analyses[f->analysis].S, f->F);
+    sl_status status = pair_save_bytes(&bytes, analyses[f->analysis].S, f->F);
     PROMISE(status == (f->is_valid ? SL_OK : SL_ERR_STATE));
     if (status != SL_OK) {
         return;
     }
     unsigned char *block, *aligned = aligned_room(bytes, &block);
-    PROMISE(sl_save_memory(aligned, bytes, analyses[f->analysis].S, f->F) == SL_OK);
+    PROMISE(pair_save_memory(aligned, bytes, analyses[f->analysis].S, f->F) == SL_OK);
     const sl_options opt = load_options(f);
     const sl_load_checks checks = (sl_load_checks)(form / 2 % 3);
-    status = form % 2 ? sl_map_memory(&S, &F, aligned, bytes, checks, &opt)
-                      : sl_load_memory(&S, &F, aligned, bytes, checks, &opt);
+    status = form % 2 ? pair_map_memory(&S, &F, aligned, bytes, checks, &opt)
+                      : pair_load_memory(&S, &F, aligned, bytes, checks, &opt);
     PROMISE((F != NULL) == (status == SL_OK) && (S != NULL) == (status == SL_OK));
     PROMISE(status == SL_OK || no_memory(status));
     left = -1;
@@ -140,6 +141,7 @@ static void copy_set(input_t *in) {
     const selected_t *z = &selected[which % SELECTED];
     int may_be_saved = 1;
     memset(&set, 0, sizeof set);
+    memset(&loaded, 0, sizeof loaded);
     set.symbolic = analyses[f->analysis].S;
     set.factor = form % 2 ? f->F : NULL;
     set.regions = both;
@@ -153,18 +155,18 @@ static void copy_set(input_t *in) {
             may_be_saved &= may_belong(f, regions[k].analysis, regions[k].a);
         }
     }
-    sl_status status = sl_save_set_bytes(&bytes, &set);
+    sl_status status = sl_save_bytes(&bytes, &set);
     PROMISE(status == SL_OK || status == SL_ERR_STATE);
     PROMISE(status == SL_ERR_STATE || (may_be_saved && (f->is_valid || !set.factor)));
     if (status != SL_OK) {
         return;
     }
     unsigned char *block, *aligned = aligned_room(bytes, &block);
-    PROMISE(sl_save_set_memory(aligned, bytes, &set) == SL_OK);
+    PROMISE(sl_save_memory(aligned, bytes, &set) == SL_OK);
     const sl_options opt = load_options(f);
     const sl_load_checks checks = (sl_load_checks)(form / 4 % 3);
-    status = form / 2 % 2 ? sl_map_set_memory(&loaded, aligned, bytes, checks, &opt)
-                          : sl_load_set_memory(&loaded, aligned, bytes, checks, &opt);
+    status = form / 2 % 2 ? sl_map_memory(&loaded, aligned, bytes, checks, &opt)
+                          : sl_load_memory(&loaded, aligned, bytes, checks, &opt);
     PROMISE((loaded.symbolic != NULL) == (status == SL_OK));
     PROMISE(status == SL_OK || no_memory(status));
     left = -1;

@@ -107,20 +107,6 @@ static sl_status null_rows(arguments_t *a) {
     return sl_factor_null_rows(a->F, rows, 1, &count);
 }
 
-static sl_status save_bytes(arguments_t *a) {
-    size_t bytes = 0;
-    return sl_save_bytes(&bytes, a->S, a->F);
-}
-
-static sl_status save_memory(arguments_t *a) {
-    size_t bytes = 0;
-    const sl_status status = sl_save_bytes(&bytes, o->good.S, o->good.F);
-    void *memory = test_array(bytes, 1);
-    const sl_status saved = sl_save_memory(memory, bytes, a->S, a->F);
-    free(memory);
-    return status == SL_OK ? saved : status;
-}
-
 /* The set of an analysis and a factor of the arguments. */
 static sl_saved_set saved_set(arguments_t *a) {
     sl_saved_set set;
@@ -130,15 +116,28 @@ static sl_saved_set saved_set(arguments_t *a) {
     return set;
 }
 
-static sl_status save_set_bytes(arguments_t *a) {
+static sl_status save_bytes(arguments_t *a) {
     const sl_saved_set set = saved_set(a);
     size_t bytes = 0;
-    return sl_save_set_bytes(&bytes, &set);
+    return sl_save_bytes(&bytes, &set);
 }
 
-static sl_status save_set_file(arguments_t *a) {
+static sl_status save_memory(arguments_t *a) {
     const sl_saved_set set = saved_set(a);
-    return sl_save_set_file(NOWHERE, &set, NULL);
+    sl_saved_set good = set;
+    size_t bytes = 0;
+    good.symbolic = o->good.S;
+    good.factor = o->good.F;
+    SL_CHECK(sl_save_bytes(&bytes, &good));
+    void *memory = test_array(bytes, 1);
+    const sl_status status = sl_save_memory(memory, bytes, &set);
+    free(memory);
+    return status;
+}
+
+static sl_status save_file(arguments_t *a) {
+    const sl_saved_set set = saved_set(a);
+    return sl_save_file(NOWHERE, &set, NULL);
 }
 
 static sl_status batch_diagonal(arguments_t *a) {
@@ -193,7 +192,6 @@ CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
 CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
 CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
-CALL(save_file, sl_save_file(NOWHERE, a->S, a->F, NULL))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_solve, sl_plan_solve(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
 CALL(plan_refined, sl_plan_solve_refined(a->P, a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps,
@@ -291,8 +289,6 @@ static const struct {
     {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},
     {"sl_save_memory", save_memory, S_ | FAILED_ | OTHER_},
     {"sl_save_file", save_file, S_ | FAILED_ | OTHER_},
-    {"sl_save_set_bytes", save_set_bytes, S_ | FAILED_ | OTHER_},
-    {"sl_save_set_file", save_set_file, S_ | FAILED_ | OTHER_},
     {"sl_batch_solve", batch_solve, SOLVE_},
     {"sl_batch_diagonal", batch_diagonal, F_ | FAILED_ | X_ | LDX_ | XSET_},
     {"sl_work_reserve", reserve, W_},

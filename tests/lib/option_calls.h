@@ -112,29 +112,19 @@ static inline sl_status option_read(option_fixture_t *f, const sl_options *opt) 
 /* The bytes are no saved factor: SL_ERR_UNSUPPORTED if the options are accepted. */
 static inline sl_status option_load(option_fixture_t *f, const sl_options *opt) {
     static const char nothing[64];
-    sl_symbolic *S = OPTION_GARBAGE(sl_symbolic);
-    sl_factor *F = OPTION_GARBAGE(sl_factor);
-    const sl_status status = sl_load_memory(&S, &F, nothing, 64, SL_LOAD_CHECKED, opt);
-    assert_null(S);
-    assert_null(F);
-    return status == SL_ERR_UNSUPPORTED ? SL_OK : status;
-}
-
-static inline sl_status option_load_set(option_fixture_t *f, const sl_options *opt) {
-    static const char nothing[64];
-    sl_saved_set set;
+    sl_saved_set set = {0};
     set.symbolic = OPTION_GARBAGE(sl_symbolic);
-    const sl_status status = sl_load_set_memory(&set, nothing, 64, SL_LOAD_CHECKED, opt);
+    const sl_status status = sl_load_memory(&set, nothing, 64, SL_LOAD_CHECKED, opt);
     assert_null(set.symbolic);
     return status == SL_ERR_UNSUPPORTED ? SL_OK : status;
 }
 
-static inline sl_status option_save_set(option_fixture_t *f, const sl_options *opt) {
+static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) {
     sl_saved_set set;
     memset(&set, 0, sizeof set);
     set.symbolic = f->pair.S;
     set.factor = f->F;
-    return sl_save_set_file(NOWHERE, &set, opt);
+    return sl_save_file(NOWHERE, &set, opt);
 }
 
 /* The identity of U's rows: an edit that changes nothing. */
@@ -158,10 +148,6 @@ static inline sl_status option_restrict(option_fixture_t *f, const sl_options *o
     sl_symbolic_free(S);
     free(x);
     return status;
-}
-
-static inline sl_status option_save(option_fixture_t *f, const sl_options *opt) {
-    return sl_save_file(NOWHERE, f->pair.S, f->F, opt);
 }
 
 static inline sl_status option_triangle(option_fixture_t *f, const sl_options *opt) {
@@ -241,8 +227,6 @@ static const struct {
     {"sl_batch_factor", option_batch_factor, READS_FACTOR | READS_ISA},
     {"sl_load_memory", option_load, READS_ISA},
     {"sl_save_file", option_save, READS_NOTHING},
-    {"sl_load_set_memory", option_load_set, READS_ISA},
-    {"sl_save_set_file", option_save_set, READS_NOTHING},
     {"sl_batch_solve", option_batch_solve, READS_NOTHING},
     {"sl_batch_solve by rows", option_batch_by_rows, READS_NOTHING},
     {"sl_batch_refactor", option_batch_refactor, READS_NOTHING},

@@ -3,10 +3,13 @@
 
 #include "app.h"
 
+#include <string.h>
+
 void saved_file_open(sl_saved_set *set, const char *path, sl_load_checks checks) {
-    sl_status status = sl_map_set_file(set, path, checks, NULL);
+    memset(set, 0, sizeof *set);
+    sl_status status = sl_map_file(set, path, checks, NULL);
     if (status == SL_ERR_UNSUPPORTED) {
-        status = sl_load_set_file(set, path, checks, NULL);
+        status = sl_load_file(set, path, checks, NULL);
     }
     app_must(status, path, NULL);
     if (set->factor == NULL) {

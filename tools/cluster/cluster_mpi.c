@@ -81,7 +81,7 @@ static void name_block(char *path, const job *j, sl_int block) {
 
 /* Rank 0: the file is there and verified when it returns. */
 static void provide_factor(job *j) {
-    sl_saved_set set;
+    sl_saved_set set = {0};
     if (mkdir(j->folder, 0777) != 0 && errno != EEXIST) {
         fail("%s: %s", j->folder, strerror(errno));
     }
@@ -91,11 +91,12 @@ static void provide_factor(job *j) {
         heat_system h;
         app_mesh(&m, j->operand, true);
         heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian, NULL);
-        must(sl_save_file(j->factor, h.S, h.F, NULL), j->factor);
+        const sl_saved_set made = {.symbolic = h.S, .factor = h.F};
+        must(sl_save_file(j->factor, &made, NULL), j->factor);
         heat_system_free(&h);
         mesh_free(&m);
     }
-    must(sl_map_set_file(&set, j->factor, SL_LOAD_VERIFIED, NULL), j->factor);
+    must(sl_map_file(&set, j->factor, SL_LOAD_VERIFIED, NULL), j->factor);
     sl_saved_set_free(&set);
 }
 
@@ -310,7 +311,7 @@ int main(int argc, char **argv) {
         provide_factor(&j);
     }
     (void)MPI_Barrier(MPI_COMM_WORLD);
-    must(sl_map_set_file(&j.set, j.factor, SL_LOAD_TRUSTED, NULL), j.factor);
+    must(sl_map_file(&j.set, j.factor, SL_LOAD_TRUSTED, NULL), j.factor);
     if (j.set.factor == NULL) {
         fail("%s: holds an analysis without a factor", j.factor);
     }

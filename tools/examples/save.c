@@ -7,19 +7,19 @@ int main(void) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     static double b[N], x[N], y[N];
-    sl_symbolic *T = NULL;
-    sl_factor *G = NULL;
+    sl_saved_set set = {0}, got = {0};
     const char *path = "example.slf";
     b[7] = 1.0;
     ok(sl_symbolic_create(&S, &A, NULL, NULL));
     ok(sl_factor_create(&F, S, &A, NULL, NULL));
     ok(sl_factor_solve(F, x, N, b, N, 1, NULL));
-    ok(sl_save_file(path, S, F, NULL));
-    ok(sl_map_file(&T, &G, path, SL_LOAD_CHECKED, NULL));       /* here or in any other process */
-    ok(sl_factor_solve(G, y, N, b, N, 1, NULL));
+    set.symbolic = S;
+    set.factor = F;
+    ok(sl_save_file(path, &set, NULL));
+    ok(sl_map_file(&got, path, SL_LOAD_CHECKED, NULL)); /* here or in any other process */
+    ok(sl_factor_solve(got.factor, y, N, b, N, 1, NULL));
     printf("x(7) = %.15f, from the file %.15f\n", x[7], y[7]);
-    sl_factor_free(G);
-    sl_symbolic_free(T);
+    sl_saved_set_free(&got);
     remove(path);
     sl_factor_free(F);
     sl_symbolic_free(S);

@@ -2,7 +2,7 @@
 #ifndef SLI_SAVE_FORMAT_H
 #define SLI_SAVE_FORMAT_H
 
-#include "../../public/saved_set.h"
+#include "../../public/save.h"
 #include "../analysis/symbolic.h"
 #include "../factor/factor_setup.h"
 #include "../inverse/selected.h"

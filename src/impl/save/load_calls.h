@@ -1,12 +1,9 @@
-/* load_calls.h: loads and maps from memory and files, a factor or a set; sl_saved_set_free */
+/* load_calls.h: loads and maps sets from memory and files; sl_saved_set_free */
 #ifndef SLI_SAVE_LOAD_CALLS_H
 #define SLI_SAVE_LOAD_CALLS_H
 
 #include "../io/file_map.h"
 #include "load_inverse.h"
-
-/* What a call creates; each includes what is before it. */
-typedef enum sli_wanted { SLI_WANTS_ANALYSIS, SLI_WANTS_FACTOR, SLI_WANTS_ALL } sli_wanted;
 
 SL_API void sl_saved_set_free(sl_saved_set *set) {
     sl_int k;
@@ -26,23 +23,25 @@ SL_API void sl_saved_set_free(sl_saved_set *set) {
 }
 
 /* Reads the objects in their order in the file. */
-static sl_status sli_read(sli_reading *r, sl_saved_set *set, sli_wanted wanted) {
+static sl_status sli_read(sli_reading *r, sl_saved_set *set) {
+    const sl_saved_content wanted = set->wanted;
     sl_status status = sli_read_front(r);
     if (status == SL_OK && r->is_mapped && r->swapped) {
         return SL_ERR_UNSUPPORTED;
     }
     status = status == SL_OK ? sli_read_analysis(r, &set->symbolic) : status;
-    if (status == SL_OK && wanted >= SLI_WANTS_FACTOR && r->has_factor) {
+    if (status == SL_OK && wanted != SL_SAVED_ANALYSIS && r->has_factor) {
         status = sli_read_factor(r, set->symbolic, &set->factor);
     }
-    if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_region > 0) {
+    if (status == SL_OK && wanted == SL_SAVED_ALL && r->first_region > 0) {
         status = sli_read_regions(r, set->factor, set);
     }
-    if (status == SL_OK && wanted == SLI_WANTS_ALL && r->first_selected > 0) {
+    if (status == SL_OK && wanted == SL_SAVED_ALL && r->first_selected > 0) {
         status = sli_read_selected(r, set->symbolic, set->factor, &set->selected);
     }
     if (status != SL_OK) {
         sl_saved_set_free(set);
+        set->wanted = wanted;
     }
     return status;
 }
@@ -55,31 +54,29 @@ typedef struct sli_origin {
     int is_mapped;
 } sli_origin;
 
-static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set,
-                               sli_wanted wanted) {
+static sl_status sli_read_path(sli_reading *r, const char *path, sl_saved_set *set) {
     sl_status status = SL_ERR_IO;
     r->file = fopen(path, "rb");
     if (r->file != NULL) {
         r->size = sli_file_size(r->file);
-        status = sli_read(r, set, wanted);
+        status = sli_read(r, set);
         fclose(r->file);
     }
     return status;
 }
 
 static sl_status sli_read_memory(sli_reading *r, const void *memory, size_t bytes,
-                                 sl_saved_set *set, sli_wanted wanted) {
+                                 sl_saved_set *set) {
     r->memory = (const unsigned char *)memory;
     r->size = bytes;
-    return sli_read(r, set, wanted);
+    return sli_read(r, set);
 }
 
-static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *set,
-                              sli_wanted wanted) {
+static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *set) {
     sli_mapping map;
     sl_status status = sli_map(path, &map);
     if (status == SL_OK) {
-        status = sli_read_memory(r, map.bytes, map.size, set, wanted);
+        status = sli_read_memory(r, map.bytes, map.size, set);
         if (status == SL_OK) {
             set->symbolic->backing.release = sli_unmap;
             set->symbolic->backing.bytes = map.bytes;
@@ -91,14 +88,22 @@ static sl_status sli_map_path(sli_reading *r, const char *path, sl_saved_set *se
     return status;
 }
 
-/* Checks the arguments and reads. The set is all zero, also on error. */
-static sl_status sli_read_from(const sli_origin *from, sl_saved_set *set, sli_wanted wanted,
-                               sl_load_checks checks, const sl_options *opt) {
+/* Checks the arguments and reads. */
+static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
+                              const sl_options *opt) {
     const int saved = errno;
     const int is_file = from->path != NULL;
+    sl_saved_content wanted;
     sli_reading r;
     sl_status status;
-    if ((unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
+    if (set == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    wanted = set->wanted;
+    memset(set, 0, sizeof *set);
+    set->wanted = wanted;
+    if ((unsigned)wanted > (unsigned)SL_SAVED_ANALYSIS ||
+        (unsigned)checks > (unsigned)SL_LOAD_VERIFIED ||
         !sli_options_are_valid(opt, SLI_READS_ISA) || (!is_file && from->memory == NULL) ||
         (!is_file && from->is_mapped && (uintptr_t)from->memory % SLI_ALIGN != 0)) {
         return SL_ERR_ARGUMENT;
@@ -109,11 +114,11 @@ static sl_status sli_read_from(const sli_origin *from, sl_saved_set *set, sli_wa
     r.allocator = sli_allocator(opt);
     r.is_mapped = from->is_mapped;
     if (!is_file) {
-        status = sli_read_memory(&r, from->memory, from->bytes, set, wanted);
+        status = sli_read_memory(&r, from->memory, from->bytes, set);
     } else if (from->is_mapped) {
-        status = sli_map_path(&r, from->path, set, wanted);
+        status = sli_map_path(&r, from->path, set);
     } else {
-        status = sli_read_path(&r, from->path, set, wanted);
+        status = sli_read_path(&r, from->path, set);
     }
     errno = saved;
     return status;
@@ -134,79 +139,26 @@ static sli_origin sli_origin_in_file(const char *path, int is_mapped) {
     return from;
 }
 
-/* ---- an analysis and a factor ---- */
-
-static sl_status sli_read_pair(const sli_origin *from, sl_symbolic **S, sl_factor **F,
-                               sl_load_checks checks, const sl_options *opt) {
-    const sli_wanted wanted = F != NULL ? SLI_WANTS_FACTOR : SLI_WANTS_ANALYSIS;
-    sl_saved_set set;
-    sl_status status = SL_ERR_ARGUMENT;
-    memset(&set, 0, sizeof set);
-    if (S != NULL) {
-        status = sli_read_from(from, &set, wanted, checks, opt);
-        *S = set.symbolic;
-    }
-    if (F != NULL) {
-        *F = set.factor;
-    }
-    return status;
-}
-
-SL_API sl_status sl_load_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+SL_API sl_status sl_load_memory(sl_saved_set *set, const void *memory, size_t bytes,
                                 sl_load_checks checks, const sl_options *opt) {
     const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-    return sli_read_pair(&from, S, F, checks, opt);
+    return sli_read_set(&from, set, checks, opt);
 }
 
-SL_API sl_status sl_map_memory(sl_symbolic **S, sl_factor **F, const void *memory, size_t bytes,
+SL_API sl_status sl_map_memory(sl_saved_set *set, const void *memory, size_t bytes,
                                sl_load_checks checks, const sl_options *opt) {
     const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-    return sli_read_pair(&from, S, F, checks, opt);
+    return sli_read_set(&from, set, checks, opt);
 }
 
-SL_API sl_status sl_load_file(sl_symbolic **S, sl_factor **F, const char *path,
-                              sl_load_checks checks, const sl_options *opt) {
-    const sli_origin from = sli_origin_in_file(path, 0);
-    return sli_read_pair(&from, S, F, checks, opt);
-}
-
-SL_API sl_status sl_map_file(sl_symbolic **S, sl_factor **F, const char *path,
-                             sl_load_checks checks, const sl_options *opt) {
-    const sli_origin from = sli_origin_in_file(path, 1);
-    return sli_read_pair(&from, S, F, checks, opt);
-}
-
-/* ---- sets ---- */
-
-static sl_status sli_read_set(const sli_origin *from, sl_saved_set *set, sl_load_checks checks,
+SL_API sl_status sl_load_file(sl_saved_set *set, const char *path, sl_load_checks checks,
                               const sl_options *opt) {
-    if (set == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    memset(set, 0, sizeof *set);
-    return sli_read_from(from, set, SLI_WANTS_ALL, checks, opt);
-}
-
-SL_API sl_status sl_load_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                    sl_load_checks checks, const sl_options *opt) {
-    const sli_origin from = sli_origin_in_memory(memory, bytes, 0);
-    return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_map_set_memory(sl_saved_set *set, const void *memory, size_t bytes,
-                                   sl_load_checks checks, const sl_options *opt) {
-    const sli_origin from = sli_origin_in_memory(memory, bytes, 1);
-    return sli_read_set(&from, set, checks, opt);
-}
-
-SL_API sl_status sl_load_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                                  const sl_options *opt) {
     const sli_origin from = sli_origin_in_file(path, 0);
     return sli_read_set(&from, set, checks, opt);
 }
 
-SL_API sl_status sl_map_set_file(sl_saved_set *set, const char *path, sl_load_checks checks,
-                                 const sl_options *opt) {
+SL_API sl_status sl_map_file(sl_saved_set *set, const char *path, sl_load_checks checks,
+                             const sl_options *opt) {
     const sli_origin from = sli_origin_in_file(path, 1);
     return sli_read_set(&from, set, checks, opt);
 }

@@ -242,7 +242,7 @@ static void sli_save_write(sli_saved *f, sli_sink *to) {
     }
 }
 
-SL_API sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set) {
+SL_API sl_status sl_save_bytes(size_t *bytes, const sl_saved_set *set) {
     sli_saved f;
     sl_status status;
     if (bytes == NULL || set == NULL) {
@@ -255,7 +255,7 @@ SL_API sl_status sl_save_set_bytes(size_t *bytes, const sl_saved_set *set) {
     return status;
 }
 
-SL_API sl_status sl_save_set_memory(void *memory, size_t bytes, const sl_saved_set *set) {
+SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_saved_set *set) {
     sli_saved f;
     sli_sink to;
     sl_status status = set == NULL ? SL_ERR_ARGUMENT : sli_save_prepare(&f, set);
@@ -271,8 +271,7 @@ SL_API sl_status sl_save_set_memory(void *memory, size_t bytes, const sl_saved_s
     return status;
 }
 
-SL_API sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
-                                  const sl_options *opt) {
+SL_API sl_status sl_save_file(const char *path, const sl_saved_set *set, const sl_options *opt) {
     const int saved = errno;
     const sl_allocator a = sli_allocator(opt);
     sli_output output;
@@ -295,34 +294,6 @@ SL_API sl_status sl_save_set_file(const char *path, const sl_saved_set *set,
     }
     errno = saved;
     return status;
-}
-
-/* ---- an analysis and a factor ---- */
-
-/* The set of both. It is only read. */
-static sl_saved_set sli_saved_pair(const sl_symbolic *S, const sl_factor *F) {
-    sl_saved_set set;
-    memset(&set, 0, sizeof set);
-    set.symbolic = (sl_symbolic *)(uintptr_t)S;
-    set.factor = (sl_factor *)(uintptr_t)F;
-    return set;
-}
-
-SL_API sl_status sl_save_bytes(size_t *bytes, const sl_symbolic *S, const sl_factor *F) {
-    const sl_saved_set set = sli_saved_pair(S, F);
-    return sl_save_set_bytes(bytes, &set);
-}
-
-SL_API sl_status sl_save_memory(void *memory, size_t bytes, const sl_symbolic *S,
-                                const sl_factor *F) {
-    const sl_saved_set set = sli_saved_pair(S, F);
-    return sl_save_set_memory(memory, bytes, &set);
-}
-
-SL_API sl_status sl_save_file(const char *path, const sl_symbolic *S, const sl_factor *F,
-                              const sl_options *opt) {
-    const sl_saved_set set = sli_saved_pair(S, F);
-    return sl_save_set_file(path, &set, opt);
 }
 
 #endif

@@ -7,12 +7,13 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._errors import ArgumentError
-from ._library import Handle, Stats, as_dict, check, lib, new_options
+from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._plan import Plan, Region, choice, part_bits
 
 _ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
 _STORAGES = {"double": 0, "float": 1}
+_SAVED_FACTOR = 1  # SL_SAVED_FACTOR: without what else the file has
 CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
 
 
@@ -137,7 +138,7 @@ class Factor:
 
     def save(self, path):
         """Writes the analysis and the factor to a file, which load reads."""
-        check(lib.sl_save_file(encoded(path), self._symbolic.pointer, self._factor.pointer, None))
+        check(lib.sl_save_file(encoded(path), self._set(), None))
 
     @classmethod
     def load(cls, path, *, map=False, checks="checked", triangle=None):
@@ -153,11 +154,13 @@ class Factor:
     def to_bytes(self):
         """The analysis and the factor as bytes, as save writes them; pickle uses this."""
         size = ctypes.c_size_t()
-        check(lib.sl_save_bytes(ctypes.byref(size), self._symbolic.pointer, self._factor.pointer))
+        check(lib.sl_save_bytes(ctypes.byref(size), self._set()))
         memory = np.empty(size.value, dtype=np.uint8)
-        check(lib.sl_save_memory(arrays.address(memory), memory.size, self._symbolic.pointer,
-                                 self._factor.pointer))
+        check(lib.sl_save_memory(arrays.address(memory), memory.size, self._set()))
         return memory.tobytes()
+
+    def _set(self):
+        return ctypes.byref(SavedSet(self._symbolic.pointer, self._factor.pointer))
 
     @classmethod
     def from_bytes(cls, data, *, checks="checked", triangle=None):
@@ -172,10 +175,9 @@ class Factor:
     @classmethod
     def _loaded(cls, call, source, checks, triangle):
         arrays.check_triangle(triangle)
-        symbolic, factor = ctypes.c_void_p(), ctypes.c_void_p()
-        check(call(ctypes.byref(symbolic), ctypes.byref(factor), *source,
-                   choice(CHECKS, checks, "checks"), None))
-        return cls._of(symbolic.value, factor.value, triangle)
+        loaded = SavedSet(wanted=_SAVED_FACTOR)
+        check(call(ctypes.byref(loaded), *source, choice(CHECKS, checks, "checks"), None))
+        return cls._of(loaded.symbolic, loaded.factor, triangle)
 
     @classmethod
     def _of(cls, symbolic, factor, triangle):

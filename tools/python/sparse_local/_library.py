@@ -101,7 +101,7 @@ class SavedSet(ctypes.Structure):
     """sl_saved_set"""
     _fields_ = [("symbolic", _PTR), ("factor", _PTR), ("selected", _PTR),
                 ("regions", ctypes.POINTER(_PTR)), ("n_regions", _INT), ("allocate", _PTR),
-                ("release", _PTR), ("allocator_context", _PTR)]
+                ("release", _PTR), ("allocator_context", _PTR), ("wanted", _ENUM)]
 
 
 class SymbolicArrays(ctypes.Structure):
@@ -114,6 +114,7 @@ class SymbolicArrays(ctypes.Structure):
 
 _OUT = ctypes.POINTER(_PTR)
 _CSC, _OPT, _STATS = (ctypes.POINTER(Csc), ctypes.POINTER(Options), ctypes.POINTER(Stats))
+_SET = ctypes.POINTER(SavedSet)
 # name: arguments; all of these return a status
 _CALLS = {
     "csc_check": [_CSC, _STATS],
@@ -144,15 +145,12 @@ _CALLS = {
     "selected_refactor": [_PTR, _PTR, _PTR],
     "selected_diagonal": [_PTR, _PTR, _PTR, _INT, _STATS],
     "selected_entries": [_PTR, _PTR, _PTR, _PTR, _INT, _STATS],
-    "save_set_file": [ctypes.c_char_p, ctypes.POINTER(SavedSet), _OPT],
-    "load_set_file": [ctypes.POINTER(SavedSet), ctypes.c_char_p, _ENUM, _OPT],
-    "map_set_file": [ctypes.POINTER(SavedSet), ctypes.c_char_p, _ENUM, _OPT],
-    "save_bytes": [ctypes.POINTER(_SIZE), _PTR, _PTR],
-    "save_memory": [_PTR, _SIZE, _PTR, _PTR],
-    "save_file": [ctypes.c_char_p, _PTR, _PTR, _OPT],
-    "load_memory": [_OUT, _OUT, _PTR, _SIZE, _ENUM, _OPT],
-    "load_file": [_OUT, _OUT, ctypes.c_char_p, _ENUM, _OPT],
-    "map_file": [_OUT, _OUT, ctypes.c_char_p, _ENUM, _OPT],
+    "save_bytes": [ctypes.POINTER(_SIZE), _SET],
+    "save_memory": [_PTR, _SIZE, _SET],
+    "save_file": [ctypes.c_char_p, _SET, _OPT],
+    "load_memory": [_SET, _PTR, _SIZE, _ENUM, _OPT],
+    "load_file": [_SET, ctypes.c_char_p, _ENUM, _OPT],
+    "map_file": [_SET, ctypes.c_char_p, _ENUM, _OPT],
 }
 _FREES = ("matrix_free", "symbolic_free", "factor_free", "work_free", "plan_free", "region_free",
           "selected_free", "saved_set_free")

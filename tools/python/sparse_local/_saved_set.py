@@ -75,7 +75,7 @@ def save_set(path, factor, selected=None, regions=()):
     stored = SavedSet(factor._symbolic.pointer, factor._factor.pointer,
                       selected._selected.pointer if selected is not None else None, pointers,
                       len(regions))
-    check(lib.sl_save_set_file(encoded(path), ctypes.byref(stored), None))
+    check(lib.sl_save_file(encoded(path), ctypes.byref(stored), None))
 
 
 def load_set(path, *, map=False, checks="checked", triangle=None):
@@ -85,7 +85,7 @@ def load_set(path, *, map=False, checks="checked", triangle=None):
     With map=True all of them are immutable, and processes share one copy in memory.
     """
     arrays.check_triangle(triangle)
-    call = lib.sl_map_set_file if map else lib.sl_load_set_file
+    call = lib.sl_map_file if map else lib.sl_load_file
     loaded = SavedSet()
     check(call(ctypes.byref(loaded), encoded(path), choice(CHECKS, checks, "checks"), None))
     if not loaded.factor:
