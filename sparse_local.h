@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: acf6c278ee27ce6e
+ * FNV-1a of the lines after this comment, without the license: ffe55d15b6ab96c4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -80,30 +80,30 @@
  * (files: Matrix Market files, 64-bit indices)
  *  26854 csc64.h  26925 text_reader.h  27106 matrix_market.h
  * (save: factors in files)
- *  27376 format.h  27673 decode.h  27821 check.h  28151 write.h  28433 load.h  28702 load_inverse.h
- *  29032 load_calls.h
+ *  27376 format.h  27673 decode.h  27824 check.h  28154 write.h  28436 load.h  28709 load_inverse.h
+ *  29039 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  29192 matrix_sum.h  29274 scatter.h  29432 combination.h  29492 batch_solve.h
- *  29686 batch_factor.h
+ *  29199 matrix_sum.h  29281 scatter.h  29439 combination.h  29499 batch_solve.h
+ *  29693 batch_factor.h
  * (batch: diagonals of many inverses)
- *  29890 batch_diagonal.h
+ *  29897 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30032 complex_kernels.h  30144 complex_storage.h  30265 hermitian.h  30427 complex_rows.h
+ *  30039 complex_kernels.h  30151 complex_storage.h  30272 hermitian.h  30434 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  30596 storage_types.h
+ *  30603 storage_types.h
  * (last: undefine every internal macro)
- *  30623 undef.h
+ *  30630 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30921 words_scalar.inl.h  31017 change.inl.h  31273 lanes_scalar.inl.h  31305 products.inl.h
- *  31343 inverse_front.inl.h  31648 inverse_set.inl.h  31661 front.inl.h  31663 product.inl.h
- *  32151 complex_groups.inl.h  32242 copy_rows.inl.h  32280 sweeps.inl.h  32282 unit_triangle.inl.h
- *  32319 two_rhs.inl.h  32489 small_supernode.inl.h  32691 single_rhs.inl.h  32931 multi_rhs.inl.h
- *  32994 multi_rhs_small.inl.h  33173 multi_rhs_tiles.inl.h  33412 complex_small.inl.h
- *  33608 complex_rows.inl.h  33831 complex_set.inl.h  33849 float_set.inl.h  33867 kernel_set.inl.h
- *  33869 row.inl.h  33901 interleave.inl.h  34003 lanes_undef.inl.h  34030 words_undef.inl.h
- *  34113 words_avx2.inl.h  34245 lanes_avx2.inl.h  34307 words_avx512.inl.h
- *  34416 lanes_avx512.inl.h  34463 words_neon.inl.h  34612 lanes_neon.inl.h  34691 fronts.inl.h
- *  34922 fronts_undef.inl.h
+ *  30928 words_scalar.inl.h  31024 change.inl.h  31280 lanes_scalar.inl.h  31312 products.inl.h
+ *  31350 inverse_front.inl.h  31655 inverse_set.inl.h  31668 front.inl.h  31670 product.inl.h
+ *  32158 complex_groups.inl.h  32249 copy_rows.inl.h  32287 sweeps.inl.h  32289 unit_triangle.inl.h
+ *  32326 two_rhs.inl.h  32496 small_supernode.inl.h  32698 single_rhs.inl.h  32938 multi_rhs.inl.h
+ *  33001 multi_rhs_small.inl.h  33180 multi_rhs_tiles.inl.h  33419 complex_small.inl.h
+ *  33615 complex_rows.inl.h  33838 complex_set.inl.h  33856 float_set.inl.h  33874 kernel_set.inl.h
+ *  33876 row.inl.h  33908 interleave.inl.h  34010 lanes_undef.inl.h  34037 words_undef.inl.h
+ *  34120 words_avx2.inl.h  34252 lanes_avx2.inl.h  34314 words_avx512.inl.h
+ *  34423 lanes_avx512.inl.h  34470 words_neon.inl.h  34619 lanes_neon.inl.h  34698 fronts.inl.h
+ *  34929 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -27787,6 +27787,9 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->analysis = S->identity;
   F->method = (sl_method)g->method;
   F->type = sli_storage_type_of((sl_storage)g->storage);
+  if (F->type == NULL) { /* untested: SL_WITH_FLOAT is there */
+    return 1;
+  }
   F->null_pivots = (sl_null_pivots)g->null_pivots;
   F->checks = (int)g->checks;
   F->is_centered = (int)g->is_centered;
@@ -28571,11 +28574,15 @@ static sl_status sli_read_front(sli_reading *r) {
   if (status != SL_OK || !sli_decode_analysis(&f->analysis, &r->S)) {
     return status != SL_OK ? status : SL_ERR_IO;
   }
+  r->F.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
   r->has_factor = f->table[1].bytes > 0;
   if (r->has_factor) {
     status = sli_read_numbers(r, 1, &f->factor, sizeof f->factor);
     if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
       return status != SL_OK ? status : SL_ERR_IO;
+    }
+    if (r->F.type == NULL) { /* untested: SL_WITH_FLOAT is there */
+      return SL_ERR_UNSUPPORTED;
     }
   }
   if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=

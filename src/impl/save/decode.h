@@ -125,6 +125,9 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->analysis = S->identity;
     F->method = (sl_method)g->method;
     F->type = sli_storage_type_of((sl_storage)g->storage);
+    if (F->type == NULL) { /* untested: SL_WITH_FLOAT is there */
+        return 1;
+    }
     F->null_pivots = (sl_null_pivots)g->null_pivots;
     F->checks = (int)g->checks;
     F->is_centered = (int)g->is_centered;

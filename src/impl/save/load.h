@@ -157,11 +157,15 @@ static sl_status sli_read_front(sli_reading *r) {
     if (status != SL_OK || !sli_decode_analysis(&f->analysis, &r->S)) {
         return status != SL_OK ? status : SL_ERR_IO;
     }
+    r->F.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
     r->has_factor = f->table[1].bytes > 0;
     if (r->has_factor) {
         status = sli_read_numbers(r, 1, &f->factor, sizeof f->factor);
         if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
             return status != SL_OK ? status : SL_ERR_IO;
+        }
+        if (r->F.type == NULL) { /* untested: SL_WITH_FLOAT is there */
+            return SL_ERR_UNSUPPORTED;
         }
     }
     if ((r->F.type->storage != SL_STORAGE_DOUBLE) !=
