@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: ffe55d15b6ab96c4
+ * FNV-1a of the lines after this comment, without the license: 67359e9f62b70f09
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,77 +33,77 @@
  *   3076 base.h   3376 status.h   3437 options.h   3498 alloc.h   3661 hash.h   3791 sort.h
  *   3856 parallel.h
  * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4046 panel.h   4071 step.h   4150 pivot_rule.h   4224 front.h   4284 pairs.h   4491 table.h
- *   4507 simd.h   4610 simd_scalar.h   4637 simd_avx2.h   4704 simd_avx512.h   4736 simd_neon.h
- *   4766 dispatch.h
+ *   4046 panel.h   4071 step.h   4150 pivot_rule.h   4225 front.h   4285 pairs.h   4492 table.h
+ *   4508 simd.h   4611 simd_scalar.h   4638 simd_avx2.h   4705 simd_avx512.h   4737 simd_neon.h
+ *   4767 dispatch.h
  * (matrix: sparse matrices of the caller and of the library)
- *   4880 csc.h   5023 csc_build.h   5157 csc_triangle.h   5222 csc_products.h   5339 permute.h
+ *   4881 csc.h   5024 csc_build.h   5158 csc_triangle.h   5223 csc_products.h   5340 permute.h
  * (ordering: fill-reducing orderings of a graph)
- *   5406 graph.h   5577 job.h   5613 reduce.h   5918 contract.h   6099 coarsen.h   6313 labels.h
- *   6539 subgraph.h   6733 bisect.h   7001 separator.h   7263 mindeg.h   7446 dissection.h
- *   7656 dissect.h   7910 levelset.h   8047 thin.h   8316 nd.h   8580 compress.h   8734 metis.h
- *   8864 levels.h   8938 quotient.h   9272 quotient_order.h   9366 choice.h   9538 order.h
+ *   5407 graph.h   5578 job.h   5614 reduce.h   5919 contract.h   6100 coarsen.h   6314 labels.h
+ *   6540 subgraph.h   6734 bisect.h   7002 separator.h   7264 mindeg.h   7447 dissection.h
+ *   7657 dissect.h   7911 levelset.h   8048 thin.h   8317 nd.h   8581 compress.h   8735 metis.h
+ *   8865 levels.h   8939 quotient.h   9273 quotient_order.h   9367 choice.h   9539 order.h
  * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9742 symbolic_types.h   9785 etree.h   9982 supernodes.h  10240 pattern.h  10321 structure.h
- *  10492 schedule.h  10823 symbolic.h  11311 reach.h
+ *   9743 symbolic_types.h   9786 etree.h   9983 supernodes.h  10241 pattern.h  10322 structure.h
+ *  10493 schedule.h  10824 symbolic.h  11312 reach.h
  * (factor: the numbers of L and D)
- *  11587 factor_types.h  11777 storage_type.h  11842 panel_load.h  11883 pivot_check.h
- *  11987 null_product.h  12191 null_dense.h  12268 null_basis.h  12588 null_vectors.h
- *  12715 multifrontal.h  12858 uplooking.h  12932 front_tasks.h  13246 null_center.h
- *  13370 nullspace.h  13577 growth.h  13655 factor_setup.h  13991 factor.h  14206 factor_query.h
+ *  11588 factor_types.h  11794 storage_type.h  11859 panel_load.h  11900 pivot_check.h
+ *  12004 null_product.h  12208 null_dense.h  12285 null_basis.h  12605 null_vectors.h
+ *  12737 multifrontal.h  12880 uplooking.h  12954 front_tasks.h  13268 null_center.h
+ *  13392 nullspace.h  13601 growth.h  13679 factor_setup.h  14016 factor.h  14231 factor_query.h
  * (solve: full and local solves)
- *  14342 work.h  14446 query.h  14701 singular.h  14961 backward.h  14991 sweep_tasks.h
- *  15322 sweep.h  15490 compile.h  15625 plan.h  15713 local.h
+ *  14367 work.h  14471 query.h  14726 singular.h  14988 backward.h  15018 sweep_tasks.h
+ *  15349 sweep.h  15517 compile.h  15652 plan.h  15740 local.h
  * (accuracy: refinement, condition, defects, half solves)
- *  15815 parts.h  16075 refine.h  16242 refine_local.h  16441 rcond.h  16589 defects.h
+ *  15842 parts.h  16102 refine.h  16269 refine_local.h  16468 rcond.h  16616 defects.h
  * (pivots: the order of the pivots by the values of a matrix)
- *  16645 pivot_search.h  16991 pivoted.h
+ *  16673 pivot_search.h  17019 pivoted.h
  * (float: L and fronts in single precision)
- *  17063 simd_scalar_single.h  17094 simd_avx2_single.h  17151 simd_avx512_single.h
- *  17206 simd_neon_single.h  17251 float_kernels.h  17349 float_storage.h
+ *  17091 simd_scalar_single.h  17122 simd_avx2_single.h  17179 simd_avx512_single.h
+ *  17234 simd_neon_single.h  17279 float_kernels.h  17377 float_storage.h
  * (inverse: entries of the inverse, regions)
- *  17514 inverse_front.h  17586 inverse_kernels.h  17658 traversal.h  17912 traversal_run.h
- *  18121 row_sets.h  18155 unit_vectors.h  18376 bilinear.h  18548 entries.h  18825 block.h
- *  19055 selected.h  19252 selected_query.h  19354 region_types.h  19454 region_choose.h
- *  19681 region_ending.h  19797 region.h
+ *  17542 inverse_front.h  17614 inverse_kernels.h  17686 traversal.h  17940 traversal_run.h
+ *  18149 row_sets.h  18183 unit_vectors.h  18404 bilinear.h  18576 entries.h  18853 block.h
+ *  19083 selected.h  19280 selected_query.h  19382 region_types.h  19482 region_choose.h
+ *  19709 region_ending.h  19825 region.h
  * (change: a factor that follows changes of its matrix)
- *  20039 change_kernels.h  20112 gather.h  20160 kept.h  20317 leftlooking.h  20486 update_pivots.h
- *  20657 update.h  20891 path.h  20993 rank.h  21385 edges.h  21539 choose.h  21789 pins_types.h
- *  21855 pins_nulls.h  22036 pins_capacitance.h  22302 pins_rows.h  22422 pins_balance.h
- *  22584 pins_held.h  22812 pins_choose.h  22878 pins_rebuild.h  23101 pins_matrix.h  23252 pins.h
- *  23514 pins_solve.h  23788 subset.h  23941 restrict_kept.h  24139 restrict_analysis.h
- *  24384 restrict_symbolic.h  24579 restrict.h  24810 edit_match.h  25009 edit_place.h
- *  25258 edit_separate.h  25572 edit_order.h  25735 edit_graph.h  25817 edit_join.h  26093 edit.h
- *  26256 edit_factor.h
+ *  20067 change_kernels.h  20140 gather.h  20188 kept.h  20345 leftlooking.h  20515 update_pivots.h
+ *  20686 update.h  20920 path.h  21022 rank.h  21414 edges.h  21568 choose.h  21818 pins_types.h
+ *  21884 pins_nulls.h  22066 pins_capacitance.h  22331 pins_rows.h  22451 pins_balance.h
+ *  22614 pins_held.h  22842 pins_choose.h  22908 pins_rebuild.h  23131 pins_matrix.h  23282 pins.h
+ *  23544 pins_solve.h  23818 subset.h  23971 restrict_kept.h  24169 restrict_analysis.h
+ *  24414 restrict_symbolic.h  24609 restrict.h  24840 edit_match.h  25039 edit_place.h
+ *  25288 edit_separate.h  25602 edit_order.h  25765 edit_graph.h  25847 edit_join.h  26123 edit.h
+ *  26286 edit_factor.h
  * (io: files that are written and mapped)
- *  26544 output_file.h  26753 file_map.h
+ *  26574 output_file.h  26783 file_map.h
  * (files: Matrix Market files, 64-bit indices)
- *  26854 csc64.h  26925 text_reader.h  27106 matrix_market.h
+ *  26884 csc64.h  26955 text_reader.h  27136 matrix_market.h
  * (save: factors in files)
- *  27376 format.h  27673 decode.h  27824 check.h  28154 write.h  28436 load.h  28709 load_inverse.h
- *  29039 load_calls.h
+ *  27406 format.h  27703 decode.h  27854 check.h  28184 write.h  28466 load.h  28739 load_inverse.h
+ *  29069 load_calls.h
  * (batch: many solves and factorizations by one call, sums of matrices)
- *  29199 matrix_sum.h  29281 scatter.h  29439 combination.h  29499 batch_solve.h
- *  29693 batch_factor.h
+ *  29229 matrix_sum.h  29311 scatter.h  29469 combination.h  29529 batch_solve.h
+ *  29723 batch_factor.h
  * (batch: diagonals of many inverses)
- *  29897 batch_diagonal.h
+ *  29927 batch_diagonal.h
  * (complex: complex Hermitian systems over real factors)
- *  30039 complex_kernels.h  30151 complex_storage.h  30272 hermitian.h  30434 complex_rows.h
+ *  30069 complex_kernels.h  30181 complex_storage.h  30302 hermitian.h  30464 complex_rows.h
  * (packs: the tables through which the core calls packs)
- *  30603 storage_types.h
+ *  30633 storage_types.h
  * (last: undefine every internal macro)
- *  30630 undef.h
+ *  30660 undef.h
  * (templates: the header includes them from itself, once for each instruction set)
- *  30928 words_scalar.inl.h  31024 change.inl.h  31280 lanes_scalar.inl.h  31312 products.inl.h
- *  31350 inverse_front.inl.h  31655 inverse_set.inl.h  31668 front.inl.h  31670 product.inl.h
- *  32158 complex_groups.inl.h  32249 copy_rows.inl.h  32287 sweeps.inl.h  32289 unit_triangle.inl.h
- *  32326 two_rhs.inl.h  32496 small_supernode.inl.h  32698 single_rhs.inl.h  32938 multi_rhs.inl.h
- *  33001 multi_rhs_small.inl.h  33180 multi_rhs_tiles.inl.h  33419 complex_small.inl.h
- *  33615 complex_rows.inl.h  33838 complex_set.inl.h  33856 float_set.inl.h  33874 kernel_set.inl.h
- *  33876 row.inl.h  33908 interleave.inl.h  34010 lanes_undef.inl.h  34037 words_undef.inl.h
- *  34120 words_avx2.inl.h  34252 lanes_avx2.inl.h  34314 words_avx512.inl.h
- *  34423 lanes_avx512.inl.h  34470 words_neon.inl.h  34619 lanes_neon.inl.h  34698 fronts.inl.h
- *  34929 fronts_undef.inl.h
+ *  30958 words_scalar.inl.h  31054 change.inl.h  31310 lanes_scalar.inl.h  31342 products.inl.h
+ *  31380 inverse_front.inl.h  31685 inverse_set.inl.h  31698 front.inl.h  31700 product.inl.h
+ *  32188 complex_groups.inl.h  32279 copy_rows.inl.h  32317 sweeps.inl.h  32319 unit_triangle.inl.h
+ *  32356 two_rhs.inl.h  32526 small_supernode.inl.h  32728 single_rhs.inl.h  32968 multi_rhs.inl.h
+ *  33031 multi_rhs_small.inl.h  33210 multi_rhs_tiles.inl.h  33449 complex_small.inl.h
+ *  33645 complex_rows.inl.h  33868 complex_set.inl.h  33886 float_set.inl.h  33904 kernel_set.inl.h
+ *  33906 row.inl.h  33938 interleave.inl.h  34040 lanes_undef.inl.h  34067 words_undef.inl.h
+ *  34150 words_avx2.inl.h  34282 lanes_avx2.inl.h  34344 words_avx512.inl.h
+ *  34453 lanes_avx512.inl.h  34500 words_neon.inl.h  34649 lanes_neon.inl.h  34728 fronts.inl.h
+ *  34959 fronts_undef.inl.h
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4165,6 +4165,7 @@ typedef struct sli_pivot_rule {
   signed char *kinds;
   const double *rounding;
   double *shifts;
+  sl_int *regularized;
 } sli_pivot_rule;
 
 #define SLI_NULL_PIVOT DBL_MAX
@@ -11625,78 +11626,94 @@ typedef struct sli_copied {
   void (*copy)(sl_factor *F, sl_int s, sl_int worker);
 } sli_copied;
 
-struct sl_factor {
-  sl_allocator allocator;
-  sl_stats stats;
-  const sl_symbolic *S;
-  const sli_kernels *kernels;
-  const sli_storage_type *type;
-  const sli_sweeps *sweeps;
-  const sli_front_kernels *front;
-  sli_pivot_rule rule;
-  sl_null_pivots null_pivots;
-  sl_method method;
-  int is_valid;
-  int is_immutable;
-  void *scratch;
-  sl_status status;
-  sli_hash identity;
-  uint64_t generation;
-  double clock;
-  sl_off updates;
-  double drift;
-  double scale;
-  double lowest;
-  sli_hash analysis;
-  void *values;
-  double *panels;
-  sl_off panel_room;
-  double *D;
-  double *E;
-  sli_extent *extents;
-  double growth_limit;
-  double error_limit;
-  sl_int *regularized;
-
+typedef struct sli_null_space {
+  sl_null_pivots mode;
   double consistency;
   int checks;
   int is_centered;
-  sl_int n_nulls;
-  sl_int *nulls;
+  sl_int count;
+  sl_int *pivots;
   sl_int n_anchors;
   sl_int *anchors;
   double *mass;
-  sl_int null_vectors;
+  sl_int vectors;
   double *z;
   double *g;
+  double *center;
+  double *squares;
+  double *ratios;
+
   int has_duplicates;
   sli_null_row *rows;
   sl_int *last;
   double *rounding;
+  double *sweep;
   sl_int *chain, *row_entries;
   double *products;
-  double *center;
-  double *squares;
-  double *ratios;
-  double *divisors;
-  double *center_scratch;
-  double *buffer;
-  uint64_t *marks;
-  const sli_copied *copied;
+} sli_null_space;
 
-  sl_threads threads;
-  sli_schedule schedule;
+typedef struct sli_history {
+  sl_off updates;
+  double drift;
+  double scale;
+  double lowest;
+  uint64_t *marks;
+} sli_history;
+
+typedef struct sli_front_work {
+  double *buffer;
   void *stack;
   double *magnitude;
   double *reciprocals;
+  double *panels;
+  sl_off panel_room;
   sli_failure *failures;
+  const sli_copied *copied;
+} sli_front_work;
 
+typedef struct sli_row_work {
   double *x;
   sl_int *head;
   sl_int *next;
   sl_int *position;
   uint64_t *list;
   uint64_t *list_scratch;
+} sli_row_work;
+
+struct sl_factor {
+  sl_allocator allocator;
+  sl_stats stats;
+  const sl_symbolic *S;
+  sli_hash analysis;
+  const sli_kernels *kernels;
+  const sli_storage_type *type;
+  const sli_sweeps *sweeps;
+  const sli_front_kernels *front;
+  sl_method method;
+  sl_threads threads;
+  sli_schedule schedule;
+
+  int is_valid;
+  int is_immutable;
+  sl_status status;
+  sli_hash identity;
+  uint64_t generation;
+  double clock;
+  sli_history history;
+
+  void *values;
+  double *D;
+  double *E;
+  double *divisors;
+  sli_extent *extents;
+  sli_pivot_rule rule;
+  double growth_limit;
+  double error_limit;
+  sli_null_space null;
+
+  void *scratch;
+  sli_front_work work;
+  sli_row_work row;
 };
 
 typedef struct sli_numbers {
@@ -11761,11 +11778,11 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
 }
 
 SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
-  return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
+  return F->null.vectors > 1 ? 2 * F->null.vectors : 1;
 }
 
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-  return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+  return F->null.mode == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
 }
 
 SLI_INLINE int sli_is_regularized(const sl_factor *F, sl_int k) {
@@ -11813,7 +11830,7 @@ SLI_INLINE int sli_is_single(const sl_factor *F) {
 }
 
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-  return sli_is_float(F) ? F->panels + F->panel_room * worker
+  return sli_is_float(F) ? F->work.panels + F->work.panel_room * worker
                : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
 }
 
@@ -11875,8 +11892,8 @@ SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
   F->extents[s].entry = F->extents[s].magnitude = 0.0;
   F->extents[s].pivot = -1;
   F->extents[s].zero = 0;
-  if (F->marks != NULL) {
-    F->marks[s] = SLI_MARK_BEGIN;
+  if (F->history.marks != NULL) {
+    F->history.marks[s] = SLI_MARK_BEGIN;
   }
 }
 
@@ -11898,7 +11915,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
   if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
+  if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
     !(pivot * F->rule.signs[k] > 0.0)) {
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
   }
@@ -11969,7 +11986,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
     }
     info.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
     if (sli_is_regularized(F, k)) {
-      F->regularized[info.regularized++] = k;
+      F->rule.regularized[info.regularized++] = k;
     }
     if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
       n_values = F->S->pairs[k] == SLI_PAIR_FIRST ? 2 : 0;
@@ -12282,42 +12299,42 @@ typedef struct sli_null_part {
 SLI_INLINE sli_null_part sli_null_part_of(sl_factor *F, sl_int last) {
   sli_null_part p;
   p.F = F;
-  p.z = F->g;
+  p.z = F->null.g;
   p.n = (size_t)F->S->n;
   p.last = last;
-  p.count = p.rank = F->null_vectors;
+  p.count = p.rank = F->null.vectors;
   return p;
 }
 
 static void sli_null_chain(sl_factor *F) {
-  sli_null_row *tails = F->rows;
+  sli_null_row *tails = F->null.rows;
   sl_int k;
   for (k = 0; k < F->S->n; k++) {
     tails[k].up = -1;
   }
   for (k = 0; k < F->S->n; k++) {
-    F->chain[k] = tails[F->last[k]].up;
-    tails[F->last[k]].up = k;
+    F->null.chain[k] = tails[F->null.last[k]].up;
+    tails[F->null.last[k]].up = k;
   }
 }
 
 SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
-  return F->last[k] == k && F->chain[k] == -1;
+  return F->null.last[k] == k && F->null.chain[k] == -1;
 }
 
 SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
   sl_int j = 0;
-  while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+  while (j < F->null.vectors && F->null.g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
     j++;
   }
-  return j < F->null_vectors ? j : -1;
+  return j < F->null.vectors ? j : -1;
 }
 
 static double sli_null_largest(const sli_null_part *p, sl_int j) {
   const double *z = p->z + (size_t)j * p->n;
   double largest = 0.0;
   sl_int k;
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     largest = fabs(z[k]) > largest ? fabs(z[k]) : largest;
   }
   return largest;
@@ -12328,17 +12345,17 @@ static void sli_null_scale(const sli_null_part *p, sl_int j) {
   int exponent;
   sl_int k;
   (void)frexp(sli_null_largest(p, j), &exponent);
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     z[k] = ldexp(z[k], -exponent);
   }
 }
 
 static double sli_null_violation(const sli_null_part *p, const double *q, sl_int vectors,
                  double *x) {
-  const double *product = p->F->products, *sizes = product + (size_t)p->count * p->n;
+  const double *product = p->F->null.products, *sizes = product + (size_t)p->count * p->n;
   double most = 0.0, y[SLI_NULL_VECTORS_MAX];
   sl_int k, j;
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     double norm, ratio;
     if (!sli_is_finite(sizes[k])) {
       return (double)INFINITY;
@@ -12350,7 +12367,7 @@ static double sli_null_violation(const sli_null_part *p, const double *q, sl_int
       y[j] = product[(size_t)k + (size_t)j * p->n] / sizes[k];
     }
     norm = sli_null_project(q, vectors, p->count, y);
-    ratio = norm / (16.0 * DBL_EPSILON * p->F->row_entries[k]);
+    ratio = norm / (16.0 * DBL_EPSILON * p->F->null.row_entries[k]);
     if (ratio > most) {
       most = ratio;
       for (j = 0; j < p->count; j++) {
@@ -12364,7 +12381,7 @@ static double sli_null_violation(const sli_null_part *p, const double *q, sl_int
 static void sli_null_combine(const sli_null_part *p, const double *c, sl_int columns) {
   double x[SLI_NULL_VECTORS_MAX];
   sl_int k, v, j;
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     double *z = p->z + k;
     for (j = 0; j < p->count; j++) {
       x[j] = z[(size_t)j * p->n];
@@ -12404,7 +12421,7 @@ static sl_int sli_null_restrict(const sli_null_part *p) {
 static double sli_null_scalar(const sli_null_part *p, const double *a, const double *b) {
   double sum = 0.0;
   sl_int k;
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     sum += a[k] * b[k];
   }
   return sum;
@@ -12412,7 +12429,7 @@ static double sli_null_scalar(const sli_null_part *p, const double *a, const dou
 
 static void sli_null_subtract(const sli_null_part *p, double *a, const double *b, double c) {
   sl_int k;
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     a[k] -= c * b[k];
   }
 }
@@ -12429,7 +12446,7 @@ static void sli_null_orthonormalize(sli_null_part *p) {
       at = square > most ? j : at;
       most = square > most ? square : most;
     }
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
       const double swapped = z[k];
       z[k] = p->z[(size_t)k + (size_t)at * p->n];
       p->z[(size_t)k + (size_t)at * p->n] = swapped;
@@ -12444,7 +12461,7 @@ static void sli_null_orthonormalize(sli_null_part *p) {
     if (sqrt(most) <= SLI_NULL_DEPENDENT) {
       break;
     }
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
       z[k] /= sqrt(most);
     }
     for (j = v + 1; j < p->count; j++) {
@@ -12454,7 +12471,7 @@ static void sli_null_orthonormalize(sli_null_part *p) {
   }
   p->rank = v;
   for (; v < p->count; v++) {
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
       p->z[(size_t)k + (size_t)v * p->n] = 0.0;
     }
   }
@@ -12474,13 +12491,13 @@ static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
   sl_int v, j, k;
   for (v = 0; v < p->rank; v++) {
     double *x = q + v * p->rank, most = 0.0, distance = 0.0;
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
       distance = sli_null_distance(p, k, q, v, x);
       most = distance > most ? distance : most;
     }
     k = p->last;
     while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
-      k = p->F->chain[k];
+      k = p->F->null.chain[k];
     }
     anchors[v] = k;
     for (j = 0; j < p->rank; j++) {
@@ -12498,7 +12515,7 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
     }
   }
   sli_null_invert(a, p->rank);
-  for (k = p->last; k != -1; k = p->F->chain[k]) {
+  for (k = p->last; k != -1; k = p->F->null.chain[k]) {
     double *z = p->z + k;
     for (j = 0; j < p->count; j++) {
       x[j] = z[(size_t)j * p->n];
@@ -12519,17 +12536,17 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
 
 static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns) {
   const size_t n = (size_t)F->S->n;
-  double *product = F->products, *sizes = product + (size_t)F->null_vectors * n;
+  double *product = F->null.products, *sizes = product + (size_t)F->null.vectors * n;
   sl_int j, k;
   memset(sizes, 0, n * sizeof(double));
-  for (j = 0; j < F->null_vectors; j++) {
-    const sli_null_walk w = sli_null_product(F->S, from, by_columns, F->rows,
-                         F->g + (size_t)j * n, NULL);
+  for (j = 0; j < F->null.vectors; j++) {
+    const sli_null_walk w =
+      sli_null_product(F->S, from, by_columns, F->null.rows, F->null.g + (size_t)j * n, NULL);
     for (k = 0; k < F->S->n; k++) {
-      const sli_null_row *row = &F->rows[sli_null_walk_row(&w, k)];
+      const sli_null_row *row = &F->null.rows[sli_null_walk_row(&w, k)];
       product[(size_t)k + (size_t)j * n] = row->product;
       sizes[k] += row->size;
-      F->row_entries[k] = row->entries;
+      F->null.row_entries[k] = row->entries;
     }
   }
 }
@@ -12538,15 +12555,15 @@ static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_col
   sl_int k;
   for (k = 0; k < F->S->n; k++) {
     sli_null_part p = sli_null_part_of(F, k);
-    for (; F->last[k] == k && p.rank > 0; p.rank--) {
+    for (; F->null.last[k] == k && p.rank > 0; p.rank--) {
       sli_null_scale(&p, p.rank - 1);
     }
   }
   sli_null_products(F, from, by_columns);
   for (k = 0; k < F->S->n; k++) {
-    if (F->last[k] == k) {
+    if (F->null.last[k] == k) {
       const sli_null_part p = sli_null_part_of(F, k);
-      F->rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
+      F->null.rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
     }
   }
 }
@@ -12555,19 +12572,19 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
                 sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
-  memcpy(F->g, F->z, (size_t)S->n * (size_t)F->null_vectors * sizeof(double));
+  memcpy(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors * sizeof(double));
   sli_null_chain(F);
   sli_null_bases_test(F, from, by_columns);
   for (k = 0; k < S->n; k++) {
-    if (F->last[k] == k) {
+    if (F->null.last[k] == k) {
       sli_null_part p = sli_null_part_of(F, k);
       const int is_single = sli_null_is_row(F, k);
-      if (F->rounding[k] == 0.0) {
+      if (F->null.rounding[k] == 0.0) {
         sli_null_orthonormalize(&p);
       } else {
         p.rank = 0;
       }
-      F->rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
+      F->null.rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
       if (!is_single && used + p.rank > p.count) {
         return sli_fail(failure, SL_ERR_UNSUPPORTED, S->super_of[k], k, -1, 0.0);
       }
@@ -12577,7 +12594,7 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
       sli_null_normalize(&p, anchors, used);
       used += p.rank;
       for (j = 0; j < rank; j++) {
-        F->chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
+        F->null.chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
       }
     }
     used = S->parent[k] == -1 ? 0 : used;
@@ -12590,12 +12607,12 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
 static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
   sl_int k;
   for (k = 0; k < F->S->n; k++) {
-    const sl_int last = F->last[k];
-    F->rounding[k] = F->rounding[last];
+    const sl_int last = F->null.last[k];
+    F->null.rounding[k] = F->null.rounding[last];
     F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
-    if (!(F->rounding[k] <= DBL_MAX)) {
+    if (!(F->null.rounding[k] <= DBL_MAX)) {
       F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
-    } else if (F->null_vectors > 1 ? F->chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
+    } else if (F->null.vectors > 1 ? F->null.chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
       F->rule.kinds[k] = SLI_PIVOT_NULL;
     } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
       F->rule.kinds[k] = SLI_PIVOT_KEPT;
@@ -12607,14 +12624,15 @@ static void sli_null_vectors_load(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int k, first = 0, only = -1, count = 0;
   for (k = 0; k < S->n; k++) {
-    const sl_int last = F->last[k];
+    const sl_int last = F->null.last[k];
     if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
       only = last;
       count++;
     }
     if (S->parent[k] == -1) {
       for (; first <= k; first++) {
-        F->g[first] = count == 1 && F->last[first] == only ? F->z[first] : 0.0;
+        F->null.g[first] =
+          count == 1 && F->null.last[first] == only ? F->null.z[first] : 0.0;
       }
       count = 0;
       only = -1;
@@ -12633,32 +12651,35 @@ static double sli_null_rounding(sl_int n, double epsilon) {
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
-  const int is_one = F->null_vectors == 1, by_columns = from->A != NULL && !F->has_duplicates;
-  const double rounding = sli_null_rounding(S->n, F->rule.epsilon), *z = is_one ? F->z : NULL;
-  double *diagonal = is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
-  const sli_null_walk w = sli_null_product(S, from, by_columns, F->rows, z, diagonal);
+  const int is_one = F->null.vectors == 1,
+        by_columns = from->A != NULL && !F->null.has_duplicates;
+  const double rounding = sli_null_rounding(S->n, F->rule.epsilon),
+         *z = is_one ? F->null.z : NULL;
+  double *diagonal =
+    is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
+  const sli_null_walk w = sli_null_product(S, from, by_columns, F->null.rows, z, diagonal);
   sl_int i, refused = S->n;
   F->stats.factor.regular = 0;
-  sli_null_components(&w, S, z, F->last, F->rounding);
+  sli_null_components(&w, S, z, F->null.last, F->null.rounding);
   if (!is_one && sli_null_bases(F, from, by_columns, failure) != SL_OK) {
     memset(F->D, 0, (size_t)S->n * sizeof(double));
     return failure->status;
   }
   for (i = 0; i < S->n; i++) {
-    const sl_int k = sli_null_walk_pivot(&w, i), last = F->last[k];
+    const sl_int k = sli_null_walk_pivot(&w, i), last = F->null.last[k];
     const double of_last = diagonal[sli_null_walk_row(&w, last)];
     const double here = rounding * fabs(diagonal[i]);
     if (last != k && !sli_signs_agree(diagonal[i], of_last)) {
       refused = sli_min(refused, of_last == 0.0 ? last : k);
     }
-    F->rounding[last] = here > F->rounding[last] ? here : F->rounding[last];
+    F->null.rounding[last] = here > F->null.rounding[last] ? here : F->null.rounding[last];
   }
   if (refused < S->n) {
     memset(F->D, 0, (size_t)S->n * sizeof(double));
     return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
             diagonal[sli_null_walk_row(&w, refused)]);
   }
-  F->rule.rounding = F->rounding;
+  F->rule.rounding = F->null.rounding;
   sli_null_kinds_fill(F, &w, diagonal);
   if (is_one) {
     sli_null_vectors_load(F);
@@ -12695,7 +12716,8 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-  sli_null_row *rows = (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
+  sli_null_row *rows =
+    (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->work.panels);
   double *most = (double *)(void *)(rows + S->n);
   sl_int *last = (sl_int *)(void *)(most + S->n), k;
   const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
@@ -12715,7 +12737,7 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
 /* src/impl/factor/multifrontal.h: fronts in double: each passes its update matrix up */
 
 SLI_INLINE int sli_is_copied(const sl_factor *F, sl_int s) {
-  return F->copied != NULL && F->copied->from[s] != -1;
+  return F->work.copied != NULL && F->work.copied->from[s] != -1;
 }
 
 SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
@@ -12791,8 +12813,8 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
   f.D = F->D + step->column;
   f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
   f.E = F->E == NULL ? NULL : F->E + step->column;
-  f.magnitude = F->magnitude + (ptrdiff_t)worker * (SLI_TILE * sli_tiles(F->S->tallest));
-  f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
+  f.magnitude = F->work.magnitude + (ptrdiff_t)worker * (SLI_TILE * sli_tiles(F->S->tallest));
+  f.reciprocals = F->work.reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
   return f;
 }
 
@@ -12858,11 +12880,11 @@ static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
 /* src/impl/factor/uplooking.h: up-looking factorization: row by row, each a sparse triangular solve */
 
 static void sli_row_link(sl_factor *F, sl_int s) {
-  const sl_off at = F->S->rows_begin[s] + F->position[s];
+  const sl_off at = F->S->rows_begin[s] + F->row.position[s];
   if (at < F->S->rows_begin[s + 1]) {
     const sl_int k = F->S->rows[at];
-    F->next[s] = F->head[k];
-    F->head[k] = s;
+    F->row.next[s] = F->row.head[k];
+    F->row.head[k] = s;
   }
 }
 
@@ -12870,23 +12892,23 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
   const sl_symbolic *S = F->S;
   const sl_int first = S->super_first[s];
   F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
-          F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
+          F->D + first, F->row.x + first, F->row.x, F->work.buffer, pivot, magnitude);
 }
 
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
-  uint64_t *list = F->list + S->n_supers;
+  uint64_t *list = F->row.list + S->n_supers;
   sl_int s, m, count = 0;
-  for (s = F->head[k]; s != -1; s = F->next[s]) {
+  for (s = F->row.head[k]; s != -1; s = F->row.next[s]) {
     *--list = sli_keyed(s, 0);
     count++;
   }
-  sli_sort(list, count, F->list_scratch);
+  sli_sort(list, count, F->row.list_scratch);
   for (m = 0; m < count; m++) {
     s = sli_key(list[m]);
-    sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
-    F->position[s]++;
+    sli_row_solve(F, s, S->steps[s].width + F->row.position[s], pivot, magnitude);
+    F->row.position[s]++;
     sli_row_link(F, s);
   }
   if (k > S->super_first[own]) {
@@ -12899,8 +12921,8 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
   sl_status status = SL_OK;
   sl_int k;
   for (k = 0; k < S->n; k++) {
-    F->head[k] = -1;
-    F->x[k] = 0.0;
+    F->row.head[k] = -1;
+    F->row.x[k] = 0.0;
   }
   for (k = 0; k < S->n && status == SL_OK; k++) {
     const sl_int s = S->super_of[k], q = k - S->super_first[s];
@@ -12922,7 +12944,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     F->D[k] = pivot;
     status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
     if (q == S->steps[s].width - 1) {
-      F->position[s] = 0;
+      F->row.position[s] = 0;
       sli_row_link(F, s);
     }
   }
@@ -13057,7 +13079,7 @@ static sli_task sli_job_draw(sli_job *job) {
       task.at = at;
       return task;
     }
-    if ((job->F->panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
+    if ((job->F->work.panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
       sli_top_draw(job, at, &task)) {
       job->in_turn = at;
       p->tops[at].is_begun = 1;
@@ -13116,7 +13138,7 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
   const sli_top *top = &F->schedule.tops[task->at];
   const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
   const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
-  double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+  double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   const sli_storage_type *type = F->type;
   const sli_front f = type->shared(F, s, sli_max(group, 0));
   if (task->step == SLI_STEP_CLEAR) {
@@ -13138,7 +13160,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
   for (; m < p->bundle_end[bundle]; m++) {
     sli_failure failure;
     if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
-      sli_keep_first_failure(&F->failures[worker], &failure);
+      sli_keep_first_failure(&F->work.failures[worker], &failure);
     }
   }
 }
@@ -13168,13 +13190,13 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
     sli_piece_run(F, task, worker);
     break;
   }
-  sli_keep_first_failure(&F->failures[worker], &failure);
+  sli_keep_first_failure(&F->work.failures[worker], &failure);
   return failure.status;
 }
 
 static void sli_worker_run(void *data, sl_int worker) {
   sli_job *job = (sli_job *)data;
-  const sli_failure *failure = &job->F->failures[worker];
+  const sli_failure *failure = &job->F->work.failures[worker];
   sli_task task = {SLI_TASK_NONE, 0, 0, 0};
   sl_status status = SL_OK;
   sli_atomic seen;
@@ -13228,7 +13250,7 @@ static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
     }
   }
   for (k = 0; k < p->workers; k++) {
-    F->failures[k].status = SL_OK;
+    F->work.failures[k].status = SL_OK;
   }
 }
 
@@ -13238,7 +13260,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
   sli_job_begin(&job, F, from);
   sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
   for (k = 0; k < F->schedule.workers; k++) {
-    sli_keep_first_failure(failure, &F->failures[k]);
+    sli_keep_first_failure(failure, &F->work.failures[k]);
   }
   return failure->status;
 }
@@ -13247,11 +13269,11 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
 
 static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
   const size_t n = (size_t)F->S->n;
-  sl_int m = sli_lower_bound(F->nulls, F->n_nulls, first), count = 0, k = root, i, j;
+  sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
   const double rounding = 16.0 * F->S->n * DBL_EPSILON;
   double sign = 1.0;
-  for (; m < F->n_nulls && F->nulls[m] <= root; m++) {
-    k = F->nulls[m];
+  for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
+    k = F->null.pivots[m];
     if (sli_null_column(F, k) != -1) {
       F->divisors[k] = 1.0;
       count++;
@@ -13260,13 +13282,13 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
     }
   }
   for (j = 0, m = k; j < count; j++) {
-    double *u = F->center + (size_t)j * n, *v = u + (size_t)F->null_vectors * n;
+    double *u = F->null.center + (size_t)j * n, *v = u + (size_t)F->null.vectors * n;
     double size = 0.0, square = 0.0, left = 0.0;
     for (k = first; k <= root; k++) {
-      size += fabs(F->mass[k]) * (u[k] * u[k] + rounding);
+      size += fabs(F->null.mass[k]) * (u[k] * u[k] + rounding);
     }
     for (i = 0; i < 2 * j; i++) {
-      const double *q = F->center + (size_t)(i % j) * n, *p = q + (v - u);
+      const double *q = F->null.center + (size_t)(i % j) * n, *p = q + (v - u);
       double dot = 0.0;
       for (k = first; k <= root; k++) {
         dot += p[k] * u[k];
@@ -13276,8 +13298,8 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
       }
     }
     for (k = first; k <= root; k++) {
-      square += F->mass[k] * u[k] * u[k];
-      left += fabs(F->mass[k]) * u[k] * u[k];
+      square += F->null.mass[k] * u[k] * u[k];
+      left += fabs(F->null.mass[k]) * u[k] * u[k];
     }
     sign = j == 0 && square < 0.0 ? -1.0 : sign;
     if (!(sign * square > fmax(rounding * size + 1e-290, 1e-4 * left))) {
@@ -13285,7 +13307,7 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
     }
     for (k = first; k <= root; k++) {
       u[k] /= sqrt(sign * square);
-      v[k] = sign * F->mass[k] * u[k];
+      v[k] = sign * F->null.mass[k] * u[k];
     }
   }
   return SL_OK;
@@ -13297,8 +13319,8 @@ static void sli_center_multiply(sl_factor *F) {
   for (s = 0; s < S->n_supers; s++) {
     const sli_step *step = &S->steps[s];
     const sl_off below = S->rows_begin[s] - step->width;
-    for (c = 0; c < F->null_vectors; c++) {
-      double *u = F->center + (size_t)c * (size_t)S->n;
+    for (c = 0; c < F->null.vectors; c++) {
+      double *u = F->null.center + (size_t)c * (size_t)S->n;
       for (r = 1; r < step->width + step->below; r++) {
         const double x = u[r < step->width ? step->column + r : S->rows[below + r]];
         for (j = 0; j < sli_min(r, step->width) && x != 0.0; j++) {
@@ -13311,12 +13333,12 @@ static void sli_center_multiply(sl_factor *F) {
 }
 
 static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
-  const size_t n = (size_t)F->S->n, count = (size_t)F->null_vectors;
+  const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
   double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
   size_t i, j;
   sl_int k;
   for (k = first; k <= root; k++) {
-    double *v = F->center + count * n + k;
+    double *v = F->null.center + count * n + k;
     for (i = 0; i < count; i++) {
       v[i * n] = sli_is_skipped(F, k) ? 0.0 : v[i * n] / F->D[k];
       for (j = 0; j <= i; j++) {
@@ -13326,7 +13348,7 @@ static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_
     }
   }
   for (k = first; k <= root; k++) {
-    double *u = F->center + k, *v = u + count * n;
+    double *u = F->null.center + k, *v = u + count * n;
     for (i = 0; i < count * count; i++) {
       v[i % count * n] -= u[i / count * n] * q[i] / 2.0;
       size += fabs(q[i]);
@@ -13340,18 +13362,18 @@ static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_
 static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  const size_t n = (size_t)S->n, count = (size_t)F->null_vectors;
+  const size_t n = (size_t)S->n, count = (size_t)F->null.vectors;
   sl_status status = SL_OK;
   sl_int k, first;
   size_t j;
   int pass;
   memcpy(F->divisors, F->D, n * sizeof(double));
-  memcpy(F->center, F->g, n * count * sizeof(double));
-  memset(F->center + n * count, 0, n * count * sizeof(double));
+  memcpy(F->null.center, F->null.g, n * count * sizeof(double));
+  memset(F->null.center + n * count, 0, n * count * sizeof(double));
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     for (j = count; j < 2 * count && pass == 1; j++) {
-      sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center + n * j,
-                F->center_scratch);
+      sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center + n * j,
+                F->null.sweep);
     }
     if (pass == 1) {
       sli_center_multiply(F);
@@ -13377,11 +13399,11 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
     if (!sli_is_finite(m)) {
       return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m);
     }
-    F->mass[k] = m;
+    F->null.mass[k] = m;
     any |= m != 0.0;
     if (S->parent[k] == -1) {
       for (; first <= k; first++) {
-        F->mass[first] = any ? F->mass[first] : 1.0;
+        F->null.mass[first] = any ? F->null.mass[first] : 1.0;
       }
       any = 0;
     }
@@ -13393,27 +13415,27 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   double *used = F->divisors;
   sl_int k, m = 0;
-  F->n_anchors = 0;
+  F->null.n_anchors = 0;
   memset(used, 0, (size_t)S->n * sizeof(double));
   for (k = 0; k < S->n; k++) {
-    if (F->last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
-      used[k] = used[F->last[k]] = 1.0;
+    if (F->null.last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
+      used[k] = used[F->null.last[k]] = 1.0;
     }
   }
-  for (k = 0; k < S->n && m < F->n_nulls; k++) {
+  for (k = 0; k < S->n && m < F->null.count; k++) {
     sl_int anchor = -1;
     if (S->parent[k] != -1) {
       continue;
     }
-    for (; m < F->n_nulls && F->nulls[m] <= k; m++) {
-      const sl_int null = F->nulls[m];
+    for (; m < F->null.count && F->null.pivots[m] <= k; m++) {
+      const sl_int null = F->null.pivots[m];
       if (used[null] != 0.0 && anchor != -1) {
         return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
       }
       anchor = used[null] != 0.0 ? null : anchor;
     }
     if (anchor != -1) {
-      F->anchors[F->n_anchors++] = anchor;
+      F->null.anchors[F->null.n_anchors++] = anchor;
     }
   }
   return SL_OK;
@@ -13422,23 +13444,23 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
 static void sli_anchor_weights(const sl_factor *F, double *weights) {
   sl_int m, k = 0, first;
   memset(weights, 0, (size_t)F->S->n * sizeof(double));
-  for (m = 0; m < F->n_anchors; m++) {
-    const sl_int last = F->last[F->anchors[m]];
+  for (m = 0; m < F->null.n_anchors; m++) {
+    const sl_int last = F->null.last[F->null.anchors[m]];
     int any = 0;
     for (first = k; k <= last; k++) {
-      weights[k] = F->last[k] == last ? F->mass[k] : 0.0;
+      weights[k] = F->null.last[k] == last ? F->null.mass[k] : 0.0;
       any |= weights[k] != 0.0;
     }
     for (; first <= last && !any; first++) {
-      weights[first] = F->last[first] == last ? 1.0 : 0.0;
+      weights[first] = F->null.last[first] == last ? 1.0 : 0.0;
     }
   }
 }
 
 static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
                  sli_failure *failure) {
-  const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
-  double *v = F->center, a, sum = 0.0, z_m = 0.0, size = 0.0;
+  const sl_int anchor = m < F->null.n_anchors ? F->null.anchors[m] : F->S->n;
+  double *v = F->null.center, a, sum = 0.0, z_m = 0.0, size = 0.0;
   sl_int k;
   if (anchor > root) {
     memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
@@ -13448,26 +13470,26 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
   if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
     return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, a);
   }
-  F->ratios[m] = 1.0;
-  if (F->g[anchor] != 0.0) {
+  F->null.ratios[m] = 1.0;
+  if (F->null.g[anchor] != 0.0) {
     for (k = first; k <= root; k++) {
       const double weight = F->divisors[k];
-      const double term = weight != 0.0 ? F->z[k] / F->z[anchor] * weight : 0.0;
+      const double term = weight != 0.0 ? F->null.z[k] / F->null.z[anchor] * weight : 0.0;
       z_m += term;
       size += fabs(term);
     }
     if (!(fabs(z_m) > F->S->n * DBL_EPSILON * size)) {
       return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
     }
-    F->ratios[m] = a / z_m;
+    F->null.ratios[m] = a / z_m;
   }
   for (k = first; k <= root; k++) {
     const double w = v[k] / a;
     v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
     sum += w * v[k];
   }
-  F->squares[m] = sum;
-  if (!sli_is_finite(sum + F->ratios[m])) {
+  F->null.squares[m] = sum;
+  if (!sli_is_finite(sum + F->null.ratios[m])) {
     return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
   }
   return SL_OK;
@@ -13479,25 +13501,25 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   double total = 0.0;
   sl_status status;
   sl_int k, first = 0, m = 0;
-  if (F->null_vectors > 1) {
+  if (F->null.vectors > 1) {
     return sli_center_several(F, failure);
   }
   status = sli_anchors_find(F, failure);
   sli_anchor_weights(F, F->divisors);
-  memcpy(F->center, F->divisors, (size_t)S->n * sizeof(double));
-  sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
+  memcpy(F->null.center, F->divisors, (size_t)S->n * sizeof(double));
+  sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center, F->null.sweep);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     total += fabs(F->divisors[k]);
     if (S->parent[k] == -1) {
       status = sli_center_tree(F, first, k, total, m, failure);
-      m += m < F->n_anchors && F->anchors[m] <= k;
+      m += m < F->null.n_anchors && F->null.anchors[m] <= k;
       total = 0.0;
       first = k + 1;
     }
   }
   memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
-  for (m = 0; m < F->n_anchors; m++) {
-    F->divisors[F->anchors[m]] = 1.0;
+  for (m = 0; m < F->null.n_anchors; m++) {
+    F->divisors[F->null.anchors[m]] = 1.0;
   }
   return status;
 }
@@ -13506,34 +13528,35 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const sli_reach all = sli_reach_all(S);
-  double *z = F->null_vectors == 1 ? F->g : F->products;
+  double *z = F->null.vectors == 1 ? F->null.g : F->null.products;
   uint64_t random = 1;
   sli_null_walk w;
   sl_status status = SL_OK;
   sl_int k, m, first = -1;
-  for (m = F->n_nulls - 1; m >= 0; m--) {
-    first = F->rule.kinds[F->nulls[m]] == SLI_PIVOT_UNKNOWN ? F->nulls[m] : first;
+  for (m = F->null.count - 1; m >= 0; m--) {
+    first = F->rule.kinds[F->null.pivots[m]] == SLI_PIVOT_UNKNOWN ? F->null.pivots[m] : first;
   }
   if (first == -1) {
     return SL_OK;
   }
   memset(z, 0, (size_t)S->n * sizeof(double));
-  for (m = 0; m < F->n_nulls; m++) {
-    k = F->nulls[m];
+  for (m = 0; m < F->null.count; m++) {
+    k = F->null.pivots[m];
     if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
       random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
       z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
     }
   }
   sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, z,
-             F->center_scratch);
-  w = sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, z, NULL);
+             F->null.sweep);
+  w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
+             NULL);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
       status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
     }
   }
-  if (F->null_vectors == 1) {
+  if (F->null.vectors == 1) {
     sli_null_vectors_load(F);
   }
   return status;
@@ -13542,8 +13565,8 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
 static void sli_anchor_columns_clear(sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int m, r;
-  for (m = 0; m < F->n_nulls && F->null_vectors > 1; m++) {
-    const sl_int k = F->nulls[m];
+  for (m = 0; m < F->null.count && F->null.vectors > 1; m++) {
+    const sl_int k = F->null.pivots[m];
     const sli_step *step = &S->steps[S->super_of[k]];
     for (r = k - step->column + 1; r < step->width + step->below; r++) {
       sli_entry_clear(F, step->panel + sli_panel_at(step->width, r, k - step->column));
@@ -13554,24 +13577,25 @@ static void sli_anchor_columns_clear(sl_factor *F) {
 static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
   sl_status status;
   sl_int k, m, regular = 0;
-  F->n_nulls = 0;
+  F->null.count = 0;
   for (k = 0; k < F->S->n; k++) {
-    regular += F->last[k] == k;
+    regular += F->null.last[k] == k;
     if (sli_is_skipped(F, k)) {
-      F->nulls[F->n_nulls++] = k;
+      F->null.pivots[F->null.count++] = k;
     }
   }
-  for (m = 0; m < F->n_nulls; m++) {
-    double *mark = &F->rounding[F->last[F->nulls[m]]];
+  for (m = 0; m < F->null.count;
+     m++) {
+    double *mark = &F->null.rounding[F->null.last[F->null.pivots[m]]];
     regular -= *mark >= 0.0;
     *mark = -1.0;
   }
   F->stats.factor.regular = regular;
-  F->is_centered = F->mass != NULL && F->n_nulls > 0;
-  F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+  F->null.is_centered = F->null.mass != NULL && F->null.count > 0;
+  F->null.checks = F->null.mass == NULL && F->null.count > 0 && F->null.consistency >= 0.0;
   sli_anchor_columns_clear(F);
   status = sli_null_pivots_verify(F, from, failure);
-  return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
+  return status == SL_OK && F->null.is_centered ? sli_center_compute(F, failure) : status;
 }
 
 /* src/impl/factor/growth.h: after a factorization: its pivot growth, and the pivot that causes it */
@@ -13668,20 +13692,20 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
   if (F->rule.regularization != 0.0) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
     F->rule.shifts = SLI_TAKE(b, double, n);
-    F->regularized = SLI_TAKE(b, sl_int, n);
+    F->rule.regularized = SLI_TAKE(b, sl_int, n);
   }
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    F->nulls = SLI_TAKE(b, sl_int, n);
+  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    F->null.pivots = SLI_TAKE(b, sl_int, n);
     F->rule.kinds = SLI_TAKE(b, signed char, n);
-    F->z = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
-    F->g = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
+    F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
+    F->null.g = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
   }
   if (has_mass) {
-    F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
-    F->squares = SLI_TAKE(b, double, S->stats.symbolic.components);
-    F->mass = SLI_TAKE(b, double, n);
-    F->center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
-    F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+    F->null.anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
+    F->null.squares = SLI_TAKE(b, double, S->stats.symbolic.components);
+    F->null.mass = SLI_TAKE(b, double, n);
+    F->null.center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
+    F->null.ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
   }
   F->values =
     sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
@@ -13695,49 +13719,50 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
   sl_int s;
   for (s = 0; s < S->n_supers && !sli_is_single(F); s++) {
     const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-    F->panel_room = size > F->panel_room ? size : F->panel_room;
+    F->work.panel_room = size > F->work.panel_room ? size : F->work.panel_room;
   }
-  F->panels = SLI_TAKE(
-    b, double,
-    workers *(uint64_t)F->panel_room > suspects ? workers * (uint64_t)F->panel_room : suspects);
+  F->work.panels = SLI_TAKE(b, double,
+                workers *(uint64_t)F->work.panel_room > suspects
+                  ? workers * (uint64_t)F->work.panel_room
+                  : suspects);
 }
 
 static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
   const sl_symbolic *S = F->S;
   const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
   const uint64_t workers = (uint64_t)F->schedule.workers;
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
     F->rule.signs = SLI_TAKE(b, signed char, n);
-    F->rows = SLI_TAKE(b, sli_null_row, n);
-    F->last = SLI_TAKE(b, sl_int, n);
-    F->rounding = SLI_TAKE(b, double, n);
-    F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-    if (F->null_vectors > 1) {
-      F->chain = SLI_TAKE(b, sl_int, n);
-      F->row_entries = SLI_TAKE(b, sl_int, n);
-      F->products = SLI_TAKE(b, double, n *((uint64_t)F->null_vectors + 2));
+    F->null.rows = SLI_TAKE(b, sli_null_row, n);
+    F->null.last = SLI_TAKE(b, sl_int, n);
+    F->null.rounding = SLI_TAKE(b, double, n);
+    F->null.sweep = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+    if (F->null.vectors > 1) {
+      F->null.chain = SLI_TAKE(b, sl_int, n);
+      F->null.row_entries = SLI_TAKE(b, sl_int, n);
+      F->null.products = SLI_TAKE(b, double, n *((uint64_t)F->null.vectors + 2));
     }
   }
   if (F->method == SL_METHOD_SUPERNODAL) {
     const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
-    F->buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
-    F->magnitude = SLI_TAKE(b, double, workers *rows);
-    F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
-    F->failures = SLI_TAKE(b, sli_failure, workers);
+    F->work.buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
+    F->work.magnitude = SLI_TAKE(b, double, workers *rows);
+    F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
+    F->work.failures = SLI_TAKE(b, sli_failure, workers);
     sli_schedule_layout(&F->schedule, b, S->n_supers);
     if (sli_is_float(F)) {
       sli_factor_layout_panels(F, b);
     } else {
-      F->marks = SLI_TAKE(b, uint64_t, supers);
+      F->history.marks = SLI_TAKE(b, uint64_t, supers);
     }
   } else {
-    F->buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
-    F->x = SLI_TAKE(b, double, n);
-    F->head = SLI_TAKE(b, sl_int, n);
-    F->next = SLI_TAKE(b, sl_int, supers);
-    F->position = SLI_TAKE(b, sl_int, supers);
-    F->list = SLI_TAKE(b, uint64_t, supers);
-    F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+    F->work.buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
+    F->row.x = SLI_TAKE(b, double, n);
+    F->row.head = SLI_TAKE(b, sl_int, n);
+    F->row.next = SLI_TAKE(b, sl_int, supers);
+    F->row.position = SLI_TAKE(b, sl_int, supers);
+    F->row.list = SLI_TAKE(b, uint64_t, supers);
+    F->row.list_scratch = SLI_TAKE(b, uint64_t, supers);
   }
 }
 
@@ -13757,7 +13782,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     b.base = NULL;
     b.used = 0;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-      F->stack =
+      F->work.stack =
         sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
       sli_schedule_layout_tops(&F->schedule, S, &b);
       F->stats.factor.bytes += pass == 0 ? b.used : 0;
@@ -13785,16 +13810,16 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   }
   if (status == SL_OK) {
     F->scratch = b.base;
-    if (F->marks != NULL) {
-      memset(F->marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+    if (F->history.marks != NULL) {
+      memset(F->history.marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
     }
-    F->has_duplicates = F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
+    F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
     status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
   }
   if (status != SL_OK) {
     sli_free(&F->allocator, F->scratch);
     F->scratch = NULL;
-    F->marks = NULL;
+    F->history.marks = NULL;
     F->stats.factor.bytes = bytes;
   }
   return status;
@@ -13834,15 +13859,15 @@ SLI_INLINE double sli_limit_option(double limit) {
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
   const double null = opt == NULL ? 0.0 : opt->null_tolerance;
   const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
-  F->null_pivots = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
+  F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
   F->rule.epsilon = F->type->epsilon;
   F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
   F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
-  F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-  F->null_vectors =
+  F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
+  F->null.vectors =
     opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
-  F->consistency = consistency == 0.0 ? 1e-6 : consistency;
-  F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+  F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
+  F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
   F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
                 sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -13863,9 +13888,9 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
       F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
     }
   }
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
     memset(F->rule.kinds, 0, (size_t)S->n);
-    for (j = 0; j < F->null_vectors; j++) {
+    for (j = 0; j < F->null.vectors; j++) {
       const size_t column = (size_t)j * (size_t)S->n;
       for (i = 0; i < S->n; i++) {
         const double z =
@@ -13873,11 +13898,11 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
         if (!sli_is_finite(z)) {
           return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
         }
-        F->z[column + (size_t)S->iperm[i]] = z;
+        F->null.z[column + (size_t)S->iperm[i]] = z;
       }
     }
   }
-  return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
+  return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
 static int sli_updates_exceed(const sl_symbolic *S) {
@@ -13908,7 +13933,7 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
 SL_API void sl_factor_free(sl_factor *F) {
   if (F != NULL) {
     const sl_allocator a = F->allocator;
-    sli_free(&a, F->stack);
+    sli_free(&a, F->work.stack);
     sli_free(&a, F->scratch);
     sli_free(&a, F);
   }
@@ -13954,13 +13979,13 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   }
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
-  status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
+  status = (S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP) ||
            (draft.type->suits != NULL && !draft.type->suits(&draft))
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
-    sli_factor_layout(&draft, &b, draft.is_centered);
+    sli_factor_layout(&draft, &b, draft.null.is_centered);
     draft.stats.factor.bytes = b.used;
     status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
@@ -14069,7 +14094,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
                  double started, sl_stats *stats) {
   int has_pivots;
   sli_stats_clear_error(&F->stats);
-  if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
+  if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_nulls_find(F, from, failure);
   }
   F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
@@ -14132,8 +14157,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   sli_failure failure;
   sl_int t;
   memset(&failure, 0, sizeof failure);
-  F->updates = 0;
-  F->drift = 0.0;
+  F->history.updates = 0;
+  F->history.drift = 0.0;
   sli_factor_identify(F, from);
   for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
     if (!sli_is_finite(from->coefficients[t])) {
@@ -14143,7 +14168,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
   if (F->type->accepts != NULL && !F->type->accepts(from)) {
     (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
   }
-  if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
+  if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_null_vectors_check(F, from, &failure);
   }
   if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
@@ -14249,9 +14274,9 @@ SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int mo
   if (status != SL_OK) {
     return status;
   }
-  *count = F->n_nulls;
+  *count = F->null.count;
   for (m = 0; m < sli_min(most, *count); m++) {
-    rows[m] = F->S->perm[F->nulls[m]];
+    rows[m] = F->S->perm[F->null.pivots[m]];
   }
   return SL_OK;
 }
@@ -14265,9 +14290,9 @@ SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, do
   }
   *count = F->stats.factor.regularized;
   for (m = 0; m < sli_min(most, *count); m++) {
-    rows[m] = F->S->perm[F->regularized[m]];
+    rows[m] = F->S->perm[F->rule.regularized[m]];
     if (shifts != NULL) {
-      shifts[m] = F->rule.shifts[F->regularized[m]];
+      shifts[m] = F->rule.shifts[F->rule.regularized[m]];
     }
   }
   return SL_OK;
@@ -14515,7 +14540,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
 
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-  return F->checks || F->is_centered || F->n_nulls > 0 ? 8 : SLI_BLOCK_MOST;
+  return F->null.checks || F->null.is_centered || F->null.count > 0 ? 8 : SLI_BLOCK_MOST;
 }
 
 typedef struct sli_vectors {
@@ -14801,15 +14826,15 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
   double chains[SLI_TILE];
   const double *z;
   sl_int column = -1, r;
-  for (; *m < F->n_nulls && F->nulls[*m] <= last && column == -1; ++*m) {
+  for (; *m < F->null.count && F->null.pivots[*m] <= last && column == -1; ++*m) {
     dot->number = *m;
-    dot->null = F->nulls[*m];
+    dot->null = F->null.pivots[*m];
     column = sli_null_column(F, dot->null);
   }
   if (column == -1) {
     return 0;
   }
-  z = F->g + (size_t)column * (size_t)F->S->n;
+  z = F->null.g + (size_t)column * (size_t)F->S->n;
   memset(chains, 0, sizeof chains);
   for (; first <= root; first++) {
     const sli_step *step = &R->steps[first];
@@ -14825,7 +14850,8 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
 }
 
 SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int root) {
-  return sli_lower_bound(F->nulls, F->n_nulls, sli_tree_range_of(F->S, &R->steps[root]).first);
+  return sli_lower_bound(F->null.pivots, F->null.count,
+               sli_tree_range_of(F->S, &R->steps[root]).first);
 }
 
 static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b, sl_int lanes,
@@ -14841,7 +14867,7 @@ static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b
       for (r = 0; r < nrhs; r++) {
         if (Y != NULL) {
           Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
-        } else if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+        } else if (fabs(dot.sums[r]) > F->null.consistency * norms[r]) {
           return 0;
         }
       }
@@ -14860,12 +14886,13 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
       continue;
     }
     tree = sli_tree_range_of(F->S, &R->steps[s]);
-    for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
-       m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-      const int is_judged = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
-      const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->nulls[m]);
+    for (m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
+       m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
+      const int is_judged =
+        F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
+      const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
       for (r = 0; at != -1 && r < lanes; r++) {
-        if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
+        if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
           return 0;
         }
       }
@@ -14886,15 +14913,15 @@ static void sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int
     double chains[SLI_TILE] = {0.0};
     for (s = first; s <= root; s++) {
       const sli_step *step = &R->steps[s];
-      sli_chains_add(chains, F->center + (size_t)j * (size_t)F->S->n + step->column,
+      sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
                y + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
     }
     sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
   }
-  at = count == 1 ? sli_reach_index_of(R, F->anchors[m]) : -1;
+  at = count == 1 ? sli_reach_index_of(R, F->null.anchors[m]) : -1;
   for (r = 0; r < lanes && count == 1; r++) {
-    const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->ratios[m] : 0.0;
-    terms->t[r] = c * F->squares[m] - terms->c[0][r];
+    const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
+    terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
     terms->c[0][r] = c;
   }
 }
@@ -14913,10 +14940,10 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
 
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
              const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
-  const int is_one = F->null_vectors == 1;
-  const sl_int *list = is_one ? F->anchors : F->nulls;
-  const sl_int listed = is_one ? F->n_anchors : F->n_nulls;
-  const sl_int count = F->is_centered ? sli_center_count(F) : 0;
+  const int is_one = F->null.vectors == 1;
+  const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
+  const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
+  const sl_int count = F->null.is_centered ? sli_center_count(F) : 0;
   sl_int first = 0, at = 0, root, m, j;
   for (root = 0; root < from->count; root++) {
     sli_center_terms terms;
@@ -14927,7 +14954,7 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
     tree = sli_tree_range_of(F->S, &from->steps[root]);
     m = sli_lower_bound(list, listed, tree.first);
     if (m < listed && list[m] <= tree.root &&
-      (uses == NULL || uses[sli_lower_bound(F->nulls, F->n_nulls, list[m])] == 0)) {
+      (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
       sli_center_tree_terms(F, from, first, root, y, lanes, m, count, &terms);
       for (; m < listed && list[m] <= tree.root && !is_one; m++) {
         j = sli_reach_index_of(to, list[m]);
@@ -14940,7 +14967,7 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
         double *row = x + (ptrdiff_t)step->base * lanes;
         const sl_int columns = sli_step_columns(step);
         for (j = 0; j < count && step->column >= tree.first; j++) {
-          const double *v = F->center + (size_t)j * (size_t)F->S->n + step->column;
+          const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
           const double *D = F->divisors + step->column;
 #define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
           SLI_FOR_LANES(lanes, SLI_CALL)
@@ -14985,7 +15012,7 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
     sli_pairs_apply(F, R, x, (sl_int)1 << kind);
   }
   sli_backward_sweep(F, kind, R->count, R->steps, R->rows + R->n_rows,
-             F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
+             F->null.is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
 /* src/impl/solve/sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
@@ -15165,7 +15192,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   }
   workers = entries < workers ? (sl_int)entries : workers;
   if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-    q->x_index != S->iperm || F->checks || F->n_nulls > 0) {
+    q->x_index != S->iperm || F->null.checks || F->null.count > 0) {
     return;
   }
   t->F = F;
@@ -15336,7 +15363,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
   const sli_reach *R = &q->forward;
   const sl_int *rows = R->rows;
   sl_int first = 0, s;
-  if (F->n_nulls == 0 || F->null_vectors > 1) {
+  if (F->null.count == 0 || F->null.vectors > 1) {
     sli_forward_sweep(F, kind, R->count, R->steps, rows, v->y, v->scratch);
     return;
   }
@@ -15365,15 +15392,15 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   double norms[SLI_TILE];
   sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
-  if (F->checks) {
+  if (F->null.checks) {
     sli_norms(&q->forward, v->y, lanes, norms);
-    if (F->null_vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
+    if (F->null.vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
       !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
       return 0;
     }
   }
   sli_sweep_forward(F, q, v, nrhs);
-  return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
+  return !F->null.checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
 }
 
 static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
@@ -15386,7 +15413,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
   if (q->ending != NULL) {
     q->ending->calls->apply(F, q, kind, v);
   }
-  if (F->is_centered || F->null_vectors > 1) {
+  if (F->null.is_centered || F->null.vectors > 1) {
     sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
@@ -15425,7 +15452,7 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
   sl_status status = SL_OK;
-  if (F->checks && nrhs > 8 && q->nb > 0) {
+  if (F->null.checks && nrhs > 8 && q->nb > 0) {
     status = sli_sweep_check(F, q, B + 8 * b_at.column, b_at, nrhs - 8, memory);
   }
   return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
@@ -16281,9 +16308,9 @@ static sl_int sli_local_refinement_find(sli_local_refinement *f) {
       continue;
     }
     tree = sli_tree_range_of(F->S, &R->steps[s]);
-    m = sli_lower_bound(F->regularized, F->stats.factor.regularized, tree.first);
-    for (; m < F->stats.factor.regularized && F->regularized[m] <= tree.root; m++) {
-      const sl_int k = F->regularized[m];
+    m = sli_lower_bound(F->rule.regularized, F->stats.factor.regularized, tree.first);
+    for (; m < F->stats.factor.regularized && F->rule.regularized[m] <= tree.root; m++) {
+      const sl_int k = F->rule.regularized[m];
       const sl_int in_y = sli_reach_index_of(R, k),
              in_x = sli_reach_index_of(&f->q->backward, k);
       if (in_y == -1 || in_x == -1) {
@@ -16560,7 +16587,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
   if (status != SL_OK) {
     return status;
   }
-  if (F->S->n == 0 || F->n_nulls > 0) {
+  if (F->S->n == 0 || F->null.count > 0) {
     *rcond = F->S->n == 0 ? 1.0 : 0.0;
     return SL_OK;
   }
@@ -16595,14 +16622,15 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
     const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
     const sli_vectors v = sli_vectors_of(q, block, memory);
     sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_by_columns(ldb), lanes, block);
-    if (F->null_vectors > 1) {
+    if (F->null.vectors > 1) {
       (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
     }
     sli_sweep_forward(F, q, &v, block);
-    for (m = 0; m < F->n_nulls; m++) {
-      const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+    for (m = 0; m < F->null.count; m++) {
+      const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
       for (r = 0; r < block && !is_known; r++) {
-        Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
+        Y[(size_t)m + (size_t)(c + r) * ldy] =
+          v.y[(ptrdiff_t)F->null.pivots[m] * lanes + r];
       }
     }
   }
@@ -16620,11 +16648,11 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   if (!F->is_valid) {
     return SL_ERR_STATE;
   }
-  status = sli_check_dense_columns(Y, ldy, F->n_nulls, B, ldb, F->S->n, nrhs);
+  status = sli_check_dense_columns(Y, ldy, F->null.count, B, ldb, F->S->n, nrhs);
   if (status != SL_OK || (Y == B && Y != NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  if (nrhs == 0 || F->n_nulls == 0) {
+  if (nrhs == 0 || F->null.count == 0) {
     return SL_OK;
   }
   q = sli_query_all(F->S);
@@ -17360,7 +17388,7 @@ SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl
                     sli_failure *failure) {
   const sl_int s = f->super, k = f->column + column;
   const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-  const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+  const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
   const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
   F->D[k] = d;
   if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
@@ -17383,7 +17411,7 @@ SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int
   if (l == 0.0 || fabs(l) >= (double)FLT_MIN || ldexp(d, -252) <= f->magnitude[r]) {
     return 0;
   }
-  return F->null_vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
+  return F->null.vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
 }
 
 static sl_status sli_panel_round(const sl_factor *F, const sli_front *f, sli_failure *failure) {
@@ -19945,7 +19973,7 @@ static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *
   if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
     return SL_ERR_STATE;
   }
-  return F->is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
+  return F->null.is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,
@@ -20215,7 +20243,7 @@ static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int
 }
 
 static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
-  const sli_kept *p = (const sli_kept *)(const void *)G->copied;
+  const sli_kept *p = (const sli_kept *)(const void *)G->work.copied;
   const sl_factor *F = p->F;
   const sl_int there = p->copied.from[s];
   const sli_step *step = &F->S->steps[there], *own = &G->S->steps[s];
@@ -20301,12 +20329,12 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
 }
 
 static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
-  const sli_kept *p = (const sli_kept *)(const void *)G->copied;
+  const sli_kept *p = (const sli_kept *)(const void *)G->work.copied;
   const sl_int up = G->S->super_parent[s];
   sli_left_work work;
   work.local = p->local + (ptrdiff_t)worker * G->S->n;
   work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
-  work.buffer = G->buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
+  work.buffer = G->work.buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
   sli_kept_copy(G, s, work.relative);
   if (up != -1 && p->copied.from[up] == -1) {
     sli_kept_update(G, &work, s, worker, p->has_one_sign,
@@ -20318,13 +20346,13 @@ static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
 
 static int sli_nulls_remain(const sl_factor *F) {
   sl_int m, k;
-  for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
+  for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
     if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
       return 0;
     }
   }
-  for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
-    if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
+  for (m = 0; F->null.mode == SL_NULL_PIVOT_SKIP && m < F->null.count; m++) {
+    if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
       return 0;
     }
   }
@@ -20360,14 +20388,14 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
     const sl_int first = sli_lower_bound(of, below, start);
     const sl_int last = first + sli_lower_bound(of + first, below - first, end);
     if (first < last) {
-      sli_left_update(F, p, &f, d, first, last, F->stack);
+      sli_left_update(F, p, &f, d, first, last, F->work.stack);
       sli_left_magnitudes(F, p, &f, d, first, last);
       d--;
     } else {
       d = S->first_descendant[d] - 1;
     }
   }
-  sli_front_eliminate(&F->kernels->front, &f, F->buffer);
+  sli_front_eliminate(&F->kernels->front, &f, F->work.buffer);
   return sli_double_front_check(F, &f, failure);
 }
 
@@ -20409,7 +20437,7 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
                    sl_stats *stats) {
   sli_failure failure;
   memset(&failure, 0, sizeof failure);
-  if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_null_vectors_check(F, from, &failure);
   }
   if (failure.status == SL_OK && !sli_nulls_remain(F)) {
@@ -20463,7 +20491,7 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
   if (status != SL_OK) {
     return status;
   }
-  work.buffer = F->buffer;
+  work.buffer = F->work.buffer;
   sli_factor_begin(F);
   for (k = 0; k < count; k++) {
     const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
@@ -20473,7 +20501,8 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
   count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
   status =
     sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started, stats);
-  F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+  F->history.scale = F->history.lowest =
+    fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
   sli_free(&F->allocator, b.base);
   return status;
 }
@@ -20581,7 +20610,7 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
 
 static double sli_update_cancelled(const sl_factor *F, double d, double e) {
   const sl_factor_info *info = &F->stats.factor;
-  const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
+  const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->history.scale);
   return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
@@ -20967,8 +20996,8 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
       rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
       u->entry = fmax(u->entry, F->extents[s].entry);
       u->growth = fmax(u->growth, F->extents[s].magnitude);
-      if (F->marks != NULL) {
-        F->marks[s] = 0;
+      if (F->history.marks != NULL) {
+        F->history.marks[s] = 0;
       }
     }
     if (S->super_parent[s] != -1) {
@@ -21023,7 +21052,7 @@ typedef struct sli_rank {
 #define SLI_RANK_LOGGED (1 << 19)
 
 static int sli_rank_is_suited(const sl_factor *F) {
-  return F->E == NULL && F->n_nulls == 0 && F->type->storage == SL_STORAGE_DOUBLE;
+  return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
 }
 
 static sl_status sli_rank_check(const sl_factor *F) {
@@ -21213,26 +21242,26 @@ static void sli_rank_identify(sli_rank *q) {
 
 static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
   sl_int k;
-  for (k = 0; F->marks != NULL && k < count; k++) {
-    F->marks[F->S->super_of[steps[k].column]] = 0;
+  for (k = 0; F->history.marks != NULL && k < count; k++) {
+    F->history.marks[F->S->super_of[steps[k].column]] = 0;
   }
 }
 
 static void sli_rank_note(const sli_update *u) {
   sl_factor *F = u->F;
   sl_factor_info *info = &F->stats.factor;
-  const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
-  const double scale = fmax(fabs(F->scale - u->fall), least);
+  const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->history.scale;
+  const double scale = fmax(fabs(F->history.scale - u->fall), least);
   const double own = fmin(u->entry, fabs(u->entry - u->fall));
   const double local = fmax(fmin(own, scale), least);
-  const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
+  const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
   const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
-  F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, most);
-  F->lowest = fmin(F->lowest, scale);
-  F->scale = scale;
+  F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
+  F->history.lowest = fmin(F->history.lowest, scale);
+  F->history.scale = scale;
 }
 
 static sl_status sli_rank_passes(sli_rank *q) {
@@ -21272,17 +21301,17 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
   sl_factor *F = q->u.F;
   const sl_stats before = F->stats;
-  const double drift = F->drift;
+  const double drift = F->history.drift;
   double scale, lowest;
   sl_status status;
   if (q->count == 0) {
     return SL_OK;
   }
-  if (F->updates == 0) {
-    F->scale = F->lowest = before.factor.entry_max;
+  if (F->history.updates == 0) {
+    F->history.scale = F->history.lowest = before.factor.entry_max;
   }
-  scale = F->scale;
-  lowest = F->lowest;
+  scale = F->history.scale;
+  lowest = F->history.lowest;
   if (q->has_log) {
     sli_reach R;
     sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -21291,16 +21320,16 @@ static sl_status sli_rank_run(sli_rank *q) {
   }
   status = sli_rank_passes(q);
   if (status == SL_OK) {
-    F->updates += q->count;
+    F->history.updates += q->count;
     sli_rank_identify(q);
     return SL_OK;
   }
   if (q->has_log) {
     sli_rank_log(q, q->logged, 1);
     F->stats = before;
-    F->drift = drift;
-    F->scale = scale;
-    F->lowest = lowest;
+    F->history.drift = drift;
+    F->history.scale = scale;
+    F->history.lowest = lowest;
   } else if (q->is_changed) {
     F->is_valid = 0;
     F->status = status;
@@ -21322,7 +21351,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   q->stats = stats;
   q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
   q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
-  q->u.least = F->null_pivots == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
+  q->u.least = F->null.mode == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
 }
 
 static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) {
@@ -21334,8 +21363,8 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
     stats->change.ranks = q->count;
     stats->change.entries = q->entries;
     stats->change.flops_update = q->flops;
-    stats->change.updates = F->updates;
-    stats->change.drift = F->drift;
+    stats->change.updates = F->history.updates;
+    stats->change.drift = F->history.drift;
     stats->change.seconds = sli_seconds() - started;
   }
 }
@@ -21618,7 +21647,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
   }
-  if (F->drift > SLI_CHANGE_DRIFT) {
+  if (F->history.drift > SLI_CHANGE_DRIFT) {
     c->reason = SL_CHANGE_DRIFT;
     return SL_CHANGE_REFACTOR;
   }
@@ -21727,7 +21756,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     if (status != SL_OK) {
       c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
-    } else if (F->drift > SLI_CHANGE_DRIFT) {
+    } else if (F->history.drift > SLI_CHANGE_DRIFT) {
       c->reason = SL_CHANGE_DRIFT;
       *method = SL_CHANGE_REFACTOR;
     }
@@ -21866,10 +21895,11 @@ static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
 }
 
 static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, sl_int k) {
-  sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
-  int has_known = F->null_vectors > 1 || tree->first == tree->root;
-  for (; m < F->n_nulls && F->nulls[m] <= tree->root && !has_known; m++) {
-    has_known = sli_null_column(F, F->nulls[m]) != -1;
+  sl_int m = sli_lower_bound(F->null.pivots, F->null.count, tree->first);
+  int has_known = F->null.vectors > 1 || tree->first == tree->root;
+  for (; m < F->null.count && F->null.pivots[m] <= tree->root && !has_known; m++) {
+    has_known =
+      sli_null_column(F, F->null.pivots[m]) != -1;
   }
   return has_known && F->rule.kinds[k] == SLI_PIVOT_NULL;
 }
@@ -21877,7 +21907,7 @@ static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, 
 static int sli_pin_null(const sl_factor *F, const sli_pin *pin, sl_int first, sl_int last,
             const sli_tree_range *tree, sl_int null, double *sum) {
   const sl_int column = sli_null_column(F, null), *iperm = F->S->iperm;
-  const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+  const double *g = F->null.g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
   *sum = 0.0;
   for (; first < last; first++) {
     const sl_int k = iperm[pin->rows[first]];
@@ -21891,13 +21921,13 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
   pin->n_nulls = 0;
   for (; first < pin->count; first = last) {
     const sli_tree_range tree = sli_tree_of(F->S, F->S->iperm[pin->rows[first]]);
-    sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+    sl_int m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
     for (last = first + 1; last < pin->count && F->S->iperm[pin->rows[last]] <= tree.root;) {
       last++;
     }
-    for (; m < F->n_nulls && F->nulls[m] <= tree.root; m++, pin->n_nulls++) {
+    for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++, pin->n_nulls++) {
       double z;
-      if (!sli_pin_null(F, pin, first, last, &tree, F->nulls[m], &z)) {
+      if (!sli_pin_null(F, pin, first, last, &tree, F->null.pivots[m], &z)) {
         *row = pin->rows[first];
         return SL_ERR_UNSUPPORTED;
       }
@@ -21917,7 +21947,7 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
   sli_free(&P->allocator, pin->nulls);
   pin->nulls = NULL;
   pin->n_nulls = 0;
-  if (P->base->n_nulls > 0) {
+  if (P->base->null.count > 0) {
     status = sli_pin_visit_nulls(P->base, pin, 0, row);
   }
   for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
@@ -21971,7 +22001,7 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
   const uint64_t count = (uint64_t)P->n_used;
   w->count = P->n_used;
   w->numbers = SLI_TAKE(b, sl_int, count);
-  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->n_nulls : 0);
+  w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->null.count : 0);
   w->is_free = SLI_TAKE(b, unsigned char, count);
   w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
   w->S = SLI_TAKE(b, double, count *count);
@@ -21990,7 +22020,7 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
     for (k = 0; k < pin->n_nulls; k++) {
       const sl_int at = w->place[pin->nulls[k]];
       w->W[(size_t)at * (size_t)P->n_pins + (size_t)p] = pin->z[k];
-      w->s[at] += P->base->null_vectors > 1 ? square : 0.0;
+      w->s[at] += P->base->null.vectors > 1 ? square : 0.0;
     }
   }
 }
@@ -22039,7 +22069,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
                 sl_int lanes) {
   sl_int k;
   for (k = 0; k < pin->n_nulls; k++) {
-    const ptrdiff_t at = sli_reach_index_of(R, P->base->nulls[pin->nulls[k]]);
+    const ptrdiff_t at = sli_reach_index_of(R, P->base->null.pivots[pin->nulls[k]]);
     if (at != -1) {
       memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
     }
@@ -22071,8 +22101,7 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
 }
 
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
-                const double *values, sl_int count, int is_swept,
-                sl_stats *stats) {
+                const double *values, sl_int count, int is_swept, sl_stats *stats) {
   const sl_symbolic *S = P->base->S;
   sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sli_set set = sli_set_of(S, rows, count);
@@ -22086,8 +22115,8 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
   *out = NULL;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_set_layout_seeds(&set, &seeds);
-    scratch = SLI_TAKE(&seeds, double,
-               is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
+    scratch =
+      SLI_TAKE(&seeds, double, is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
     status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
   }
   status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
@@ -22459,7 +22488,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
   const sli_reach *R = &q->forward;
   sl_int first = 0, s, m, k, r;
   memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
-  for (s = 0; s < R->count && (w->count > 0 || F->checks); s++) {
+  for (s = 0; s < R->count && (w->count > 0 || F->null.checks); s++) {
     sli_null_dot dot;
     if (R->steps[s].up != -1) {
       continue;
@@ -22471,8 +22500,8 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
              (size_t)lanes * sizeof(double));
         continue;
       }
-      for (r = 0; r < lanes && F->checks; r++) {
-        if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+      for (r = 0; r < lanes && F->null.checks; r++) {
+        if (fabs(dot.sums[r]) > F->null.consistency * norms[r]) {
           return 0;
         }
       }
@@ -22480,7 +22509,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
     first = s + 1;
   }
   for (k = 0; k < w->count; k++) {
-    const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
+    const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
     if (at != -1 && sli_null_column(F, null) == -1) {
       memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
            (size_t)lanes * sizeof(double));
@@ -22492,18 +22521,18 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
               const double *norms) {
   const sl_factor *F = P->base;
-  const int checks = F->checks && norms != NULL;
+  const int checks = F->null.checks && norms != NULL;
   sl_int m, r;
-  for (m = 0; m < F->n_nulls; m++) {
-    const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+  for (m = 0; m < F->null.count; m++) {
+    const sl_int at = sli_reach_index_of(R, F->null.pivots[m]);
     double *row = y + (ptrdiff_t)at * lanes;
-    const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+    const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
     for (r = 0; r < lanes && at != -1 && checks && !is_known; r++) {
-      if (P->uses[m] == 0 && fabs(row[r]) > F->consistency * norms[r]) {
+      if (P->uses[m] == 0 && fabs(row[r]) > F->null.consistency * norms[r]) {
         return 0;
       }
     }
-    if (at != -1 && (P->uses[m] > 0 || !F->is_centered)) {
+    if (at != -1 && (P->uses[m] > 0 || !F->null.is_centered)) {
       memset(row, 0, (size_t)lanes * sizeof(double));
     }
   }
@@ -22543,8 +22572,9 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
       w->sizes[at] += fabs(force);
     }
   }
-  for (k = 0; k < w->count * lanes && P->base->consistency >= 0.0; k++) {
-    if (w->is_free[k / lanes] && fabs(w->defects[k]) > P->base->consistency * w->sizes[k]) {
+  for (k = 0; k < w->count * lanes && P->base->null.consistency >= 0.0; k++) {
+    if (w->is_free[k / lanes] &&
+      fabs(w->defects[k]) > P->base->null.consistency * w->sizes[k]) {
       return 0;
     }
   }
@@ -22562,9 +22592,9 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
       continue;
     }
     last = sli_tree_range_of(F->S, &R->steps[root]).root;
-    for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
-      const sl_int null = F->nulls[m], column = sli_null_column(F, null);
-      const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+    for (m = sli_null_first(F, R, root); m < F->null.count && F->null.pivots[m] <= last; m++) {
+      const sl_int null = F->null.pivots[m], column = sli_null_column(F, null);
+      const double *g = F->null.g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
       const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
       for (s = first; s <= root && v != NULL; s++) {
         const sli_step *step = &R->steps[s];
@@ -22689,16 +22719,16 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
   opt.method = F->method;
   opt.storage = F->type->storage;
   opt.threads = F->threads;
-  opt.null_pivots = F->null_pivots;
+  opt.null_pivots = F->null.mode;
   opt.null_tolerance = F->rule.null_tolerance;
-  opt.consistency_tolerance = F->consistency;
-  opt.mass = F->mass;
+  opt.consistency_tolerance = F->null.consistency;
+  opt.mass = F->null.mass;
   opt.growth_limit = sli_limit_option(F->growth_limit);
   status = sli_factor_new(G, F->S, &opt, NULL);
-  if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
-    memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));
-    if (F->mass != NULL) {
-      memcpy((*G)->mass, F->mass, (size_t)F->S->n * sizeof(double));
+  if (status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
+    memcpy((*G)->null.z, F->null.z, (size_t)F->S->n * sizeof(double));
+    if (F->null.mass != NULL) {
+      memcpy((*G)->null.mass, F->null.mass, (size_t)F->S->n * sizeof(double));
     }
   }
   return status;
@@ -22706,7 +22736,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
 
 static int sli_held_is_local(const sl_factor *F, int is_new) {
   return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
-       (F->null_pivots == SL_NULL_PIVOT_REFUSE || !is_new);
+       (F->null.mode == SL_NULL_PIVOT_REFUSE || !is_new);
 }
 
 static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_holding *h) {
@@ -22715,7 +22745,7 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
   const sl_symbolic *S = F->S;
   sli_left_work left = h->left;
   sli_source from;
-  left.buffer = G->buffer;
+  left.buffer = G->work.buffer;
   from.A = NULL;
   from.values = &values;
   from.coefficients = &one;
@@ -22736,8 +22766,8 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
 static int sli_held_is_loose(const sl_pins *P) {
   const sl_factor *G = P->G;
   sl_int k;
-  for (k = 0; k < P->n_couplings && G->n_nulls > 0; k++) {
-    if (sli_is_skipped(G, G->last[P->coupling_column[k]])) {
+  for (k = 0; k < P->n_couplings && G->null.count > 0; k++) {
+    if (sli_is_skipped(G, G->null.last[P->coupling_column[k]])) {
       return 1;
     }
   }
@@ -22885,8 +22915,8 @@ static sl_status sli_pins_take(sl_pins *P) {
   P->numbers = sli_numbers_of(F);
   P->n_used = 0;
   P->uses = NULL;
-  if (P->base->n_nulls > 0) {
-    const size_t bytes = (size_t)P->base->n_nulls * sizeof *P->uses;
+  if (P->base->null.count > 0) {
+    const size_t bytes = (size_t)P->base->null.count * sizeof *P->uses;
     P->uses = (sl_int *)sli_alloc(&P->allocator, bytes);
     if (P->uses == NULL) {
       return SL_ERR_MEMORY;
@@ -23134,8 +23164,8 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
       x[k] = y[k] = rows[k].product;
     }
     sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, x, scratch);
-    for (k = 0; k < F->n_nulls; k++) {
-      x[F->nulls[k]] = 0.0;
+    for (k = 0; k < F->null.count; k++) {
+      x[F->null.pivots[k]] = 0.0;
     }
     sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, x,
                scratch);
@@ -23158,7 +23188,7 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
 }
 
 static int sli_pins_can_hold(const sl_factor *F) {
-  return F->null_vectors == 1 && F->rule.regularization == 0.0 &&
+  return F->null.vectors == 1 && F->rule.regularization == 0.0 &&
        F->type->storage != SL_STORAGE_COMPLEX;
 }
 
@@ -23694,7 +23724,7 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
   sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
   sli_pins_clear_rows(P, &q->forward, v.y, lanes);
-  if (F->n_nulls > 0) {
+  if (F->null.count > 0) {
     sli_norms(&q->forward, v.y, lanes, norms);
   }
   if (!sli_pins_defects(P, q, &w->nulls, v.y, lanes, norms)) {
@@ -23724,7 +23754,7 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
   for (p = 0; p < P->n_pins; p++) {
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
-  if (F->is_centered) {
+  if (F->null.is_centered) {
     sli_center(F, &q->forward, v.y, &q->backward, v.x, lanes, P->uses);
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
@@ -24581,7 +24611,7 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
 static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
                   sli_failure *failure) {
   sl_int q, k;
-  for (q = 0; q < r->n_kept && F->n_nulls > 0; q++) {
+  for (q = 0; q < r->n_kept && F->null.count > 0; q++) {
     const sl_int s = r->kept[q];
     for (k = F->S->super_first[s]; k < F->S->super_first[s + 1]; k++) {
       if (sli_is_skipped(F, k)) {
@@ -24638,12 +24668,12 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     memset(&failure, 0, sizeof failure);
     sli_factor_begin(G);
     G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-    G->copied = r->n_kept > 0 ? &kept.copied : NULL;
-    G->marks = NULL;
+    G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
+    G->history.marks = NULL;
     if (sli_restrict_check(F, r, &failure) == SL_OK) {
       (void)sli_factor_eliminate(G, &source, &failure);
     }
-    G->copied = NULL;
+    G->work.copied = NULL;
     status = sli_factor_done(G, &source, &failure, started, stats);
   }
   sli_free(&G->allocator, room.base);
@@ -24691,9 +24721,9 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
 static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
   sl_factor counted = *G;
   sli_block b = {NULL, 0, 0};
-  sli_free(&G->allocator, G->stack);
+  sli_free(&G->allocator, G->work.stack);
   sli_free(&G->allocator, G->scratch);
-  G->stack = NULL;
+  G->work.stack = NULL;
   G->scratch = NULL;
   (void)sli_take(&b, 1, sizeof(sl_factor));
   sli_factor_layout(&counted, &b, 0);
@@ -24778,7 +24808,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   r.S = F->S;
   r.A = A;
   r.may_keep =
-    F->type->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
+    F->type->storage == SL_STORAGE_DOUBLE && F->null.vectors <= 1 && !sli_updates_exceed(F->S);
   r.rows = rows;
   r.R.count = count;
   status = sli_restriction_begin(&r, &a, stats);
@@ -26308,8 +26338,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double epsilon = DBL_EPSILON, a = F->rule.null_tolerance, b = G->rule.null_tolerance;
-  return F->marks != NULL && G->marks != NULL && F->E == NULL && G->E == NULL &&
-       F->null_pivots == G->null_pivots && F->null_vectors == 1 && G->null_vectors == 1 &&
+  return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
+       F->null.mode == G->null.mode && F->null.vectors == 1 && G->null.vectors == 1 &&
        F->rule.regularization == G->rule.regularization &&
        (a == b || (a == sli_null_tolerance(F->S->n, epsilon) &&
              b == sli_null_tolerance(G->S->n, epsilon)));
@@ -26376,8 +26406,8 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
       before += sli_mark_entry(a, sli_panel_at(w, k, j));
     }
   }
-  r->G->marks[s] = mark;
-  return r->F->marks[there] == (is_moved ? before : mark);
+  r->G->history.marks[s] = mark;
+  return r->F->history.marks[there] == (is_moved ? before : mark);
 }
 
 static int sli_reuse_choose(sli_reuse *r) {
@@ -26457,9 +26487,9 @@ static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure
   }
   sli_factor_identify(r->G, from);
   r->G->identity = sli_hash_words(r->G->identity, &r->F->identity, 2);
-  r->G->copied = &r->kept.copied;
+  r->G->work.copied = &r->kept.copied;
   (void)sli_multifrontal(r->G, from, failure);
-  r->G->copied = NULL;
+  r->G->work.copied = NULL;
   return SL_OK;
 }
 
@@ -26471,7 +26501,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
   sl_status status;
   memset(&failure, 0, sizeof failure);
   sli_factor_begin(r->G);
-  if (is_suited && r->G->null_pivots == SL_NULL_PIVOT_SKIP) {
+  if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
     is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
   }
   keeps = is_suited && sli_reuse_find(r);
@@ -27534,16 +27564,16 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
   SLI_ADD(24, extents, supers, supers);
   SLI_ADD(1, rule.signs, regularized, g->has_signs ? n : 0);
   SLI_ADD(8, rule.shifts, regularized, regularized);
-  SLI_ADD(4, regularized, regularized, (uint64_t)g->regularized);
-  SLI_ADD(4, nulls, skipped, (uint64_t)g->nulls);
+  SLI_ADD(4, rule.regularized, regularized, (uint64_t)g->regularized);
+  SLI_ADD(4, null.pivots, skipped, (uint64_t)g->nulls);
   SLI_ADD(1, rule.kinds, skipped, skipped);
-  SLI_ADD(8, z, vectors, vectors);
-  SLI_ADD(8, g, vectors, g->nulls > 0 ? vectors : 0);
-  SLI_ADD(4, anchors, trees, anchors);
-  SLI_ADD(8, squares, trees, anchors);
-  SLI_ADD(8, mass, weighted, weighted);
-  SLI_ADD(8, center, centers, g->is_centered ? centers : 0);
-  SLI_ADD(8, ratios, trees, anchors);
+  SLI_ADD(8, null.z, vectors, vectors);
+  SLI_ADD(8, null.g, vectors, g->nulls > 0 ? vectors : 0);
+  SLI_ADD(4, null.anchors, trees, anchors);
+  SLI_ADD(8, null.squares, trees, anchors);
+  SLI_ADD(8, null.mass, weighted, weighted);
+  SLI_ADD(8, null.center, centers, g->is_centered ? centers : 0);
+  SLI_ADD(8, null.ratios, trees, anchors);
   if (g->storage != SL_STORAGE_DOUBLE) {
     SLI_ADD(8, values, 0, 0);
     SLI_ADD(4, values, panels, panels);
@@ -27790,13 +27820,13 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   if (F->type == NULL) { /* untested: SL_WITH_FLOAT is there */
     return 1;
   }
-  F->null_pivots = (sl_null_pivots)g->null_pivots;
-  F->checks = (int)g->checks;
-  F->is_centered = (int)g->is_centered;
-  F->n_nulls = (sl_int)g->nulls;
-  F->null_vectors = sli_max((sl_int)g->null_vectors, 1);
-  F->n_anchors = (sl_int)g->anchors;
-  F->consistency = g->consistency;
+  F->null.mode = (sl_null_pivots)g->null_pivots;
+  F->null.checks = (int)g->checks;
+  F->null.is_centered = (int)g->is_centered;
+  F->null.count = (sl_int)g->nulls;
+  F->null.vectors = sli_max((sl_int)g->null_vectors, 1);
+  F->null.n_anchors = (sl_int)g->anchors;
+  F->null.consistency = g->consistency;
   F->growth_limit = g->growth_limit;
   F->error_limit = g->error_limit;
   F->rule.epsilon = F->type->epsilon;
@@ -28059,20 +28089,20 @@ static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
 static int sli_check_anchors(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   sl_int k, m = 0;
-  if (!sli_check_columns(F->anchors, F->n_anchors, S->n)) {
+  if (!sli_check_columns(F->null.anchors, F->null.n_anchors, S->n)) {
     return 0;
   }
-  for (k = 0; k < S->n && m < F->n_anchors; k++) {
+  for (k = 0; k < S->n && m < F->null.n_anchors; k++) {
     if (S->parent[k] == -1) {
-      m += F->anchors[m] <= k;
-      if (m < F->n_anchors && F->anchors[m] <= k) {
+      m += F->null.anchors[m] <= k;
+      if (m < F->null.n_anchors && F->null.anchors[m] <= k) {
         return 0;
       }
     }
   }
-  for (m = 0; m < F->n_anchors; m++) {
-    const sl_int at = sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m]);
-    if (at == F->n_nulls || F->nulls[at] != F->anchors[m]) {
+  for (m = 0; m < F->null.n_anchors; m++) {
+    const sl_int at = sli_lower_bound(F->null.pivots, F->null.count, F->null.anchors[m]);
+    if (at == F->null.count || F->null.pivots[at] != F->null.anchors[m]) {
       return 0;
     }
   }
@@ -28108,9 +28138,9 @@ static int sli_check_factor(const sl_factor *F) {
   const sl_factor_info *info = &F->stats.factor;
   const sl_int n = F->S->n;
   sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;
-  if (!sli_check_columns(F->nulls, F->n_nulls, n) ||
-    !sli_check_columns(F->regularized, info->regularized, n) ||
-    (F->is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
+  if (!sli_check_columns(F->null.pivots, F->null.count, n) ||
+    !sli_check_columns(F->rule.regularized, info->regularized, n) ||
+    (F->null.is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
     !sli_check_blocks(F)) {
     return 0;
   }
@@ -28119,19 +28149,19 @@ static int sli_check_factor(const sl_factor *F) {
     if (!sli_is_finite(d)) {
       return 0;
     }
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
+    if (F->null.mode == SL_NULL_PIVOT_SKIP &&
       (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
-       (F->null_vectors == 1 && F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
+       (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
       return 0;
     }
     if (sli_is_skipped(F, k)) {
-      if (nulls == F->n_nulls || F->nulls[nulls++] != k) {
+      if (nulls == F->null.count || F->null.pivots[nulls++] != k) {
         return 0;
       }
       continue;
     }
     if (sli_is_regularized(F, k) &&
-      (shifted == info->regularized || F->regularized[shifted++] != k)) {
+      (shifted == info->regularized || F->rule.regularized[shifted++] != k)) {
       return 0;
     }
     if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
@@ -28146,7 +28176,7 @@ static int sli_check_factor(const sl_factor *F) {
       return 0;
     }
   }
-  return nulls == F->n_nulls && shifted == info->regularized && info->positive >= positive &&
+  return nulls == F->null.count && shifted == info->regularized && info->positive >= positive &&
        info->negative >= negative &&
        info->positive - positive + (info->negative - negative) <= blocks;
 }
@@ -28187,13 +28217,13 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   sli_saved_factor g;
   memset(&g, 0, sizeof g);
   g.method = F->method;
-  g.null_pivots = F->null_pivots;
-  g.has_mass = F->mass != NULL;
+  g.null_pivots = F->null.mode;
+  g.has_mass = F->null.mass != NULL;
   g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
-  g.checks = F->checks;
-  g.is_centered = F->n_nulls > 0 && F->is_centered;
-  g.nulls = F->n_nulls;
-  g.anchors = g.is_centered ? F->n_anchors : 0;
+  g.checks = F->null.checks;
+  g.is_centered = F->null.count > 0 && F->null.is_centered;
+  g.nulls = F->null.count;
+  g.anchors = g.is_centered ? F->null.n_anchors : 0;
   g.positive = info->positive;
   g.negative = info->negative;
   g.null = info->null;
@@ -28204,18 +28234,18 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.pivot_max = info->pivot_max;
   g.entry_max = info->entry_max;
   g.growth = info->growth;
-  if (F->drift > SLI_CHANGE_DRIFT) {
-    g.entry_max = fmin(g.entry_max, F->scale);
-    g.growth = fmax(g.growth, F->drift / DBL_EPSILON);
+  if (F->history.drift > SLI_CHANGE_DRIFT) {
+    g.entry_max = fmin(g.entry_max, F->history.scale);
+    g.growth = fmax(g.growth, F->history.drift / DBL_EPSILON);
   }
   g.null_tolerance = F->rule.null_tolerance;
   g.regularization = F->rule.regularization;
-  g.consistency = F->consistency;
+  g.consistency = F->null.consistency;
   g.growth_limit = F->growth_limit;
   g.error_limit = F->error_limit;
   g.identity[0] = F->identity.a;
   g.identity[1] = F->identity.b;
-  g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
+  g.null_vectors = F->null.vectors > 1 ? F->null.vectors : 0;
   g.storage = F->type->storage;
   return g;
 }
@@ -29011,7 +29041,7 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
   sl_status status;
   int pass;
   memset(&q, 0, sizeof q);
-  if (F == NULL || F->is_centered) {
+  if (F == NULL || F->null.is_centered) {
     return SL_ERR_IO;
   }
   status = sli_read_part(r, r->first_region, F->S, F, INT32_MAX, &part);
@@ -29539,7 +29569,7 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
   const sli_dense x_at = sli_dense_of(r->ldx), b_at = sli_dense_of(r->ldb);
   const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
   if (b->only_checks) {
-    return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
+    return F->null.checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
   }
   return sli_sweep_blocks(F, q, r->X + (size_t)first * x_at.column, x_at, B, b_at, last - first,
               memory);
@@ -29603,7 +29633,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
     }
     bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs, sli_block_most(F)) : 0;
     b->bytes = bytes > b->bytes ? bytes : b->bytes;
-    b->checks |= F->checks;
+    b->checks |= F->null.checks;
     b->blocks += sli_tiles(r->nrhs);
     b->total += sli_query_weight(&q) * (sli_tiles(r->nrhs));
   }
@@ -34700,7 +34730,7 @@ static const sli_kernels SLV_NAME(kernels) = {
 SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
   const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
   const sl_off at = begin < own ? begin + worker * own : begin;
-  return (SLF_VALUE *)F->stack + (at >> SLF_HALF);
+  return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
 }
 
 static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
@@ -34774,7 +34804,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
     e.x = from->A->x;
     e.scatter_from = S->scatter_from;
     e.last = end;
-    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->marks, failure);
+    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
   }
   e.scatter_from = NULL;
   for (; e.first < end && status == SL_OK; e.first = e.last) {
@@ -34882,7 +34912,7 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
                     sl_int worker, sli_failure *failure) {
   sli_front f = SLF_FRONT(F, s, worker);
   const sl_int tiles = sli_front_tiles(&f);
-  double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+  double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
   f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
 #if !SLF_SINGLE
@@ -34910,7 +34940,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
   sl_int s;
   for (s = first; s <= last && status == SL_OK; s++) {
     if (sli_is_copied(F, s)) {
-      F->copied->copy(F, s, worker);
+      F->work.copied->copy(F, s, worker);
     } else {
       status = SLF_NAME(front_factor)(F, from, s, worker, failure);
     }

@@ -13,14 +13,15 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
         const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
         const sli_vectors v = sli_vectors_of(q, block, memory);
         sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_by_columns(ldb), lanes, block);
-        if (F->null_vectors > 1) {
+        if (F->null.vectors > 1) {
             (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
         }
         sli_sweep_forward(F, q, &v, block);
-        for (m = 0; m < F->n_nulls; m++) {
-            const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+        for (m = 0; m < F->null.count; m++) {
+            const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
             for (r = 0; r < block && !is_known; r++) {
-                Y[(size_t)m + (size_t)(c + r) * ldy] = v.y[(ptrdiff_t)F->nulls[m] * lanes + r];
+                Y[(size_t)m + (size_t)(c + r) * ldy] =
+                    v.y[(ptrdiff_t)F->null.pivots[m] * lanes + r];
             }
         }
     }
@@ -38,11 +39,11 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     if (!F->is_valid) {
         return SL_ERR_STATE;
     }
-    status = sli_check_dense_columns(Y, ldy, F->n_nulls, B, ldb, F->S->n, nrhs);
+    status = sli_check_dense_columns(Y, ldy, F->null.count, B, ldb, F->S->n, nrhs);
     if (status != SL_OK || (Y == B && Y != NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    if (nrhs == 0 || F->n_nulls == 0) {
+    if (nrhs == 0 || F->null.count == 0) {
         return SL_OK;
     }
     q = sli_query_all(F->S);

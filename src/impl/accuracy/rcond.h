@@ -140,7 +140,7 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
     if (status != SL_OK) {
         return status;
     }
-    if (F->S->n == 0 || F->n_nulls > 0) {
+    if (F->S->n == 0 || F->null.count > 0) {
         *rcond = F->S->n == 0 ? 1.0 : 0.0;
         return SL_OK;
     }

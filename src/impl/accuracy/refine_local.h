@@ -49,9 +49,9 @@ static sl_int sli_local_refinement_find(sli_local_refinement *f) {
             continue;
         }
         tree = sli_tree_range_of(F->S, &R->steps[s]);
-        m = sli_lower_bound(F->regularized, F->stats.factor.regularized, tree.first);
-        for (; m < F->stats.factor.regularized && F->regularized[m] <= tree.root; m++) {
-            const sl_int k = F->regularized[m];
+        m = sli_lower_bound(F->rule.regularized, F->stats.factor.regularized, tree.first);
+        for (; m < F->stats.factor.regularized && F->rule.regularized[m] <= tree.root; m++) {
+            const sl_int k = F->rule.regularized[m];
             const sl_int in_y = sli_reach_index_of(R, k),
                          in_x = sli_reach_index_of(&f->q->backward, k);
             if (in_y == -1 || in_x == -1) {

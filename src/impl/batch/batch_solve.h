@@ -53,7 +53,7 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
     const sli_dense x_at = sli_dense_of(r->ldx), b_at = sli_dense_of(r->ldb);
     const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
     if (b->only_checks) {
-        return F->checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
+        return F->null.checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
     }
     return sli_sweep_blocks(F, q, r->X + (size_t)first * x_at.column, x_at, B, b_at, last - first,
                             memory);
@@ -123,7 +123,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
         }
         bytes = r->nrhs > 0 ? sli_vectors_bytes(&q, r->nrhs, sli_block_most(F)) : 0;
         b->bytes = bytes > b->bytes ? bytes : b->bytes;
-        b->checks |= F->checks;
+        b->checks |= F->null.checks;
         b->blocks += sli_tiles(r->nrhs);
         b->total += sli_query_weight(&q) * (sli_tiles(r->nrhs));
     }

@@ -95,7 +95,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     if (!F->is_valid) {
         return SL_CHANGE_REFACTOR;
     }
-    if (F->drift > SLI_CHANGE_DRIFT) {
+    if (F->history.drift > SLI_CHANGE_DRIFT) {
         c->reason = SL_CHANGE_DRIFT;
         return SL_CHANGE_REFACTOR;
     }
@@ -212,7 +212,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
         if (status != SL_OK) {
             c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
             *method = SL_CHANGE_REFACTOR;
-        } else if (F->drift > SLI_CHANGE_DRIFT) {
+        } else if (F->history.drift > SLI_CHANGE_DRIFT) {
             c->reason = SL_CHANGE_DRIFT;
             *method = SL_CHANGE_REFACTOR;
         }

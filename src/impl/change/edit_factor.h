@@ -74,8 +74,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 /* Are pivots of both factors judged alike? Default tolerances count as equal. */
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
     const double epsilon = DBL_EPSILON, a = F->rule.null_tolerance, b = G->rule.null_tolerance;
-    return F->marks != NULL && G->marks != NULL && F->E == NULL && G->E == NULL &&
-           F->null_pivots == G->null_pivots && F->null_vectors == 1 && G->null_vectors == 1 &&
+    return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
+           F->null.mode == G->null.mode && F->null.vectors == 1 && G->null.vectors == 1 &&
            F->rule.regularization == G->rule.regularization &&
            (a == b || (a == sli_null_tolerance(F->S->n, epsilon) &&
                        b == sli_null_tolerance(G->S->n, epsilon)));
@@ -147,8 +147,8 @@ static int sli_reuse_is_same(const sli_reuse *r, sl_int s, sl_int there, int is_
             before += sli_mark_entry(a, sli_panel_at(w, k, j));
         }
     }
-    r->G->marks[s] = mark;
-    return r->F->marks[there] == (is_moved ? before : mark);
+    r->G->history.marks[s] = mark;
+    return r->F->history.marks[there] == (is_moved ? before : mark);
 }
 
 /* Counts the flops of what is kept and of what is not. Returns whether to keep is faster. */
@@ -233,9 +233,9 @@ static sl_status sli_reuse_run(sli_reuse *r, const sli_source *from, sli_failure
     }
     sli_factor_identify(r->G, from);
     r->G->identity = sli_hash_words(r->G->identity, &r->F->identity, 2);
-    r->G->copied = &r->kept.copied;
+    r->G->work.copied = &r->kept.copied;
     (void)sli_multifrontal(r->G, from, failure);
-    r->G->copied = NULL;
+    r->G->work.copied = NULL;
     return SL_OK;
 }
 
@@ -248,7 +248,7 @@ static sl_status sli_reuse_numbers(sli_reuse *r, sl_stats *stats) {
     sl_status status;
     memset(&failure, 0, sizeof failure);
     sli_factor_begin(r->G);
-    if (is_suited && r->G->null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (is_suited && r->G->null.mode == SL_NULL_PIVOT_SKIP) {
         is_suited = sli_null_vectors_check(r->G, &from, &failure) == SL_OK;
     }
     keeps = is_suited && sli_reuse_find(r);

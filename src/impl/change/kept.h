@@ -70,7 +70,7 @@ static void sli_kept_rows(double *to, const double *from, sl_int w, const sl_int
 
 /* Copies the numbers of kept supernode s of G. keep: scratch for its rows below. */
 static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
-    const sli_kept *p = (const sli_kept *)(const void *)G->copied;
+    const sli_kept *p = (const sli_kept *)(const void *)G->work.copied;
     const sl_factor *F = p->F;
     const sl_int there = p->copied.from[s];
     const sli_step *step = &F->S->steps[there], *own = &G->S->steps[s];
@@ -161,12 +161,12 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
 
 /* Copies kept supernode s of G, whose descendants are copied, and prepares what it passes up. */
 static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
-    const sli_kept *p = (const sli_kept *)(const void *)G->copied;
+    const sli_kept *p = (const sli_kept *)(const void *)G->work.copied;
     const sl_int up = G->S->super_parent[s];
     sli_left_work work;
     work.local = p->local + (ptrdiff_t)worker * G->S->n;
     work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
-    work.buffer = G->buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
+    work.buffer = G->work.buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
     sli_kept_copy(G, s, work.relative);
     if (up != -1 && p->copied.from[up] == -1) {
         sli_kept_update(G, &work, s, worker, p->has_one_sign,

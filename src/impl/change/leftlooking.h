@@ -10,13 +10,13 @@
  * are in the reach of the changes, unless they are anchors. */
 static int sli_nulls_remain(const sl_factor *F) {
     sl_int m, k;
-    for (k = 0; F->null_vectors > 1 && k < F->S->n; k++) {
+    for (k = 0; F->null.vectors > 1 && k < F->S->n; k++) {
         if (F->rule.kinds[k] == SLI_PIVOT_NULL && !sli_is_skipped(F, k)) {
             return 0;
         }
     }
-    for (m = 0; F->null_pivots == SL_NULL_PIVOT_SKIP && m < F->n_nulls; m++) {
-        if (F->rule.kinds[F->nulls[m]] >= SLI_PIVOT_KEPT) {
+    for (m = 0; F->null.mode == SL_NULL_PIVOT_SKIP && m < F->null.count; m++) {
+        if (F->rule.kinds[F->null.pivots[m]] >= SLI_PIVOT_KEPT) {
             return 0;
         }
     }
@@ -57,14 +57,14 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
         const sl_int last = first + sli_lower_bound(of + first, below - first, end);
         if (first < last) {
             /* the update stack is empty: no other update matrix exists now */
-            sli_left_update(F, p, &f, d, first, last, F->stack);
+            sli_left_update(F, p, &f, d, first, last, F->work.stack);
             sli_left_magnitudes(F, p, &f, d, first, last);
             d--;
         } else {
             d = S->first_descendant[d] - 1;
         }
     }
-    sli_front_eliminate(&F->kernels->front, &f, F->buffer);
+    sli_front_eliminate(&F->kernels->front, &f, F->work.buffer);
     return sli_double_front_check(F, &f, failure);
 }
 
@@ -112,7 +112,7 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
                                    sl_stats *stats) {
     sli_failure failure;
     memset(&failure, 0, sizeof failure);
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_null_vectors_check(F, from, &failure);
     }
     if (failure.status == SL_OK && !sli_nulls_remain(F)) {
@@ -168,7 +168,7 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
     if (status != SL_OK) {
         return status;
     }
-    work.buffer = F->buffer;
+    work.buffer = F->work.buffer;
     sli_factor_begin(F);
     for (k = 0; k < count; k++) {
         const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
@@ -178,7 +178,8 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
     count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
     status =
         sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started, stats);
-    F->scale = F->lowest = fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+    F->history.scale = F->history.lowest =
+        fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
     sli_free(&F->allocator, b.base);
     return status;
 }

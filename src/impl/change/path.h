@@ -90,8 +90,8 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
             rest -= rest > 0 ? sli_path_extent(u, v, s) : 0;
             u->entry = fmax(u->entry, F->extents[s].entry);
             u->growth = fmax(u->growth, F->extents[s].magnitude);
-            if (F->marks != NULL) {
-                F->marks[s] = 0;
+            if (F->history.marks != NULL) {
+                F->history.marks[s] = 0;
             }
         }
         if (S->super_parent[s] != -1) {

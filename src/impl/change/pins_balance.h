@@ -45,7 +45,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
     const sli_reach *R = &q->forward;
     sl_int first = 0, s, m, k, r;
     memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
-    for (s = 0; s < R->count && (w->count > 0 || F->checks); s++) {
+    for (s = 0; s < R->count && (w->count > 0 || F->null.checks); s++) {
         sli_null_dot dot;
         if (R->steps[s].up != -1) {
             continue;
@@ -57,8 +57,8 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
                        (size_t)lanes * sizeof(double));
                 continue;
             }
-            for (r = 0; r < lanes && F->checks; r++) {
-                if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+            for (r = 0; r < lanes && F->null.checks; r++) {
+                if (fabs(dot.sums[r]) > F->null.consistency * norms[r]) {
                     return 0;
                 }
             }
@@ -66,7 +66,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
         first = s + 1;
     }
     for (k = 0; k < w->count; k++) {
-        const sl_int null = F->nulls[w->numbers[k]], at = sli_reach_index_of(R, null);
+        const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
         if (at != -1 && sli_null_column(F, null) == -1) { /* a row of zeros */
             memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
                    (size_t)lanes * sizeof(double));
@@ -80,18 +80,18 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
 static int sli_pins_clear(const sl_pins *P, const sli_reach *R, double *y, sl_int lanes,
                           const double *norms) {
     const sl_factor *F = P->base;
-    const int checks = F->checks && norms != NULL;
+    const int checks = F->null.checks && norms != NULL;
     sl_int m, r;
-    for (m = 0; m < F->n_nulls; m++) {
-        const sl_int at = sli_reach_index_of(R, F->nulls[m]);
+    for (m = 0; m < F->null.count; m++) {
+        const sl_int at = sli_reach_index_of(R, F->null.pivots[m]);
         double *row = y + (ptrdiff_t)at * lanes;
-        const int is_known = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
+        const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
         for (r = 0; r < lanes && at != -1 && checks && !is_known; r++) {
-            if (P->uses[m] == 0 && fabs(row[r]) > F->consistency * norms[r]) {
+            if (P->uses[m] == 0 && fabs(row[r]) > F->null.consistency * norms[r]) {
                 return 0;
             }
         }
-        if (at != -1 && (P->uses[m] > 0 || !F->is_centered)) {
+        if (at != -1 && (P->uses[m] > 0 || !F->null.is_centered)) {
             memset(row, 0, (size_t)lanes * sizeof(double));
         }
     }
@@ -133,8 +133,9 @@ static int sli_pins_balance(const sl_pins *P, const sli_pins_nulls *w, double *f
             w->sizes[at] += fabs(force);
         }
     }
-    for (k = 0; k < w->count * lanes && P->base->consistency >= 0.0; k++) {
-        if (w->is_free[k / lanes] && fabs(w->defects[k]) > P->base->consistency * w->sizes[k]) {
+    for (k = 0; k < w->count * lanes && P->base->null.consistency >= 0.0; k++) {
+        if (w->is_free[k / lanes] &&
+            fabs(w->defects[k]) > P->base->null.consistency * w->sizes[k]) {
             return 0;
         }
     }
@@ -153,9 +154,9 @@ static void sli_pins_shift(const sl_pins *P, const sli_query *q, const sli_pins_
             continue;
         }
         last = sli_tree_range_of(F->S, &R->steps[root]).root;
-        for (m = sli_null_first(F, R, root); m < F->n_nulls && F->nulls[m] <= last; m++) {
-            const sl_int null = F->nulls[m], column = sli_null_column(F, null);
-            const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+        for (m = sli_null_first(F, R, root); m < F->null.count && F->null.pivots[m] <= last; m++) {
+            const sl_int null = F->null.pivots[m], column = sli_null_column(F, null);
+            const double *g = F->null.g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
             const double *v = P->uses[m] > 0 ? w->s + (ptrdiff_t)w->place[m] * lanes : NULL;
             for (s = first; s <= root && v != NULL; s++) {
                 const sli_step *step = &R->steps[s];

@@ -10,7 +10,7 @@ static void sli_pin_clear_nulls(const sl_pins *P, const sli_pin *pin, const sli_
                                 sl_int lanes) {
     sl_int k;
     for (k = 0; k < pin->n_nulls; k++) {
-        const ptrdiff_t at = sli_reach_index_of(R, P->base->nulls[pin->nulls[k]]);
+        const ptrdiff_t at = sli_reach_index_of(R, P->base->null.pivots[pin->nulls[k]]);
         if (at != -1) {
             memset(y + at * lanes, 0, (size_t)lanes * sizeof *y);
         }
@@ -44,8 +44,7 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
 
 /* Makes an equality; without y and u if is_swept is 0. */
 static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
-                                const double *values, sl_int count, int is_swept,
-                                sl_stats *stats) {
+                                const double *values, sl_int count, int is_swept, sl_stats *stats) {
     const sl_symbolic *S = P->base->S;
     sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sli_set set = sli_set_of(S, rows, count);
@@ -59,8 +58,8 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
     *out = NULL;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_set_layout_seeds(&set, &seeds);
-        scratch = SLI_TAKE(&seeds, double,
-                           is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
+        scratch =
+            SLI_TAKE(&seeds, double, is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
         status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
     }
     status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;

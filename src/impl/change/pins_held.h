@@ -120,16 +120,16 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
     opt.method = F->method;
     opt.storage = F->type->storage;
     opt.threads = F->threads;
-    opt.null_pivots = F->null_pivots;
+    opt.null_pivots = F->null.mode;
     opt.null_tolerance = F->rule.null_tolerance;
-    opt.consistency_tolerance = F->consistency;
-    opt.mass = F->mass; /* in another order: below */
+    opt.consistency_tolerance = F->null.consistency;
+    opt.mass = F->null.mass; /* in another order: below */
     opt.growth_limit = sli_limit_option(F->growth_limit);
     status = sli_factor_new(G, F->S, &opt, NULL);
-    if (status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
-        memcpy((*G)->z, F->z, (size_t)F->S->n * sizeof(double));
-        if (F->mass != NULL) {
-            memcpy((*G)->mass, F->mass, (size_t)F->S->n * sizeof(double));
+    if (status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
+        memcpy((*G)->null.z, F->null.z, (size_t)F->S->n * sizeof(double));
+        if (F->null.mass != NULL) {
+            memcpy((*G)->null.mass, F->null.mass, (size_t)F->S->n * sizeof(double));
         }
     }
     return status;
@@ -139,7 +139,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
  * need not remain. */
 static int sli_held_is_local(const sl_factor *F, int is_new) {
     return F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE &&
-           (F->null_pivots == SL_NULL_PIVOT_REFUSE || !is_new);
+           (F->null.mode == SL_NULL_PIVOT_REFUSE || !is_new);
 }
 
 /* Computes G: from its present numbers, which are those of F if it is new, or anew. */
@@ -149,7 +149,7 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
     const sl_symbolic *S = F->S;
     sli_left_work left = h->left;
     sli_source from;
-    left.buffer = G->buffer;
+    left.buffer = G->work.buffer;
     from.A = NULL;
     from.values = &values;
     from.coefficients = &one;
@@ -172,8 +172,8 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
 static int sli_held_is_loose(const sl_pins *P) {
     const sl_factor *G = P->G;
     sl_int k;
-    for (k = 0; k < P->n_couplings && G->n_nulls > 0; k++) {
-        if (sli_is_skipped(G, G->last[P->coupling_column[k]])) {
+    for (k = 0; k < P->n_couplings && G->null.count > 0; k++) {
+        if (sli_is_skipped(G, G->null.last[P->coupling_column[k]])) {
             return 1;
         }
     }

@@ -43,8 +43,8 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
             x[k] = y[k] = rows[k].product;
         }
         sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, x, scratch);
-        for (k = 0; k < F->n_nulls; k++) {
-            x[F->nulls[k]] = 0.0;
+        for (k = 0; k < F->null.count; k++) {
+            x[F->null.pivots[k]] = 0.0;
         }
         sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, x,
                            scratch);
@@ -68,7 +68,7 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
 
 /* Can rows of F be eliminated? */
 static int sli_pins_can_hold(const sl_factor *F) {
-    return F->null_vectors == 1 && F->rule.regularization == 0.0 &&
+    return F->null.vectors == 1 && F->rule.regularization == 0.0 &&
            F->type->storage != SL_STORAGE_COMPLEX;
 }
 

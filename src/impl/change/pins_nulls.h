@@ -19,10 +19,11 @@ static sli_tree_range sli_tree_of(const sl_symbolic *S, sl_int column) {
 
 /* Is null pivot k, whose null vector is not in g, a row of zeros? tree: its own. */
 static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, sl_int k) {
-    sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree->first);
-    int has_known = F->null_vectors > 1 || tree->first == tree->root;
-    for (; m < F->n_nulls && F->nulls[m] <= tree->root && !has_known; m++) {
-        has_known = sli_null_column(F, F->nulls[m]) != -1; /* then its component is the only one */
+    sl_int m = sli_lower_bound(F->null.pivots, F->null.count, tree->first);
+    int has_known = F->null.vectors > 1 || tree->first == tree->root;
+    for (; m < F->null.count && F->null.pivots[m] <= tree->root && !has_known; m++) {
+        has_known =
+            sli_null_column(F, F->null.pivots[m]) != -1; /* then its component is the only one */
     }
     return has_known && F->rule.kinds[k] == SLI_PIVOT_NULL;
 }
@@ -32,7 +33,7 @@ static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, 
 static int sli_pin_null(const sl_factor *F, const sli_pin *pin, sl_int first, sl_int last,
                         const sli_tree_range *tree, sl_int null, double *sum) {
     const sl_int column = sli_null_column(F, null), *iperm = F->S->iperm;
-    const double *g = F->g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+    const double *g = F->null.g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
     *sum = 0.0;
     for (; first < last; first++) {
         const sl_int k = iperm[pin->rows[first]];
@@ -48,13 +49,13 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
     pin->n_nulls = 0;
     for (; first < pin->count; first = last) {
         const sli_tree_range tree = sli_tree_of(F->S, F->S->iperm[pin->rows[first]]);
-        sl_int m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
+        sl_int m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
         for (last = first + 1; last < pin->count && F->S->iperm[pin->rows[last]] <= tree.root;) {
             last++;
         }
-        for (; m < F->n_nulls && F->nulls[m] <= tree.root; m++, pin->n_nulls++) {
+        for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++, pin->n_nulls++) {
             double z;
-            if (!sli_pin_null(F, pin, first, last, &tree, F->nulls[m], &z)) {
+            if (!sli_pin_null(F, pin, first, last, &tree, F->null.pivots[m], &z)) {
                 *row = pin->rows[first];
                 return SL_ERR_UNSUPPORTED;
             }
@@ -75,7 +76,7 @@ static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row)
     sli_free(&P->allocator, pin->nulls);
     pin->nulls = NULL;
     pin->n_nulls = 0;
-    if (P->base->n_nulls > 0) {
+    if (P->base->null.count > 0) {
         status = sli_pin_visit_nulls(P->base, pin, 0, row);
     }
     for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
@@ -132,7 +133,7 @@ static void sli_pins_nulls_layout(sli_pins_nulls *w, sli_block *b, const sl_pins
     const uint64_t count = (uint64_t)P->n_used;
     w->count = P->n_used;
     w->numbers = SLI_TAKE(b, sl_int, count);
-    w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->n_nulls : 0);
+    w->place = SLI_TAKE(b, sl_int, count > 0 ? (uint64_t)P->base->null.count : 0);
     w->is_free = SLI_TAKE(b, unsigned char, count);
     w->W = SLI_TAKE(b, double, count *(uint64_t)P->n_pins);
     w->S = SLI_TAKE(b, double, count *count);
@@ -153,7 +154,7 @@ static void sli_pins_nulls_load(const sli_pins_nulls *w, const sl_pins *P) {
         for (k = 0; k < pin->n_nulls; k++) {
             const sl_int at = w->place[pin->nulls[k]];
             w->W[(size_t)at * (size_t)P->n_pins + (size_t)p] = pin->z[k];
-            w->s[at] += P->base->null_vectors > 1 ? square : 0.0;
+            w->s[at] += P->base->null.vectors > 1 ? square : 0.0;
         }
     }
 }

@@ -13,8 +13,8 @@ static sl_status sli_pins_take(sl_pins *P) {
     P->numbers = sli_numbers_of(F);
     P->n_used = 0;
     P->uses = NULL;
-    if (P->base->n_nulls > 0) {
-        const size_t bytes = (size_t)P->base->n_nulls * sizeof *P->uses;
+    if (P->base->null.count > 0) {
+        const size_t bytes = (size_t)P->base->null.count * sizeof *P->uses;
         P->uses = (sl_int *)sli_alloc(&P->allocator, bytes);
         if (P->uses == NULL) {
             return SL_ERR_MEMORY;

@@ -199,7 +199,7 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
     sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
     sli_pins_clear_rows(P, &q->forward, v.y, lanes);
-    if (F->n_nulls > 0) {
+    if (F->null.count > 0) {
         sli_norms(&q->forward, v.y, lanes, norms);
     }
     if (!sli_pins_defects(P, q, &w->nulls, v.y, lanes, norms)) {
@@ -229,7 +229,7 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     for (p = 0; p < P->n_pins; p++) {
         sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
     }
-    if (F->is_centered) {
+    if (F->null.is_centered) {
         sli_center(F, &q->forward, v.y, &q->backward, v.x, lanes, P->uses);
     }
     sli_backward(F, &q->backward, kind, v.x, v.scratch);

@@ -42,7 +42,7 @@ typedef struct sli_rank {
 
 /* Can F have rank-one changes? In float each one would round all of its columns again. */
 static int sli_rank_is_suited(const sl_factor *F) {
-    return F->E == NULL && F->n_nulls == 0 && F->type->storage == SL_STORAGE_DOUBLE;
+    return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
 }
 
 /* May F be changed in place? */
@@ -245,8 +245,8 @@ static void sli_rank_identify(sli_rank *q) {
 /* The supernodes of a reach are no longer those of the entries that were read. */
 static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
     sl_int k;
-    for (k = 0; F->marks != NULL && k < count; k++) {
-        F->marks[F->S->super_of[steps[k].column]] = 0;
+    for (k = 0; F->history.marks != NULL && k < count; k++) {
+        F->history.marks[F->S->super_of[steps[k].column]] = 0;
     }
 }
 
@@ -257,18 +257,18 @@ static void sli_rank_unmark(sl_factor *F, const sli_step *steps, sl_int count) {
 static void sli_rank_note(const sli_update *u) {
     sl_factor *F = u->F;
     sl_factor_info *info = &F->stats.factor;
-    const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->scale;
-    const double scale = fmax(fabs(F->scale - u->fall), least);
+    const double least = u->sign != 0.0 ? u->top : DBL_EPSILON * F->history.scale;
+    const double scale = fmax(fabs(F->history.scale - u->fall), least);
     const double own = fmin(u->entry, fabs(u->entry - u->fall));
     const double local = fmax(fmin(own, scale), least);
-    const double rise = scale > 0.0 ? fmax(1.0, F->lowest / scale) : 1.0;
+    const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
     const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
-    F->drift = F->drift * rise + DBL_EPSILON * fmax(1.0, most);
-    F->lowest = fmin(F->lowest, scale);
-    F->scale = scale;
+    F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
+    F->history.lowest = fmin(F->history.lowest, scale);
+    F->history.scale = scale;
 }
 
 /* Runs all passes. */
@@ -310,17 +310,17 @@ static sl_status sli_rank_passes(sli_rank *q) {
 static sl_status sli_rank_run(sli_rank *q) {
     sl_factor *F = q->u.F;
     const sl_stats before = F->stats;
-    const double drift = F->drift;
+    const double drift = F->history.drift;
     double scale, lowest;
     sl_status status;
     if (q->count == 0) {
         return SL_OK;
     }
-    if (F->updates == 0) {
-        F->scale = F->lowest = before.factor.entry_max;
+    if (F->history.updates == 0) {
+        F->history.scale = F->history.lowest = before.factor.entry_max;
     }
-    scale = F->scale;
-    lowest = F->lowest;
+    scale = F->history.scale;
+    lowest = F->history.lowest;
     if (q->has_log) {
         sli_reach R;
         sli_reach_fill(F->S, q->whole_seeds, q->count, q->log_steps, q->u.rows, &R);
@@ -329,16 +329,16 @@ static sl_status sli_rank_run(sli_rank *q) {
     }
     status = sli_rank_passes(q);
     if (status == SL_OK) {
-        F->updates += q->count;
+        F->history.updates += q->count;
         sli_rank_identify(q);
         return SL_OK;
     }
     if (q->has_log) {
         sli_rank_log(q, q->logged, 1);
         F->stats = before;
-        F->drift = drift;
-        F->scale = scale;
-        F->lowest = lowest;
+        F->history.drift = drift;
+        F->history.scale = scale;
+        F->history.lowest = lowest;
     } else if (q->is_changed) { /* an overflow */
         F->is_valid = 0;
         F->status = status;
@@ -362,7 +362,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
     q->stats = stats;
     q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
     q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
-    q->u.least = F->null_pivots == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
+    q->u.least = F->null.mode == SL_NULL_PIVOT_SKIP ? sli_rank_least(F) : 0.0;
 }
 
 /* Reports a change. */
@@ -375,8 +375,8 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
         stats->change.ranks = q->count;
         stats->change.entries = q->entries;
         stats->change.flops_update = q->flops;
-        stats->change.updates = F->updates;
-        stats->change.drift = F->drift;
+        stats->change.updates = F->history.updates;
+        stats->change.drift = F->history.drift;
         stats->change.seconds = sli_seconds() - started;
     }
 }

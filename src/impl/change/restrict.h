@@ -11,7 +11,7 @@
 static sl_status sli_restrict_check(const sl_factor *F, const sli_restriction *r,
                                     sli_failure *failure) {
     sl_int q, k;
-    for (q = 0; q < r->n_kept && F->n_nulls > 0; q++) {
+    for (q = 0; q < r->n_kept && F->null.count > 0; q++) {
         const sl_int s = r->kept[q];
         for (k = F->S->super_first[s]; k < F->S->super_first[s + 1]; k++) {
             if (sli_is_skipped(F, k)) {
@@ -69,12 +69,12 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
         memset(&failure, 0, sizeof failure);
         sli_factor_begin(G);
         G->identity = sli_hash_words(F->identity, &G->S->identity, 2);
-        G->copied = r->n_kept > 0 ? &kept.copied : NULL;
-        G->marks = NULL; /* no later factorization compares its entries */
+        G->work.copied = r->n_kept > 0 ? &kept.copied : NULL;
+        G->history.marks = NULL; /* no later factorization compares its entries */
         if (sli_restrict_check(F, r, &failure) == SL_OK) {
             (void)sli_factor_eliminate(G, &source, &failure);
         }
-        G->copied = NULL;
+        G->work.copied = NULL;
         status = sli_factor_done(G, &source, &failure, started, stats);
     }
     sli_free(&G->allocator, room.base);
@@ -126,9 +126,9 @@ static sl_status sli_restrict_factor(sl_factor **out, const sl_symbolic *S, cons
 static void sli_restrict_done(sl_symbolic *S, sl_factor *G) {
     sl_factor counted = *G;
     sli_block b = {NULL, 0, 0};
-    sli_free(&G->allocator, G->stack);
+    sli_free(&G->allocator, G->work.stack);
     sli_free(&G->allocator, G->scratch);
-    G->stack = NULL;
+    G->work.stack = NULL;
     G->scratch = NULL;
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&counted, &b, 0);
@@ -215,7 +215,7 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
     r.S = F->S;
     r.A = A;
     r.may_keep =
-        F->type->storage == SL_STORAGE_DOUBLE && F->null_vectors <= 1 && !sli_updates_exceed(F->S);
+        F->type->storage == SL_STORAGE_DOUBLE && F->null.vectors <= 1 && !sli_updates_exceed(F->S);
     r.rows = rows;
     r.R.count = count;
     status = sli_restriction_begin(&r, &a, stats);

@@ -122,7 +122,7 @@ SLI_INLINE void sli_update_count(sl_factor_info *info, double d, double e) {
  * |d|, which is not 0: a factor with null pivots is not changed. */
 static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     const sl_factor_info *info = &F->stats.factor;
-    const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->scale);
+    const double largest = fmax(info->growth, 1.0) * fmax(info->entry_max, F->history.scale);
     return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 

@@ -98,7 +98,7 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
                                  double started, sl_stats *stats) {
     int has_pivots;
     sli_stats_clear_error(&F->stats);
-    if (failure->status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_nulls_find(F, from, failure);
     }
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
@@ -165,8 +165,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     sli_failure failure;
     sl_int t;
     memset(&failure, 0, sizeof failure);
-    F->updates = 0;
-    F->drift = 0.0;
+    F->history.updates = 0;
+    F->history.drift = 0.0;
     sli_factor_identify(F, from);
     for (t = 0; t < from->terms && failure.status == SL_OK; t++) {
         if (!sli_is_finite(from->coefficients[t])) {
@@ -176,7 +176,7 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     if (F->type->accepts != NULL && !F->type->accepts(from)) {
         (void)sli_fail(&failure, SL_ERR_UNSUPPORTED, 0, -1, -1, 0.0);
     }
-    if (failure.status == SL_OK && F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (failure.status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_null_vectors_check(F, from, &failure);
     }
     if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&

@@ -51,9 +51,9 @@ SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int mo
     if (status != SL_OK) {
         return status;
     }
-    *count = F->n_nulls;
+    *count = F->null.count;
     for (m = 0; m < sli_min(most, *count); m++) {
-        rows[m] = F->S->perm[F->nulls[m]];
+        rows[m] = F->S->perm[F->null.pivots[m]];
     }
     return SL_OK;
 }
@@ -67,9 +67,9 @@ SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, do
     }
     *count = F->stats.factor.regularized;
     for (m = 0; m < sli_min(most, *count); m++) {
-        rows[m] = F->S->perm[F->regularized[m]];
+        rows[m] = F->S->perm[F->rule.regularized[m]];
         if (shifts != NULL) {
-            shifts[m] = F->rule.shifts[F->regularized[m]];
+            shifts[m] = F->rule.shifts[F->rule.regularized[m]];
         }
     }
     return SL_OK;

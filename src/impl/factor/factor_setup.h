@@ -25,20 +25,20 @@ static void sli_factor_layout(sl_factor *F, sli_block *b, int has_mass) {
     if (F->rule.regularization != 0.0) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
         F->rule.shifts = SLI_TAKE(b, double, n);
-        F->regularized = SLI_TAKE(b, sl_int, n);
+        F->rule.regularized = SLI_TAKE(b, sl_int, n);
     }
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
-        F->nulls = SLI_TAKE(b, sl_int, n);
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+        F->null.pivots = SLI_TAKE(b, sl_int, n);
         F->rule.kinds = SLI_TAKE(b, signed char, n);
-        F->z = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
-        F->g = SLI_TAKE(b, double, n *(uint64_t)F->null_vectors);
+        F->null.z = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
+        F->null.g = SLI_TAKE(b, double, n *(uint64_t)F->null.vectors);
     }
     if (has_mass) {
-        F->anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
-        F->squares = SLI_TAKE(b, double, S->stats.symbolic.components);
-        F->mass = SLI_TAKE(b, double, n);
-        F->center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
-        F->ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
+        F->null.anchors = SLI_TAKE(b, sl_int, S->stats.symbolic.components);
+        F->null.squares = SLI_TAKE(b, double, S->stats.symbolic.components);
+        F->null.mass = SLI_TAKE(b, double, n);
+        F->null.center = SLI_TAKE(b, double, n *(uint64_t)sli_center_count(F));
+        F->null.ratios = SLI_TAKE(b, double, S->stats.symbolic.components);
     }
     F->values =
         sli_take(b, (uint64_t)(S->panel_begin[S->n_supers] >> F->type->half), F->type->value_bytes);
@@ -54,11 +54,12 @@ static void sli_factor_layout_panels(sl_factor *F, sli_block *b) {
     sl_int s;
     for (s = 0; s < S->n_supers && !sli_is_single(F); s++) {
         const sl_off size = S->panel_begin[s + 1] - S->panel_begin[s];
-        F->panel_room = size > F->panel_room ? size : F->panel_room;
+        F->work.panel_room = size > F->work.panel_room ? size : F->work.panel_room;
     }
-    F->panels = SLI_TAKE(
-        b, double,
-        workers *(uint64_t)F->panel_room > suspects ? workers * (uint64_t)F->panel_room : suspects);
+    F->work.panels = SLI_TAKE(b, double,
+                              workers *(uint64_t)F->work.panel_room > suspects
+                                  ? workers * (uint64_t)F->work.panel_room
+                                  : suspects);
 }
 
 /* The scratch of a factorization. */
@@ -66,38 +67,38 @@ static void sli_factor_layout_scratch(sl_factor *F, sli_block *b) {
     const sl_symbolic *S = F->S;
     const size_t n = (size_t)S->n, supers = (size_t)S->n_supers;
     const uint64_t workers = (uint64_t)F->schedule.workers;
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
         F->rule.signs = SLI_TAKE(b, signed char, n);
-        F->rows = SLI_TAKE(b, sli_null_row, n);
-        F->last = SLI_TAKE(b, sl_int, n);
-        F->rounding = SLI_TAKE(b, double, n);
-        F->center_scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-        if (F->null_vectors > 1) {
-            F->chain = SLI_TAKE(b, sl_int, n);
-            F->row_entries = SLI_TAKE(b, sl_int, n);
-            F->products = SLI_TAKE(b, double, n *((uint64_t)F->null_vectors + 2));
+        F->null.rows = SLI_TAKE(b, sli_null_row, n);
+        F->null.last = SLI_TAKE(b, sl_int, n);
+        F->null.rounding = SLI_TAKE(b, double, n);
+        F->null.sweep = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+        if (F->null.vectors > 1) {
+            F->null.chain = SLI_TAKE(b, sl_int, n);
+            F->null.row_entries = SLI_TAKE(b, sl_int, n);
+            F->null.products = SLI_TAKE(b, double, n *((uint64_t)F->null.vectors + 2));
         }
     }
     if (F->method == SL_METHOD_SUPERNODAL) {
         const uint64_t rows = SLI_TILE * (uint64_t)sli_tiles(S->tallest);
-        F->buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
-        F->magnitude = SLI_TAKE(b, double, workers *rows);
-        F->reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
-        F->failures = SLI_TAKE(b, sli_failure, workers);
+        F->work.buffer = SLI_TAKE(b, double, workers *(uint64_t)sli_front_scratch(S->widest));
+        F->work.magnitude = SLI_TAKE(b, double, workers *rows);
+        F->work.reciprocals = SLI_TAKE(b, double, workers *SLI_FRONT_RECIPROCALS);
+        F->work.failures = SLI_TAKE(b, sli_failure, workers);
         sli_schedule_layout(&F->schedule, b, S->n_supers);
         if (sli_is_float(F)) {
             sli_factor_layout_panels(F, b);
         } else {
-            F->marks = SLI_TAKE(b, uint64_t, supers);
+            F->history.marks = SLI_TAKE(b, uint64_t, supers);
         }
     } else {
-        F->buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
-        F->x = SLI_TAKE(b, double, n);
-        F->head = SLI_TAKE(b, sl_int, n);
-        F->next = SLI_TAKE(b, sl_int, supers);
-        F->position = SLI_TAKE(b, sl_int, supers);
-        F->list = SLI_TAKE(b, uint64_t, supers);
-        F->list_scratch = SLI_TAKE(b, uint64_t, supers);
+        F->work.buffer = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, 0, 1));
+        F->row.x = SLI_TAKE(b, double, n);
+        F->row.head = SLI_TAKE(b, sl_int, n);
+        F->row.next = SLI_TAKE(b, sl_int, supers);
+        F->row.position = SLI_TAKE(b, sl_int, supers);
+        F->row.list = SLI_TAKE(b, uint64_t, supers);
+        F->row.list_scratch = SLI_TAKE(b, uint64_t, supers);
     }
 }
 
@@ -118,7 +119,7 @@ static sl_status sli_factor_schedule(sl_factor *F) {
         b.base = NULL;
         b.used = 0;
         for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-            F->stack =
+            F->work.stack =
                 sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
             sli_schedule_layout_tops(&F->schedule, S, &b);
             F->stats.factor.bytes += pass == 0 ? b.used : 0;
@@ -148,16 +149,16 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     }
     if (status == SL_OK) {
         F->scratch = b.base;
-        if (F->marks != NULL) {
-            memset(F->marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
+        if (F->history.marks != NULL) {
+            memset(F->history.marks, 0, (size_t)F->S->n_supers * sizeof(uint64_t));
         }
-        F->has_duplicates = F->null_pivots == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
+        F->null.has_duplicates = F->null.mode == SL_NULL_PIVOT_SKIP && sli_map_has_duplicates(F->S);
         status = F->method == SL_METHOD_SUPERNODAL ? sli_factor_schedule(F) : SL_OK;
     }
     if (status != SL_OK) {
         sli_free(&F->allocator, F->scratch);
         F->scratch = NULL;
-        F->marks = NULL;
+        F->history.marks = NULL;
         F->stats.factor.bytes = bytes;
     }
     return status;
@@ -207,15 +208,15 @@ SLI_INLINE double sli_limit_option(double limit) {
 static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     const double null = opt == NULL ? 0.0 : opt->null_tolerance;
     const double consistency = opt == NULL ? 0.0 : opt->consistency_tolerance;
-    F->null_pivots = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
+    F->null.mode = opt == NULL ? SL_NULL_PIVOT_REFUSE : opt->null_pivots;
     F->rule.epsilon = F->type->epsilon;
     F->rule.null_tolerance = null == 0.0 ? sli_null_tolerance(F->S->n, F->rule.epsilon) : null;
     F->rule.regularization = opt == NULL ? 0.0 : opt->regularization;
-    F->rule.replaces = F->null_pivots == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
-    F->null_vectors =
+    F->rule.replaces = F->null.mode == SL_NULL_PIVOT_SKIP || F->rule.regularization != 0.0;
+    F->null.vectors =
         opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
-    F->consistency = consistency == 0.0 ? 1e-6 : consistency;
-    F->is_centered = F->null_pivots == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+    F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
+    F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
     F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
                                 sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
     F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -237,9 +238,9 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
             F->rule.signs[S->iperm[i]] = (signed char)opt->signs[i];
         }
     }
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP) {
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
         memset(F->rule.kinds, 0, (size_t)S->n);
-        for (j = 0; j < F->null_vectors; j++) {
+        for (j = 0; j < F->null.vectors; j++) {
             const size_t column = (size_t)j * (size_t)S->n;
             for (i = 0; i < S->n; i++) {
                 const double z =
@@ -247,11 +248,11 @@ static sl_status sli_factor_rules_fill(sl_factor *F, const sl_options *opt, sl_s
                 if (!sli_is_finite(z)) {
                     return sli_fail_at(stats, SL_ERR_ARGUMENT, i, -1, z);
                 }
-                F->z[column + (size_t)S->iperm[i]] = z;
+                F->null.z[column + (size_t)S->iperm[i]] = z;
             }
         }
     }
-    return F->mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
+    return F->null.mass != NULL ? sli_mass_fill(F, opt->mass, stats) : SL_OK;
 }
 
 /* Do more than 8 MB of update matrices wait for one parent, and 8 times as much as L has? */
@@ -288,7 +289,7 @@ static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
 SL_API void sl_factor_free(sl_factor *F) {
     if (F != NULL) {
         const sl_allocator a = F->allocator;
-        sli_free(&a, F->stack);
+        sli_free(&a, F->work.stack);
         sli_free(&a, F->scratch);
         sli_free(&a, F);
     }
@@ -338,13 +339,13 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     }
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);
-    status = (S->is_pivoted && draft.null_pivots == SL_NULL_PIVOT_SKIP) ||
+    status = (S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP) ||
                      (draft.type->suits != NULL && !draft.type->suits(&draft))
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         (void)sli_take(&b, 1, sizeof(sl_factor));
-        sli_factor_layout(&draft, &b, draft.is_centered);
+        sli_factor_layout(&draft, &b, draft.null.is_centered);
         draft.stats.factor.bytes = b.used;
         status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }

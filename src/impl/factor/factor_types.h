@@ -54,97 +54,114 @@ typedef struct sli_copied {
     void (*copy)(sl_factor *F, sl_int s, sl_int worker);
 } sli_copied;
 
-struct sl_factor {
-    sl_allocator allocator;
-    sl_stats stats;       /* the factor group and the error group */
-    const sl_symbolic *S; /* borrowed */
-    const sli_kernels *kernels;
-    const sli_storage_type *type;   /* how L is kept */
-    const sli_sweeps *sweeps;       /* those of the kernels that read L so .. */
-    const sli_front_kernels *front; /* .. and that compute fronts so */
-    sli_pivot_rule rule;
-    sl_null_pivots null_pivots;
-    sl_method method;
-    int is_valid;     /* L and D hold a factor */
-    int is_immutable; /* L, D and the other arrays are those of a mapped file */
-    void *scratch;    /* the block of all scratch arrays; NULL: not allocated yet */
-    sl_status status; /* of the last factorization */
-    /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
-     * numbers keeps it */
-    sli_hash identity;
-    /* counts factorizations and changes, also those that give the same numbers again */
-    uint64_t generation;
-    double clock;      /* when its memory was there */
-    sl_off updates;    /* rank-one changes since the last complete factorization */
-    double drift;      /* the rounding errors that they have added, relative to the largest entry */
-    double scale;      /* of the matrix as they have changed it: the largest entry, or less */
-    double lowest;     /* the least that it has been */
-    sli_hash analysis; /* the identity of S */
-    void *values;      /* L: the panels of all supernodes, as they are stored */
-    double *panels;    /* scratch for panels that are not stored in double, one a worker */
-    sl_off panel_room; /* doubles of such a piece */
-    double *D;         /* n pivots */
-    double *E;         /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
-    sli_extent *extents; /* n_supers */
-    double growth_limit; /* a larger growth is refused */
-    double error_limit;  /* a refinement that ends above it is reported */
-    /* n: the pivots that regularization changed, ascending; NULL: no regularization */
-    sl_int *regularized;
-
-    /* null pivots */
+/* The null space of a semidefinite matrix: what is known of it, and what solves need. */
+typedef struct sli_null_space {
+    sl_null_pivots mode;
     double consistency; /* the bound on |z' b| relative to the sum of |b|; negative: no check */
     int checks;         /* there are null pivots, and solves check that b is consistent */
     int is_centered;    /* there are null pivots, and solves center x by the weights in mass */
-    sl_int n_nulls;
-    sl_int *nulls; /* n: the n_nulls skipped pivots, ascending */
+    sl_int count;
+    sl_int *pivots; /* n: the `count` skipped pivots, ascending */
     sl_int n_anchors;
     /* components: null pivots whose null vectors the weights fix, ascending, at most one a tree */
     sl_int *anchors;
-    double *mass;        /* n: the weights m in pivot order; NULL: none */
-    sl_int null_vectors; /* columns of z and g */
-    double *z;           /* n x null_vectors: the assumed null vectors of all components */
-    /* n x null_vectors: one: z in trees with one component whose null vector is known, else 0;
+    double *mass;   /* n: the weights m in pivot order; NULL: none */
+    sl_int vectors; /* columns of z and g */
+    double *z;      /* n x vectors: the assumed null vectors of all components */
+    /* n x vectors: one: z in trees with one component whose null vector is known, else 0;
      * several: the null vectors that are known, 1 in one anchor each and 0 in the others */
     double *g;
-    int has_duplicates; /* of the pattern; known with the scratch arrays */
-    sli_null_row *rows; /* n: scratch */
-    sl_int *last;       /* n: scratch, the last pivot of each component */
-    double *rounding;   /* n: scratch for the rule */
-    /* scratch where there are several null vectors (null_basis.h): n: the pivot before in the
-     * component, -1 at the first one; the entries of each row of A; n x (null_vectors + 2): A z,
-     * |A| |z| and the diagonal of A */
-    sl_int *chain, *row_entries;
-    double *products;
     /* n: v = D^+ w, w = L^-1 P m / z' m, D^+ the pseudo-inverse of D (nullspace.h); where there are
-     * several null vectors, n x 2 null_vectors: U and V (null_center.h) */
+     * several null vectors, n x 2 vectors: U and V (null_center.h) */
     double *center;
     double *squares; /* components: w' D^+ w of the tree of each anchor */
     double *ratios;  /* components: (e' L^-1 P m) / z' m for known z; 0: z is computed from L */
-    /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
-     * and in 2x2 pivots, which are applied before it; read if is_centered or with pairs */
-    double *divisors;
-    double *center_scratch;
-    double *buffer; /* kernel scratch, one piece a worker */
+
+    /* scratch */
+    int has_duplicates; /* of the pattern; known with the scratch arrays */
+    sli_null_row *rows; /* n */
+    sl_int *last;       /* n: the last pivot of each component */
+    double *rounding;   /* n: for the rule */
+    double *sweep;      /* of a kernel */
+    /* where there are several null vectors (null_basis.h): n: the pivot before in the component, -1
+     * at the first one; the entries of each row of A; n x (vectors + 2): A z, |A| |z| and the
+     * diagonal of A */
+    sl_int *chain, *row_entries;
+    double *products;
+} sli_null_space;
+
+/* What has been done to the numbers since the last complete factorization. */
+typedef struct sli_history {
+    sl_off updates; /* rank-one changes */
+    double drift;   /* the rounding errors that they have added, relative to the largest entry */
+    double scale;   /* of the matrix as they have changed it: the largest entry, or less */
+    double lowest;  /* the least that it has been */
     /* n_supers: a hash of the entries of A that each supernode was computed from; 0: not known */
     uint64_t *marks;
-    const sli_copied *copied; /* supernodes that are copied in this factorization, or NULL */
+} sli_history;
 
-    /* multifrontal; scratch arrays hold one piece a worker */
-    sl_threads threads;
-    sli_schedule schedule;
-    void *stack; /* the update stack: update matrices until their parents assemble them */
+/* The scratch of fronts: a piece for each worker. */
+typedef struct sli_front_work {
+    double *buffer; /* of kernels */
+    void *stack;    /* the update stack: update matrices until their parents assemble them */
     /* rows of the tallest front: the sum of the magnitudes that went into each diagonal entry */
     double *magnitude;
-    double *reciprocals;   /* SLI_FRONT_RECIPROCALS */
-    sli_failure *failures; /* the first failure of a worker */
+    double *reciprocals;      /* SLI_FRONT_RECIPROCALS */
+    double *panels;           /* panels that are not stored in double */
+    sl_off panel_room;        /* doubles of such a piece */
+    sli_failure *failures;    /* the first failure of a worker */
+    const sli_copied *copied; /* supernodes that are copied in this factorization, or NULL */
+} sli_front_work;
 
-    /* up-looking */
+/* The scratch of the up-looking factorization. */
+typedef struct sli_row_work {
     double *x;        /* n: row k while it is computed; all 0 between rows */
     sl_int *head;     /* n: the first supernode whose next row is k, -1 for none */
     sl_int *next;     /* n_supers: the next supernode in the same list, -1 at the end */
     sl_int *position; /* n_supers: how many rows below each supernode are computed */
     uint64_t *list;   /* n_supers: the supernodes in the reach of row k */
     uint64_t *list_scratch;
+} sli_row_work;
+
+struct sl_factor {
+    sl_allocator allocator;
+    sl_stats stats;       /* the factor group and the error group */
+    const sl_symbolic *S; /* borrowed */
+    sli_hash analysis;    /* the identity of S */
+    const sli_kernels *kernels;
+    const sli_storage_type *type;   /* how L is kept */
+    const sli_sweeps *sweeps;       /* those of the kernels that read L so .. */
+    const sli_front_kernels *front; /* .. and that compute fronts so */
+    sl_method method;
+    sl_threads threads;
+    sli_schedule schedule;
+
+    int is_valid;     /* L and D hold a factor */
+    int is_immutable; /* L, D and the other arrays are those of a mapped file */
+    sl_status status; /* of the last factorization */
+    /* of L and D: the analysis, the values of A or of the sum, and the pivots; what depends on the
+     * numbers keeps it */
+    sli_hash identity;
+    /* counts factorizations and changes, also those that give the same numbers again */
+    uint64_t generation;
+    double clock; /* when its memory was there */
+    sli_history history;
+
+    void *values; /* L: the panels of all supernodes, as they are stored */
+    double *D;    /* n pivots */
+    double *E;    /* n: D(k+1, k) at the first column k of a 2x2 pivot; NULL: none */
+    /* n: the divisors of the backward sweep: D, with 1 at the anchors, where it is given x itself,
+     * and in 2x2 pivots, which are applied before it; read if null.is_centered or with pairs */
+    double *divisors;
+    sli_extent *extents; /* n_supers */
+    sli_pivot_rule rule;
+    double growth_limit; /* a larger growth is refused */
+    double error_limit;  /* a refinement that ends above it is reported */
+    sli_null_space null;
+
+    void *scratch; /* the block of all scratch arrays; NULL: not allocated yet */
+    sli_front_work work;
+    sli_row_work row;
 };
 
 /* The numbers of a factor at one time. */
@@ -218,12 +235,12 @@ static sl_int sli_column_of(const sl_csc *A, sl_int p) {
 
 /* Columns of F->center. */
 SLI_INLINE sl_int sli_center_count(const sl_factor *F) {
-    return F->null_vectors > 1 ? 2 * F->null_vectors : 1;
+    return F->null.vectors > 1 ? 2 * F->null.vectors : 1;
 }
 
 /* Was pivot k null and skipped? */
 SLI_INLINE int sli_is_skipped(const sl_factor *F, sl_int k) {
-    return F->null_pivots == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
+    return F->null.mode == SL_NULL_PIVOT_SKIP && F->D[k] == SLI_NULL_PIVOT;
 }
 
 /* Was pivot k changed by regularization? */

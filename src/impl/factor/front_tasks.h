@@ -154,7 +154,7 @@ static sli_task sli_job_draw(sli_job *job) {
             task.at = at;
             return task;
         }
-        if ((job->F->panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
+        if ((job->F->work.panel_room == 0 || job->in_turn == -1 || job->in_turn == at) &&
             sli_top_draw(job, at, &task)) {
             job->in_turn = at;
             p->tops[at].is_begun = 1;
@@ -218,7 +218,7 @@ static void sli_piece_run(sl_factor *F, const sli_task *task, sl_int worker) {
     const sli_top *top = &F->schedule.tops[task->at];
     const sl_int t0 = sli_piece_begin(step, top, piece), t1 = sli_piece_begin(step, top, piece + 1);
     const sl_int group = task->step - SLI_STEP_ROWS, whole = step->width / SLI_TILE;
-    double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+    double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     const sli_storage_type *type = F->type;
     const sli_front f = type->shared(F, s, sli_max(group, 0));
     if (task->step == SLI_STEP_CLEAR) {
@@ -242,7 +242,7 @@ static void sli_subtrees_run(sl_factor *F, const sli_source *from, sl_int bundle
     for (; m < p->bundle_end[bundle]; m++) {
         sli_failure failure;
         if (F->type->factor(F, from, p->first[m], p->last[m], worker, &failure) != SL_OK) {
-            sli_keep_first_failure(&F->failures[worker], &failure);
+            sli_keep_first_failure(&F->work.failures[worker], &failure);
         }
     }
 }
@@ -272,14 +272,14 @@ static sl_status sli_task_run(sl_factor *F, const sli_source *from, const sli_ta
         sli_piece_run(F, task, worker);
         break;
     }
-    sli_keep_first_failure(&F->failures[worker], &failure);
+    sli_keep_first_failure(&F->work.failures[worker], &failure);
     return failure.status;
 }
 
 /* Draws and runs tasks until all are done. */
 static void sli_worker_run(void *data, sl_int worker) {
     sli_job *job = (sli_job *)data;
-    const sli_failure *failure = &job->F->failures[worker];
+    const sli_failure *failure = &job->F->work.failures[worker];
     sli_task task = {SLI_TASK_NONE, 0, 0, 0};
     sl_status status = SL_OK;
     sli_atomic seen;
@@ -334,7 +334,7 @@ static void sli_job_begin(sli_job *job, sl_factor *F, const sli_source *from) {
         }
     }
     for (k = 0; k < p->workers; k++) {
-        F->failures[k].status = SL_OK;
+        F->work.failures[k].status = SL_OK;
     }
 }
 
@@ -345,7 +345,7 @@ static sl_status sli_multifrontal(sl_factor *F, const sli_source *from, sli_fail
     sli_job_begin(&job, F, from);
     sli_parallel(&F->threads, F->schedule.workers, sli_worker_run, &job);
     for (k = 0; k < F->schedule.workers; k++) {
-        sli_keep_first_failure(failure, &F->failures[k]);
+        sli_keep_first_failure(failure, &F->work.failures[k]);
     }
     return failure->status;
 }

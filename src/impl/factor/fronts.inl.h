@@ -15,7 +15,7 @@
 SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
     const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
     const sl_off at = begin < own ? begin + worker * own : begin;
-    return (SLF_VALUE *)F->stack + (at >> SLF_HALF);
+    return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
 }
 
 /* Clears row tiles t0 .. t1-1 of a front. */
@@ -93,7 +93,7 @@ static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from
         e.x = from->A->x;
         e.scatter_from = S->scatter_from;
         e.last = end;
-        return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->marks, failure);
+        return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
     }
     e.scatter_from = NULL;
     for (; e.first < end && status == SL_OK; e.first = e.last) {
@@ -211,7 +211,7 @@ static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl
                                         sl_int worker, sli_failure *failure) {
     sli_front f = SLF_FRONT(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
-    double *scratch = F->buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+    double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;
     f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
 #if !SLF_SINGLE
@@ -240,7 +240,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
     sl_int s;
     for (s = first; s <= last && status == SL_OK; s++) {
         if (sli_is_copied(F, s)) {
-            F->copied->copy(F, s, worker);
+            F->work.copied->copy(F, s, worker);
         } else {
             status = SLF_NAME(front_factor)(F, from, s, worker, failure);
         }

@@ -8,7 +8,7 @@
 
 /* Are the numbers of supernode s copied in this factorization? */
 SLI_INLINE int sli_is_copied(const sl_factor *F, sl_int s) {
-    return F->copied != NULL && F->copied->from[s] != -1;
+    return F->work.copied != NULL && F->work.copied->from[s] != -1;
 }
 
 SLI_INLINE sl_int sli_front_tiles(const sli_front *f) {
@@ -90,8 +90,8 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
     f.D = F->D + step->column;
     f.pairs = F->E == NULL ? NULL : F->S->pairs + step->column;
     f.E = F->E == NULL ? NULL : F->E + step->column;
-    f.magnitude = F->magnitude + (ptrdiff_t)worker * (SLI_TILE * sli_tiles(F->S->tallest));
-    f.reciprocals = F->reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
+    f.magnitude = F->work.magnitude + (ptrdiff_t)worker * (SLI_TILE * sli_tiles(F->S->tallest));
+    f.reciprocals = F->work.reciprocals + (ptrdiff_t)worker * SLI_FRONT_RECIPROCALS;
     return f;
 }
 

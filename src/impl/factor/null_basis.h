@@ -43,39 +43,39 @@ typedef struct sli_null_part {
 SLI_INLINE sli_null_part sli_null_part_of(sl_factor *F, sl_int last) {
     sli_null_part p;
     p.F = F;
-    p.z = F->g;
+    p.z = F->null.g;
     p.n = (size_t)F->S->n;
     p.last = last;
-    p.count = p.rank = F->null_vectors;
+    p.count = p.rank = F->null.vectors;
     return p;
 }
 
 /* Links the pivots of each component. */
 static void sli_null_chain(sl_factor *F) {
-    sli_null_row *tails = F->rows; /* free until the next product */
+    sli_null_row *tails = F->null.rows; /* free until the next product */
     sl_int k;
     for (k = 0; k < F->S->n; k++) {
         tails[k].up = -1;
     }
     for (k = 0; k < F->S->n; k++) {
-        F->chain[k] = tails[F->last[k]].up;
-        tails[F->last[k]].up = k;
+        F->null.chain[k] = tails[F->null.last[k]].up;
+        tails[F->null.last[k]].up = k;
     }
 }
 
 /* Is a pivot that is no anchor the only row of its component? */
 SLI_INLINE int sli_null_is_row(const sl_factor *F, sl_int k) {
-    return F->last[k] == k && F->chain[k] == -1;
+    return F->null.last[k] == k && F->null.chain[k] == -1;
 }
 
 /* The column of g that holds the null vector of null pivot k; -1: it is not known, or k is a row of
  * zeros. */
 SLI_INLINE sl_int sli_null_column(const sl_factor *F, sl_int k) {
     sl_int j = 0;
-    while (j < F->null_vectors && F->g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
+    while (j < F->null.vectors && F->null.g[(size_t)k + (size_t)j * (size_t)F->S->n] == 0.0) {
         j++;
     }
-    return j < F->null_vectors ? j : -1;
+    return j < F->null.vectors ? j : -1;
 }
 
 /* The largest entry of column j. */
@@ -83,7 +83,7 @@ static double sli_null_largest(const sli_null_part *p, sl_int j) {
     const double *z = p->z + (size_t)j * p->n;
     double largest = 0.0;
     sl_int k;
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         largest = fabs(z[k]) > largest ? fabs(z[k]) : largest;
     }
     return largest;
@@ -95,7 +95,7 @@ static void sli_null_scale(const sli_null_part *p, sl_int j) {
     int exponent;
     sl_int k;
     (void)frexp(sli_null_largest(p, j), &exponent);
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         z[k] = ldexp(z[k], -exponent);
     }
 }
@@ -104,10 +104,10 @@ static void sli_null_scale(const sli_null_part *p, sl_int j) {
  * returned; x: this part, scaled to 1. Infinity if A Z is not finite. */
 static double sli_null_violation(const sli_null_part *p, const double *q, sl_int vectors,
                                  double *x) {
-    const double *product = p->F->products, *sizes = product + (size_t)p->count * p->n;
+    const double *product = p->F->null.products, *sizes = product + (size_t)p->count * p->n;
     double most = 0.0, y[SLI_NULL_VECTORS_MAX];
     sl_int k, j;
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         double norm, ratio;
         if (!sli_is_finite(sizes[k])) {
             return (double)INFINITY;
@@ -119,7 +119,7 @@ static double sli_null_violation(const sli_null_part *p, const double *q, sl_int
             y[j] = product[(size_t)k + (size_t)j * p->n] / sizes[k];
         }
         norm = sli_null_project(q, vectors, p->count, y);
-        ratio = norm / (16.0 * DBL_EPSILON * p->F->row_entries[k]);
+        ratio = norm / (16.0 * DBL_EPSILON * p->F->null.row_entries[k]);
         if (ratio > most) {
             most = ratio;
             for (j = 0; j < p->count; j++) {
@@ -134,7 +134,7 @@ static double sli_null_violation(const sli_null_part *p, const double *q, sl_int
 static void sli_null_combine(const sli_null_part *p, const double *c, sl_int columns) {
     double x[SLI_NULL_VECTORS_MAX];
     sl_int k, v, j;
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         double *z = p->z + k;
         for (j = 0; j < p->count; j++) {
             x[j] = z[(size_t)j * p->n];
@@ -177,7 +177,7 @@ static sl_int sli_null_restrict(const sli_null_part *p) {
 static double sli_null_scalar(const sli_null_part *p, const double *a, const double *b) {
     double sum = 0.0;
     sl_int k;
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         sum += a[k] * b[k];
     }
     return sum;
@@ -185,7 +185,7 @@ static double sli_null_scalar(const sli_null_part *p, const double *a, const dou
 
 static void sli_null_subtract(const sli_null_part *p, double *a, const double *b, double c) {
     sl_int k;
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         a[k] -= c * b[k];
     }
 }
@@ -203,7 +203,7 @@ static void sli_null_orthonormalize(sli_null_part *p) {
             at = square > most ? j : at;
             most = square > most ? square : most;
         }
-        for (k = p->last; k != -1; k = p->F->chain[k]) {
+        for (k = p->last; k != -1; k = p->F->null.chain[k]) {
             const double swapped = z[k];
             z[k] = p->z[(size_t)k + (size_t)at * p->n];
             p->z[(size_t)k + (size_t)at * p->n] = swapped;
@@ -218,7 +218,7 @@ static void sli_null_orthonormalize(sli_null_part *p) {
         if (sqrt(most) <= SLI_NULL_DEPENDENT) {
             break;
         }
-        for (k = p->last; k != -1; k = p->F->chain[k]) {
+        for (k = p->last; k != -1; k = p->F->null.chain[k]) {
             z[k] /= sqrt(most);
         }
         for (j = v + 1; j < p->count; j++) {
@@ -228,7 +228,7 @@ static void sli_null_orthonormalize(sli_null_part *p) {
     }
     p->rank = v;
     for (; v < p->count; v++) {
-        for (k = p->last; k != -1; k = p->F->chain[k]) {
+        for (k = p->last; k != -1; k = p->F->null.chain[k]) {
             p->z[(size_t)k + (size_t)v * p->n] = 0.0;
         }
     }
@@ -250,13 +250,13 @@ static void sli_null_anchors(const sli_null_part *p, sl_int *anchors) {
     sl_int v, j, k;
     for (v = 0; v < p->rank; v++) {
         double *x = q + v * p->rank, most = 0.0, distance = 0.0;
-        for (k = p->last; k != -1; k = p->F->chain[k]) {
+        for (k = p->last; k != -1; k = p->F->null.chain[k]) {
             distance = sli_null_distance(p, k, q, v, x);
             most = distance > most ? distance : most;
         }
         k = p->last;
         while ((distance = sli_null_distance(p, k, q, v, x)) < SLI_NULL_ANCHOR * most) {
-            k = p->F->chain[k];
+            k = p->F->null.chain[k];
         }
         anchors[v] = k;
         for (j = 0; j < p->rank; j++) {
@@ -275,7 +275,7 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
         }
     }
     sli_null_invert(a, p->rank);
-    for (k = p->last; k != -1; k = p->F->chain[k]) {
+    for (k = p->last; k != -1; k = p->F->null.chain[k]) {
         double *z = p->z + k;
         for (j = 0; j < p->count; j++) {
             x[j] = z[(size_t)j * p->n];
@@ -297,17 +297,17 @@ static void sli_null_normalize(const sli_null_part *p, const sl_int *anchors, sl
 /* Computes A Z for the columns in g, and the sums of the columns of |A| |Z|. */
 static void sli_null_products(sl_factor *F, const sli_source *from, int by_columns) {
     const size_t n = (size_t)F->S->n;
-    double *product = F->products, *sizes = product + (size_t)F->null_vectors * n;
+    double *product = F->null.products, *sizes = product + (size_t)F->null.vectors * n;
     sl_int j, k;
     memset(sizes, 0, n * sizeof(double));
-    for (j = 0; j < F->null_vectors; j++) {
-        const sli_null_walk w = sli_null_product(F->S, from, by_columns, F->rows,
-                                                 F->g + (size_t)j * n, NULL);
+    for (j = 0; j < F->null.vectors; j++) {
+        const sli_null_walk w =
+            sli_null_product(F->S, from, by_columns, F->null.rows, F->null.g + (size_t)j * n, NULL);
         for (k = 0; k < F->S->n; k++) {
-            const sli_null_row *row = &F->rows[sli_null_walk_row(&w, k)];
+            const sli_null_row *row = &F->null.rows[sli_null_walk_row(&w, k)];
             product[(size_t)k + (size_t)j * n] = row->product;
             sizes[k] += row->size;
-            F->row_entries[k] = row->entries;
+            F->null.row_entries[k] = row->entries;
         }
     }
 }
@@ -318,15 +318,15 @@ static void sli_null_bases_test(sl_factor *F, const sli_source *from, int by_col
     sl_int k;
     for (k = 0; k < F->S->n; k++) {
         sli_null_part p = sli_null_part_of(F, k);
-        for (; F->last[k] == k && p.rank > 0; p.rank--) {
+        for (; F->null.last[k] == k && p.rank > 0; p.rank--) {
             sli_null_scale(&p, p.rank - 1);
         }
     }
     sli_null_products(F, from, by_columns);
     for (k = 0; k < F->S->n; k++) {
-        if (F->last[k] == k) {
+        if (F->null.last[k] == k) {
             const sli_null_part p = sli_null_part_of(F, k);
-            F->rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
+            F->null.rounding[k] = sli_null_restrict(&p) < p.count ? 0.0 : (double)INFINITY;
         }
     }
 }
@@ -337,19 +337,19 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
                                 sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_int anchors[SLI_NULL_VECTORS_MAX], k, j, rank, used = 0;
-    memcpy(F->g, F->z, (size_t)S->n * (size_t)F->null_vectors * sizeof(double));
+    memcpy(F->null.g, F->null.z, (size_t)S->n * (size_t)F->null.vectors * sizeof(double));
     sli_null_chain(F);
     sli_null_bases_test(F, from, by_columns);
     for (k = 0; k < S->n; k++) {
-        if (F->last[k] == k) {
+        if (F->null.last[k] == k) {
             sli_null_part p = sli_null_part_of(F, k);
             const int is_single = sli_null_is_row(F, k);
-            if (F->rounding[k] == 0.0) {
+            if (F->null.rounding[k] == 0.0) {
                 sli_null_orthonormalize(&p);
             } else {
                 p.rank = 0;
             }
-            F->rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
+            F->null.rounding[k] = p.rank == 0 ? (double)INFINITY : 0.0;
             if (!is_single && used + p.rank > p.count) {
                 return sli_fail(failure, SL_ERR_UNSUPPORTED, S->super_of[k], k, -1, 0.0);
             }
@@ -359,7 +359,7 @@ static sl_status sli_null_bases(sl_factor *F, const sli_source *from, int by_col
             sli_null_normalize(&p, anchors, used);
             used += p.rank;
             for (j = 0; j < rank; j++) {
-                F->chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
+                F->null.chain[anchors[j]] = SLI_NULL_IS_ANCHOR;
             }
         }
         used = S->parent[k] == -1 ? 0 : used;

@@ -26,11 +26,11 @@
  * z' M z of less than 1e-4 |z|' |M| |z| has too few digits: weights of both signs. */
 static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
     const size_t n = (size_t)F->S->n;
-    sl_int m = sli_lower_bound(F->nulls, F->n_nulls, first), count = 0, k = root, i, j;
+    sl_int m = sli_lower_bound(F->null.pivots, F->null.count, first), count = 0, k = root, i, j;
     const double rounding = 16.0 * F->S->n * DBL_EPSILON; /* of u, which is 1 in an anchor */
     double sign = 1.0;
-    for (; m < F->n_nulls && F->nulls[m] <= root; m++) {
-        k = F->nulls[m];
+    for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
+        k = F->null.pivots[m];
         if (sli_null_column(F, k) != -1) {
             F->divisors[k] = 1.0;
             count++; /* a tree has the first columns */
@@ -39,13 +39,13 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
         }
     }
     for (j = 0, m = k; j < count; j++) {
-        double *u = F->center + (size_t)j * n, *v = u + (size_t)F->null_vectors * n;
+        double *u = F->null.center + (size_t)j * n, *v = u + (size_t)F->null.vectors * n;
         double size = 0.0, square = 0.0, left = 0.0;
         for (k = first; k <= root; k++) {
-            size += fabs(F->mass[k]) * (u[k] * u[k] + rounding);
+            size += fabs(F->null.mass[k]) * (u[k] * u[k] + rounding);
         }
         for (i = 0; i < 2 * j; i++) { /* twice */
-            const double *q = F->center + (size_t)(i % j) * n, *p = q + (v - u);
+            const double *q = F->null.center + (size_t)(i % j) * n, *p = q + (v - u);
             double dot = 0.0;
             for (k = first; k <= root; k++) {
                 dot += p[k] * u[k];
@@ -55,8 +55,8 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
             }
         }
         for (k = first; k <= root; k++) {
-            square += F->mass[k] * u[k] * u[k];
-            left += fabs(F->mass[k]) * u[k] * u[k];
+            square += F->null.mass[k] * u[k] * u[k];
+            left += fabs(F->null.mass[k]) * u[k] * u[k];
         }
         sign = j == 0 && square < 0.0 ? -1.0 : sign;
         if (!(sign * square > fmax(rounding * size + 1e-290, 1e-4 * left))) {
@@ -64,7 +64,7 @@ static sl_status sli_center_weigh(sl_factor *F, sl_int first, sl_int root, sli_f
         }
         for (k = first; k <= root; k++) {
             u[k] /= sqrt(sign * square);
-            v[k] = sign * F->mass[k] * u[k];
+            v[k] = sign * F->null.mass[k] * u[k];
         }
     }
     return SL_OK;
@@ -77,8 +77,8 @@ static void sli_center_multiply(sl_factor *F) {
     for (s = 0; s < S->n_supers; s++) {
         const sli_step *step = &S->steps[s];
         const sl_off below = S->rows_begin[s] - step->width;
-        for (c = 0; c < F->null_vectors; c++) {
-            double *u = F->center + (size_t)c * (size_t)S->n;
+        for (c = 0; c < F->null.vectors; c++) {
+            double *u = F->null.center + (size_t)c * (size_t)S->n;
             for (r = 1; r < step->width + step->below; r++) {
                 const double x = u[r < step->width ? step->column + r : S->rows[below + r]];
                 for (j = 0; j < sli_min(r, step->width) && x != 0.0; j++) {
@@ -92,12 +92,12 @@ static void sli_center_multiply(sl_factor *F) {
 
 /* V := D^+ W - U Q / 2 in one tree. V is W on entry. */
 static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_failure *failure) {
-    const size_t n = (size_t)F->S->n, count = (size_t)F->null_vectors;
+    const size_t n = (size_t)F->S->n, count = (size_t)F->null.vectors;
     double q[SLI_NULL_VECTORS_MAX * SLI_NULL_VECTORS_MAX] = {0.0}, size = 0.0;
     size_t i, j;
     sl_int k;
     for (k = first; k <= root; k++) {
-        double *v = F->center + count * n + k;
+        double *v = F->null.center + count * n + k;
         for (i = 0; i < count; i++) {
             v[i * n] = sli_is_skipped(F, k) ? 0.0 : v[i * n] / F->D[k];
             for (j = 0; j <= i; j++) {
@@ -107,7 +107,7 @@ static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_
         }
     }
     for (k = first; k <= root; k++) {
-        double *u = F->center + k, *v = u + count * n;
+        double *u = F->null.center + k, *v = u + count * n;
         for (i = 0; i < count * count; i++) {
             v[i % count * n] -= u[i / count * n] * q[i] / 2.0;
             size += fabs(q[i]);
@@ -122,18 +122,18 @@ static sl_status sli_center_finish(sl_factor *F, sl_int first, sl_int root, sli_
 static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    const size_t n = (size_t)S->n, count = (size_t)F->null_vectors;
+    const size_t n = (size_t)S->n, count = (size_t)F->null.vectors;
     sl_status status = SL_OK;
     sl_int k, first;
     size_t j;
     int pass;
     memcpy(F->divisors, F->D, n * sizeof(double));
-    memcpy(F->center, F->g, n * count * sizeof(double));
-    memset(F->center + n * count, 0, n * count * sizeof(double));
+    memcpy(F->null.center, F->null.g, n * count * sizeof(double));
+    memset(F->null.center + n * count, 0, n * count * sizeof(double));
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         for (j = count; j < 2 * count && pass == 1; j++) {
-            sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center + n * j,
-                              F->center_scratch);
+            sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center + n * j,
+                              F->null.sweep);
         }
         if (pass == 1) {
             sli_center_multiply(F);

@@ -25,12 +25,12 @@
 static void sli_null_kinds_fill(sl_factor *F, const sli_null_walk *w, const double *diagonal) {
     sl_int k;
     for (k = 0; k < F->S->n; k++) { /* ascending: the last pivot of a component comes last */
-        const sl_int last = F->last[k];
-        F->rounding[k] = F->rounding[last];
+        const sl_int last = F->null.last[k];
+        F->null.rounding[k] = F->null.rounding[last];
         F->rule.signs[k] = diagonal[sli_null_walk_row(w, last)] < 0.0 ? -1 : 1;
-        if (!(F->rounding[k] <= DBL_MAX)) { /* inf - inf would trap */
+        if (!(F->null.rounding[k] <= DBL_MAX)) { /* inf - inf would trap */
             F->rule.kinds[k] = SLI_PIVOT_UNKNOWN;
-        } else if (F->null_vectors > 1 ? F->chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
+        } else if (F->null.vectors > 1 ? F->null.chain[k] == SLI_NULL_IS_ANCHOR : k == last) {
             F->rule.kinds[k] = SLI_PIVOT_NULL;
         } else if (F->rule.kinds[k] != SLI_PIVOT_WEAK) {
             F->rule.kinds[k] = SLI_PIVOT_KEPT;
@@ -43,14 +43,15 @@ static void sli_null_vectors_load(sl_factor *F) {
     const sl_symbolic *S = F->S;
     sl_int k, first = 0, only = -1, count = 0;
     for (k = 0; k < S->n; k++) {
-        const sl_int last = F->last[k];
+        const sl_int last = F->null.last[k];
         if (last != k && last != only && F->rule.kinds[last] == SLI_PIVOT_NULL) {
             only = last; /* two components may alternate: then more than one is counted anyway */
             count++;
         }
         if (S->parent[k] == -1) {
             for (; first <= k; first++) {
-                F->g[first] = count == 1 && F->last[first] == only ? F->z[first] : 0.0;
+                F->null.g[first] =
+                    count == 1 && F->null.last[first] == only ? F->null.z[first] : 0.0;
             }
             count = 0;
             only = -1;
@@ -76,32 +77,35 @@ static double sli_null_rounding(sl_int n, double epsilon) {
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    const int is_one = F->null_vectors == 1, by_columns = from->A != NULL && !F->has_duplicates;
-    const double rounding = sli_null_rounding(S->n, F->rule.epsilon), *z = is_one ? F->z : NULL;
-    double *diagonal = is_one ? F->g : F->products + ((size_t)F->null_vectors + 1) * (size_t)S->n;
-    const sli_null_walk w = sli_null_product(S, from, by_columns, F->rows, z, diagonal);
+    const int is_one = F->null.vectors == 1,
+              by_columns = from->A != NULL && !F->null.has_duplicates;
+    const double rounding = sli_null_rounding(S->n, F->rule.epsilon),
+                 *z = is_one ? F->null.z : NULL;
+    double *diagonal =
+        is_one ? F->null.g : F->null.products + ((size_t)F->null.vectors + 1) * (size_t)S->n;
+    const sli_null_walk w = sli_null_product(S, from, by_columns, F->null.rows, z, diagonal);
     sl_int i, refused = S->n; /* a pivot */
     F->stats.factor.regular = 0;
-    sli_null_components(&w, S, z, F->last, F->rounding);
+    sli_null_components(&w, S, z, F->null.last, F->null.rounding);
     if (!is_one && sli_null_bases(F, from, by_columns, failure) != SL_OK) {
         memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
         return failure->status;
     }
     for (i = 0; i < S->n; i++) {
-        const sl_int k = sli_null_walk_pivot(&w, i), last = F->last[k];
+        const sl_int k = sli_null_walk_pivot(&w, i), last = F->null.last[k];
         const double of_last = diagonal[sli_null_walk_row(&w, last)];
         const double here = rounding * fabs(diagonal[i]);
         if (last != k && !sli_signs_agree(diagonal[i], of_last)) {
             refused = sli_min(refused, of_last == 0.0 ? last : k);
         }
-        F->rounding[last] = here > F->rounding[last] ? here : F->rounding[last];
+        F->null.rounding[last] = here > F->null.rounding[last] ? here : F->null.rounding[last];
     }
     if (refused < S->n) {
         memset(F->D, 0, (size_t)S->n * sizeof(double)); /* no pivot is computed */
         return sli_fail(failure, SL_ERR_PIVOT, S->super_of[refused], refused, -1,
                         diagonal[sli_null_walk_row(&w, refused)]);
     }
-    F->rule.rounding = F->rounding;
+    F->rule.rounding = F->null.rounding;
     sli_null_kinds_fill(F, &w, diagonal);
     if (is_one) {
         sli_null_vectors_load(F);
@@ -144,7 +148,8 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
-    sli_null_row *rows = (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->panels);
+    sli_null_row *rows =
+        (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->work.panels);
     double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
     sl_int *last = (sl_int *)(void *)(most + S->n), k;
     const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);

@@ -38,11 +38,11 @@ static sl_status sli_mass_fill(sl_factor *F, const double *mass, sl_stats *stats
         if (!sli_is_finite(m)) {
             return sli_fail_at(stats, SL_ERR_ARGUMENT, S->perm[k], -1, m);
         }
-        F->mass[k] = m;
+        F->null.mass[k] = m;
         any |= m != 0.0;
         if (S->parent[k] == -1) { /* in a postorder a tree ends at its root */
             for (; first <= k; first++) {
-                F->mass[first] = any ? F->mass[first] : 1.0;
+                F->null.mass[first] = any ? F->null.mass[first] : 1.0;
             }
             any = 0;
         }
@@ -57,27 +57,27 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     double *used = F->divisors; /* 0 in components of one row, unless they are trees */
     sl_int k, m = 0;
-    F->n_anchors = 0;
+    F->null.n_anchors = 0;
     memset(used, 0, (size_t)S->n * sizeof(double));
     for (k = 0; k < S->n; k++) {
-        if (F->last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
-            used[k] = used[F->last[k]] = 1.0;
+        if (F->null.last[k] != k || (S->parent[k] == -1 && (k == 0 || S->parent[k - 1] == -1))) {
+            used[k] = used[F->null.last[k]] = 1.0;
         }
     }
-    for (k = 0; k < S->n && m < F->n_nulls; k++) {
+    for (k = 0; k < S->n && m < F->null.count; k++) {
         sl_int anchor = -1;
         if (S->parent[k] != -1) {
             continue;
         }
-        for (; m < F->n_nulls && F->nulls[m] <= k; m++) {
-            const sl_int null = F->nulls[m];
+        for (; m < F->null.count && F->null.pivots[m] <= k; m++) {
+            const sl_int null = F->null.pivots[m];
             if (used[null] != 0.0 && anchor != -1) {
                 return sli_fail(failure, SL_ERR_PIVOT, S->super_of[null], null, -1, 0.0);
             }
             anchor = used[null] != 0.0 ? null : anchor;
         }
         if (anchor != -1) {
-            F->anchors[F->n_anchors++] = anchor;
+            F->null.anchors[F->null.n_anchors++] = anchor;
         }
     }
     return SL_OK;
@@ -88,15 +88,15 @@ static sl_status sli_anchors_find(sl_factor *F, sli_failure *failure) {
 static void sli_anchor_weights(const sl_factor *F, double *weights) {
     sl_int m, k = 0, first;
     memset(weights, 0, (size_t)F->S->n * sizeof(double));
-    for (m = 0; m < F->n_anchors; m++) {
-        const sl_int last = F->last[F->anchors[m]];
+    for (m = 0; m < F->null.n_anchors; m++) {
+        const sl_int last = F->null.last[F->null.anchors[m]];
         int any = 0;
         for (first = k; k <= last; k++) {
-            weights[k] = F->last[k] == last ? F->mass[k] : 0.0;
+            weights[k] = F->null.last[k] == last ? F->null.mass[k] : 0.0;
             any |= weights[k] != 0.0;
         }
         for (; first <= last && !any; first++) {
-            weights[first] = F->last[first] == last ? 1.0 : 0.0;
+            weights[first] = F->null.last[first] == last ? 1.0 : 0.0;
         }
     }
 }
@@ -107,8 +107,8 @@ static void sli_anchor_weights(const sl_factor *F, double *weights) {
  * and the null pivot is refused. */
 static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double total, sl_int m,
                                  sli_failure *failure) {
-    const sl_int anchor = m < F->n_anchors ? F->anchors[m] : F->S->n;
-    double *v = F->center, a, sum = 0.0, z_m = 0.0, size = 0.0;
+    const sl_int anchor = m < F->null.n_anchors ? F->null.anchors[m] : F->S->n;
+    double *v = F->null.center, a, sum = 0.0, z_m = 0.0, size = 0.0;
     sl_int k;
     if (anchor > root) {
         memset(v + first, 0, ((size_t)(root - first) + 1) * sizeof(double));
@@ -118,26 +118,26 @@ static sl_status sli_center_tree(sl_factor *F, sl_int first, sl_int root, double
     if (!sli_is_finite(a) || !(fabs(a) > F->S->n * DBL_EPSILON * total)) {
         return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, a);
     }
-    F->ratios[m] = 1.0;
-    if (F->g[anchor] != 0.0) {
+    F->null.ratios[m] = 1.0;
+    if (F->null.g[anchor] != 0.0) {
         for (k = first; k <= root; k++) {
             const double weight = F->divisors[k];
-            const double term = weight != 0.0 ? F->z[k] / F->z[anchor] * weight : 0.0;
+            const double term = weight != 0.0 ? F->null.z[k] / F->null.z[anchor] * weight : 0.0;
             z_m += term;
             size += fabs(term);
         }
         if (!(fabs(z_m) > F->S->n * DBL_EPSILON * size)) { /* also if they overflow */
             return sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[anchor], anchor, -1, z_m);
         }
-        F->ratios[m] = a / z_m;
+        F->null.ratios[m] = a / z_m;
     }
     for (k = first; k <= root; k++) {
         const double w = v[k] / a;
         v[k] = sli_is_skipped(F, k) ? 0.0 : w / F->D[k];
         sum += w * v[k];
     }
-    F->squares[m] = sum;
-    if (!sli_is_finite(sum + F->ratios[m])) { /* of pivots or weights near 0 */
+    F->null.squares[m] = sum;
+    if (!sli_is_finite(sum + F->null.ratios[m])) { /* of pivots or weights near 0 */
         return sli_fail(failure, SL_ERR_NOT_FINITE, F->S->super_of[anchor], anchor, -1, sum);
     }
     return SL_OK;
@@ -150,25 +150,25 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     double total = 0.0;
     sl_status status;
     sl_int k, first = 0, m = 0;
-    if (F->null_vectors > 1) {
+    if (F->null.vectors > 1) {
         return sli_center_several(F, failure);
     }
     status = sli_anchors_find(F, failure);
     sli_anchor_weights(F, F->divisors);
-    memcpy(F->center, F->divisors, (size_t)S->n * sizeof(double));
-    sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->center, F->center_scratch);
+    memcpy(F->null.center, F->divisors, (size_t)S->n * sizeof(double));
+    sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center, F->null.sweep);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->divisors[k]);
         if (S->parent[k] == -1) {
             status = sli_center_tree(F, first, k, total, m, failure);
-            m += m < F->n_anchors && F->anchors[m] <= k;
+            m += m < F->null.n_anchors && F->null.anchors[m] <= k;
             total = 0.0;
             first = k + 1;
         }
     }
     memcpy(F->divisors, F->D, (size_t)S->n * sizeof(double));
-    for (m = 0; m < F->n_anchors; m++) {
-        F->divisors[F->anchors[m]] = 1.0;
+    for (m = 0; m < F->null.n_anchors; m++) {
+        F->divisors[F->null.anchors[m]] = 1.0;
     }
     return status;
 }
@@ -180,20 +180,20 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
                                         sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const sli_reach all = sli_reach_all(S);
-    double *z = F->null_vectors == 1 ? F->g : F->products; /* g is loaded again below */
+    double *z = F->null.vectors == 1 ? F->null.g : F->null.products; /* g is loaded again below */
     uint64_t random = 1;
     sli_null_walk w;
     sl_status status = SL_OK;
     sl_int k, m, first = -1;
-    for (m = F->n_nulls - 1; m >= 0; m--) {
-        first = F->rule.kinds[F->nulls[m]] == SLI_PIVOT_UNKNOWN ? F->nulls[m] : first;
+    for (m = F->null.count - 1; m >= 0; m--) {
+        first = F->rule.kinds[F->null.pivots[m]] == SLI_PIVOT_UNKNOWN ? F->null.pivots[m] : first;
     }
     if (first == -1) {
         return SL_OK;
     }
     memset(z, 0, (size_t)S->n * sizeof(double));
-    for (m = 0; m < F->n_nulls; m++) {
-        k = F->nulls[m];
+    for (m = 0; m < F->null.count; m++) {
+        k = F->null.pivots[m];
         if (F->rule.kinds[k] == SLI_PIVOT_UNKNOWN) {
             random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
             /* divided by D(k), which is SLI_NULL_PIVOT, it is between 0.5 and 1 */
@@ -201,14 +201,15 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
         }
     }
     sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, z,
-                       F->center_scratch);
-    w = sli_null_product(S, from, from->A != NULL && !F->has_duplicates, F->rows, z, NULL);
+                       F->null.sweep);
+    w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
+                         NULL);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         if (!(fabs(w.rows[k].product) <= 1e-4 * w.rows[k].size)) {
             status = sli_fail(failure, SL_ERR_PIVOT, S->super_of[first], first, -1, 0.0);
         }
     }
-    if (F->null_vectors == 1) {
+    if (F->null.vectors == 1) {
         sli_null_vectors_load(F);
     }
     return status;
@@ -219,8 +220,8 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
 static void sli_anchor_columns_clear(sl_factor *F) {
     const sl_symbolic *S = F->S;
     sl_int m, r;
-    for (m = 0; m < F->n_nulls && F->null_vectors > 1; m++) {
-        const sl_int k = F->nulls[m];
+    for (m = 0; m < F->null.count && F->null.vectors > 1; m++) {
+        const sl_int k = F->null.pivots[m];
         const sli_step *step = &S->steps[S->super_of[k]];
         for (r = k - step->column + 1; r < step->width + step->below; r++) {
             sli_entry_clear(F, step->panel + sli_panel_at(step->width, r, k - step->column));
@@ -233,24 +234,25 @@ static void sli_anchor_columns_clear(sl_factor *F) {
 static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failure *failure) {
     sl_status status;
     sl_int k, m, regular = 0;
-    F->n_nulls = 0;
+    F->null.count = 0;
     for (k = 0; k < F->S->n; k++) {
-        regular += F->last[k] == k;
+        regular += F->null.last[k] == k;
         if (sli_is_skipped(F, k)) {
-            F->nulls[F->n_nulls++] = k;
+            F->null.pivots[F->null.count++] = k;
         }
     }
-    for (m = 0; m < F->n_nulls; m++) { /* the rounding errors are read no more: they become marks */
-        double *mark = &F->rounding[F->last[F->nulls[m]]];
+    for (m = 0; m < F->null.count;
+         m++) { /* the rounding errors are read no more: they become marks */
+        double *mark = &F->null.rounding[F->null.last[F->null.pivots[m]]];
         regular -= *mark >= 0.0;
         *mark = -1.0;
     }
     F->stats.factor.regular = regular;
-    F->is_centered = F->mass != NULL && F->n_nulls > 0;
-    F->checks = F->mass == NULL && F->n_nulls > 0 && F->consistency >= 0.0;
+    F->null.is_centered = F->null.mass != NULL && F->null.count > 0;
+    F->null.checks = F->null.mass == NULL && F->null.count > 0 && F->null.consistency >= 0.0;
     sli_anchor_columns_clear(F);
     status = sli_null_pivots_verify(F, from, failure);
-    return status == SL_OK && F->is_centered ? sli_center_compute(F, failure) : status;
+    return status == SL_OK && F->null.is_centered ? sli_center_compute(F, failure) : status;
 }
 
 #endif

@@ -46,8 +46,8 @@ SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
     F->extents[s].entry = F->extents[s].magnitude = 0.0;
     F->extents[s].pivot = -1;
     F->extents[s].zero = 0;
-    if (F->marks != NULL) {
-        F->marks[s] = SLI_MARK_BEGIN;
+    if (F->history.marks != NULL) {
+        F->history.marks[s] = SLI_MARK_BEGIN;
     }
 }
 

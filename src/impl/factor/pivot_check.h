@@ -23,7 +23,7 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
         return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
     }
-    if (F->null_pivots == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
+    if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
         !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
         return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
     }
@@ -100,7 +100,7 @@ static void sli_count_pivots(sl_factor *F, sl_int count) {
         }
         info.weak += F->rule.kinds != NULL && F->rule.kinds[k] == SLI_PIVOT_WEAK;
         if (sli_is_regularized(F, k)) {
-            F->regularized[info.regularized++] = k;
+            F->rule.regularized[info.regularized++] = k;
         }
         if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
             n_values = F->S->pairs[k] == SLI_PAIR_FIRST ? 2 : 0;

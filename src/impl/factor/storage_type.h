@@ -57,7 +57,7 @@ SLI_INLINE int sli_is_single(const sl_factor *F) {
 
 /* The panel of supernode s in double, while a worker factors it. */
 SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) {
-    return sli_is_float(F) ? F->panels + F->panel_room * worker
+    return sli_is_float(F) ? F->work.panels + F->work.panel_room * worker
                            : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
 }
 

@@ -7,11 +7,11 @@
 
 /* Links supernode s into the list of its next row below, if it has one. */
 static void sli_row_link(sl_factor *F, sl_int s) {
-    const sl_off at = F->S->rows_begin[s] + F->position[s];
+    const sl_off at = F->S->rows_begin[s] + F->row.position[s];
     if (at < F->S->rows_begin[s + 1]) {
         const sl_int k = F->S->rows[at];
-        F->next[s] = F->head[k];
-        F->head[k] = s;
+        F->row.next[s] = F->row.head[k];
+        F->row.head[k] = s;
     }
 }
 
@@ -20,7 +20,7 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
     const sl_symbolic *S = F->S;
     const sl_int first = S->super_first[s];
     F->kernels->row(sli_front_panel(F, s, 0), S->steps[s].width, q, S->rows + S->rows_begin[s],
-                    F->D + first, F->x + first, F->x, F->buffer, pivot, magnitude);
+                    F->D + first, F->row.x + first, F->row.x, F->work.buffer, pivot, magnitude);
 }
 
 /* Computes row k: first from the supernodes linked to it, ascending so that descendants come first,
@@ -28,17 +28,17 @@ static void sli_row_solve(sl_factor *F, sl_int s, sl_int q, double *pivot, doubl
 static void sli_row_solve_all(sl_factor *F, sl_int k, double *pivot, double *magnitude) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
-    uint64_t *list = F->list + S->n_supers; /* filled from its end: in a star it is ascending */
+    uint64_t *list = F->row.list + S->n_supers; /* filled from its end: in a star it is ascending */
     sl_int s, m, count = 0;
-    for (s = F->head[k]; s != -1; s = F->next[s]) {
+    for (s = F->row.head[k]; s != -1; s = F->row.next[s]) {
         *--list = sli_keyed(s, 0);
         count++;
     }
-    sli_sort(list, count, F->list_scratch);
+    sli_sort(list, count, F->row.list_scratch);
     for (m = 0; m < count; m++) {
         s = sli_key(list[m]);
-        sli_row_solve(F, s, S->steps[s].width + F->position[s], pivot, magnitude);
-        F->position[s]++;
+        sli_row_solve(F, s, S->steps[s].width + F->row.position[s], pivot, magnitude);
+        F->row.position[s]++;
         sli_row_link(F, s);
     }
     if (k > S->super_first[own]) {
@@ -52,8 +52,8 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < S->n; k++) {
-        F->head[k] = -1;
-        F->x[k] = 0.0;
+        F->row.head[k] = -1;
+        F->row.x[k] = 0.0;
     }
     for (k = 0; k < S->n && status == SL_OK; k++) {
         const sl_int s = S->super_of[k], q = k - S->super_first[s];
@@ -75,7 +75,7 @@ static sl_status sli_uplooking(sl_factor *F, const sli_source *from, sli_failure
         F->D[k] = pivot;
         status = sli_check_pivot(F, s, k, pivot, magnitude, failure);
         if (q == S->steps[s].width - 1) {
-            F->position[s] = 0;
+            F->row.position[s] = 0;
             sli_row_link(F, s);
         }
     }

@@ -33,7 +33,7 @@ SLI_INLINE sl_status sli_check_single(const sl_factor *F, const sli_front *f, sl
                                       sli_failure *failure) {
     const sl_int s = f->super, k = f->column + column;
     const float pivot = f->single.D[column], magnitude = f->single.magnitude[column];
-    const int is_null = F->null_pivots == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
+    const int is_null = F->null.mode == SL_NULL_PIVOT_SKIP && pivot == FLT_MAX;
     const double d = is_null ? SLI_NULL_PIVOT : (double)pivot, m = (double)magnitude;
     F->D[k] = d;
     if (!(m <= SLI_SINGLE_MOST) || (!is_null && m != 0.0 && m < SLI_SINGLE_LEAST)) {
@@ -61,7 +61,7 @@ SLI_INLINE int sli_rounding_harms(const sl_factor *F, const sli_front *f, sl_int
     if (l == 0.0 || fabs(l) >= (double)FLT_MIN || ldexp(d, -252) <= f->magnitude[r]) {
         return 0;
     }
-    return F->null_vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
+    return F->null.vectors <= 1 || f->magnitude[r] > ldexp(1.0, -900);
 }
 
 /* Rounds the panel of a front to float. Refuses what float cannot hold. */

@@ -165,7 +165,7 @@ static sl_status sli_region_check_factor(const sl_factor *F, const sl_selected *
     if (!F->is_valid || (Z != NULL && !sli_numbers_are_of(&Z->numbers, F))) {
         return SL_ERR_STATE;
     }
-    return F->is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
+    return F->null.is_centered ? SL_ERR_UNSUPPORTED : sli_inverse_check(F);
 }
 
 SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_int *set,

@@ -22,7 +22,8 @@ typedef struct sli_pivot_rule {
     signed char *kinds;    /* n: SLI_PIVOT_*; NULL if null pivots are not skipped */
     /* n: for kept pivots the rounding error that the heaviest row of the component may cause */
     const double *rounding;
-    double *shifts; /* n: what regularization added to each pivot; NULL without it */
+    double *shifts;      /* n: what regularization added to each pivot; NULL without it */
+    sl_int *regularized; /* n: the pivots that it changed, ascending; NULL: no regularization */
 } sli_pivot_rule;
 
 /* Replaces a null pivot that is skipped. It is so large that a division by it gives 0 or almost 0,

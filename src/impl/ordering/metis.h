@@ -103,8 +103,8 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
 
 #define SLI_ORDER_TINY 4 /* components of at most this size are not passed to METIS */
 
-/* Orders the graph of a job by METIS, component by component. A breadth-first search finds each component,
- * with perm itself as its queue; the component is then reordered in place. */
+/* Orders the graph of a job by METIS, component by component. A breadth-first search finds each
+ * component, with perm itself as its queue; the component is then reordered in place. */
 static sl_status sli_order_metis(const sli_order_job *job) {
     const sli_graph *G = job->G;
     sl_int *perm = job->perm, *local = job->scratch;

@@ -264,20 +264,20 @@ static int sli_check_columns(const sl_int *columns, sl_off count, sl_int n) {
 static int sli_check_anchors(const sl_factor *F) {
     const sl_symbolic *S = F->S;
     sl_int k, m = 0;
-    if (!sli_check_columns(F->anchors, F->n_anchors, S->n)) {
+    if (!sli_check_columns(F->null.anchors, F->null.n_anchors, S->n)) {
         return 0;
     }
-    for (k = 0; k < S->n && m < F->n_anchors; k++) {
+    for (k = 0; k < S->n && m < F->null.n_anchors; k++) {
         if (S->parent[k] == -1) {
-            m += F->anchors[m] <= k; /* it comes after the root before k */
-            if (m < F->n_anchors && F->anchors[m] <= k) {
+            m += F->null.anchors[m] <= k; /* it comes after the root before k */
+            if (m < F->null.n_anchors && F->null.anchors[m] <= k) {
                 return 0;
             }
         }
     }
-    for (m = 0; m < F->n_anchors; m++) {
-        const sl_int at = sli_lower_bound(F->nulls, F->n_nulls, F->anchors[m]);
-        if (at == F->n_nulls || F->nulls[at] != F->anchors[m]) {
+    for (m = 0; m < F->null.n_anchors; m++) {
+        const sl_int at = sli_lower_bound(F->null.pivots, F->null.count, F->null.anchors[m]);
+        if (at == F->null.count || F->null.pivots[at] != F->null.anchors[m]) {
             return 0;
         }
     }
@@ -317,9 +317,9 @@ static int sli_check_factor(const sl_factor *F) {
     const sl_factor_info *info = &F->stats.factor;
     const sl_int n = F->S->n;
     sl_int k, positive = 0, negative = 0, nulls = 0, shifted = 0, blocks = 0;
-    if (!sli_check_columns(F->nulls, F->n_nulls, n) ||
-        !sli_check_columns(F->regularized, info->regularized, n) ||
-        (F->is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
+    if (!sli_check_columns(F->null.pivots, F->null.count, n) ||
+        !sli_check_columns(F->rule.regularized, info->regularized, n) ||
+        (F->null.is_centered && !sli_check_anchors(F)) || !sli_check_extents(F) ||
         !sli_check_blocks(F)) {
         return 0;
     }
@@ -328,19 +328,19 @@ static int sli_check_factor(const sl_factor *F) {
         if (!sli_is_finite(d)) {
             return 0;
         }
-        if (F->null_pivots == SL_NULL_PIVOT_SKIP &&
+        if (F->null.mode == SL_NULL_PIVOT_SKIP &&
             (F->rule.kinds[k] < SLI_PIVOT_UNKNOWN || F->rule.kinds[k] > SLI_PIVOT_WEAK ||
-             (F->null_vectors == 1 && F->g[k] != 0.0 && F->g[k] != F->z[k]))) {
+             (F->null.vectors == 1 && F->null.g[k] != 0.0 && F->null.g[k] != F->null.z[k]))) {
             return 0;
         }
         if (sli_is_skipped(F, k)) {
-            if (nulls == F->n_nulls || F->nulls[nulls++] != k) {
+            if (nulls == F->null.count || F->null.pivots[nulls++] != k) {
                 return 0;
             }
             continue;
         }
         if (sli_is_regularized(F, k) &&
-            (shifted == info->regularized || F->regularized[shifted++] != k)) {
+            (shifted == info->regularized || F->rule.regularized[shifted++] != k)) {
             return 0;
         }
         if (F->E != NULL && F->S->pairs[k] != SLI_PAIR_NONE) {
@@ -355,7 +355,7 @@ static int sli_check_factor(const sl_factor *F) {
             return 0;
         }
     }
-    return nulls == F->n_nulls && shifted == info->regularized && info->positive >= positive &&
+    return nulls == F->null.count && shifted == info->regularized && info->positive >= positive &&
            info->negative >= negative &&
            info->positive - positive + (info->negative - negative) <= blocks;
 }

@@ -128,13 +128,13 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     if (F->type == NULL) { /* untested: SL_WITH_FLOAT is there */
         return 1;
     }
-    F->null_pivots = (sl_null_pivots)g->null_pivots;
-    F->checks = (int)g->checks;
-    F->is_centered = (int)g->is_centered;
-    F->n_nulls = (sl_int)g->nulls;
-    F->null_vectors = sli_max((sl_int)g->null_vectors, 1);
-    F->n_anchors = (sl_int)g->anchors;
-    F->consistency = g->consistency;
+    F->null.mode = (sl_null_pivots)g->null_pivots;
+    F->null.checks = (int)g->checks;
+    F->null.is_centered = (int)g->is_centered;
+    F->null.count = (sl_int)g->nulls;
+    F->null.vectors = sli_max((sl_int)g->null_vectors, 1);
+    F->null.n_anchors = (sl_int)g->anchors;
+    F->null.consistency = g->consistency;
     F->growth_limit = g->growth_limit;
     F->error_limit = g->error_limit;
     F->rule.epsilon = F->type->epsilon;

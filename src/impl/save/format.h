@@ -179,16 +179,16 @@ static void sli_saved_add_factor(sli_saved *f, const sl_factor *F, int has_facto
     SLI_ADD(24, extents, supers, supers);
     SLI_ADD(1, rule.signs, regularized, g->has_signs ? n : 0);
     SLI_ADD(8, rule.shifts, regularized, regularized);
-    SLI_ADD(4, regularized, regularized, (uint64_t)g->regularized);
-    SLI_ADD(4, nulls, skipped, (uint64_t)g->nulls);
+    SLI_ADD(4, rule.regularized, regularized, (uint64_t)g->regularized);
+    SLI_ADD(4, null.pivots, skipped, (uint64_t)g->nulls);
     SLI_ADD(1, rule.kinds, skipped, skipped);
-    SLI_ADD(8, z, vectors, vectors);
-    SLI_ADD(8, g, vectors, g->nulls > 0 ? vectors : 0);
-    SLI_ADD(4, anchors, trees, anchors);
-    SLI_ADD(8, squares, trees, anchors);
-    SLI_ADD(8, mass, weighted, weighted);
-    SLI_ADD(8, center, centers, g->is_centered ? centers : 0);
-    SLI_ADD(8, ratios, trees, anchors);
+    SLI_ADD(8, null.z, vectors, vectors);
+    SLI_ADD(8, null.g, vectors, g->nulls > 0 ? vectors : 0);
+    SLI_ADD(4, null.anchors, trees, anchors);
+    SLI_ADD(8, null.squares, trees, anchors);
+    SLI_ADD(8, null.mass, weighted, weighted);
+    SLI_ADD(8, null.center, centers, g->is_centered ? centers : 0);
+    SLI_ADD(8, null.ratios, trees, anchors);
     if (g->storage != SL_STORAGE_DOUBLE) {
         SLI_ADD(8, values, 0, 0);
         SLI_ADD(4, values, panels, panels);

@@ -331,7 +331,7 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
     sl_status status;
     int pass;
     memset(&q, 0, sizeof q);
-    if (F == NULL || F->is_centered) {
+    if (F == NULL || F->null.is_centered) {
         return SL_ERR_IO;
     }
     status = sli_read_part(r, r->first_region, F->S, F, INT32_MAX, &part);

@@ -40,13 +40,13 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     sli_saved_factor g;
     memset(&g, 0, sizeof g);
     g.method = F->method;
-    g.null_pivots = F->null_pivots;
-    g.has_mass = F->mass != NULL;
+    g.null_pivots = F->null.mode;
+    g.has_mass = F->null.mass != NULL;
     g.has_signs = F->rule.regularization != 0.0 && F->rule.signs != NULL;
-    g.checks = F->checks;
-    g.is_centered = F->n_nulls > 0 && F->is_centered;
-    g.nulls = F->n_nulls;
-    g.anchors = g.is_centered ? F->n_anchors : 0;
+    g.checks = F->null.checks;
+    g.is_centered = F->null.count > 0 && F->null.is_centered;
+    g.nulls = F->null.count;
+    g.anchors = g.is_centered ? F->null.n_anchors : 0;
     g.positive = info->positive;
     g.negative = info->negative;
     g.null = info->null;
@@ -57,18 +57,18 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.pivot_max = info->pivot_max;
     g.entry_max = info->entry_max;
     g.growth = info->growth;
-    if (F->drift > SLI_CHANGE_DRIFT) { /* as an error it is growth times epsilon */
-        g.entry_max = fmin(g.entry_max, F->scale);
-        g.growth = fmax(g.growth, F->drift / DBL_EPSILON);
+    if (F->history.drift > SLI_CHANGE_DRIFT) { /* as an error it is growth times epsilon */
+        g.entry_max = fmin(g.entry_max, F->history.scale);
+        g.growth = fmax(g.growth, F->history.drift / DBL_EPSILON);
     }
     g.null_tolerance = F->rule.null_tolerance;
     g.regularization = F->rule.regularization;
-    g.consistency = F->consistency;
+    g.consistency = F->null.consistency;
     g.growth_limit = F->growth_limit;
     g.error_limit = F->error_limit;
     g.identity[0] = F->identity.a;
     g.identity[1] = F->identity.b;
-    g.null_vectors = F->null_vectors > 1 ? F->null_vectors : 0;
+    g.null_vectors = F->null.vectors > 1 ? F->null.vectors : 0;
     g.storage = F->type->storage;
     return g;
 }

@@ -33,7 +33,7 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
         sli_pairs_apply(F, R, x, (sl_int)1 << kind);
     }
     sli_backward_sweep(F, kind, R->count, R->steps, R->rows + R->n_rows,
-                       F->is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
+                       F->null.is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
 }
 
 #endif

@@ -94,7 +94,7 @@ SLI_INLINE sl_int sli_block_size(sl_int nrhs, sl_int most) {
  * many vectors. What else a call does with a block, for singular matrices, is written for 8. */
 #define SLI_BLOCK_MOST 32
 SLI_INLINE sl_int sli_block_most(const sl_factor *F) {
-    return F->checks || F->is_centered || F->n_nulls > 0 ? 8 : SLI_BLOCK_MOST;
+    return F->null.checks || F->null.is_centered || F->null.count > 0 ? 8 : SLI_BLOCK_MOST;
 }
 
 /* Vectors and scratch of one block, cut from a workspace. */

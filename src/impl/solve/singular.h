@@ -116,15 +116,15 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
     double chains[SLI_TILE];
     const double *z;
     sl_int column = -1, r;
-    for (; *m < F->n_nulls && F->nulls[*m] <= last && column == -1; ++*m) {
+    for (; *m < F->null.count && F->null.pivots[*m] <= last && column == -1; ++*m) {
         dot->number = *m;
-        dot->null = F->nulls[*m];
+        dot->null = F->null.pivots[*m];
         column = sli_null_column(F, dot->null);
     }
     if (column == -1) {
         return 0;
     }
-    z = F->g + (size_t)column * (size_t)F->S->n;
+    z = F->null.g + (size_t)column * (size_t)F->S->n;
     memset(chains, 0, sizeof chains);
     for (; first <= root; first++) {
         const sli_step *step = &R->steps[first];
@@ -141,7 +141,8 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
 
 /* The number of the first null pivot in the tree of a root. */
 SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int root) {
-    return sli_lower_bound(F->nulls, F->n_nulls, sli_tree_range_of(F->S, &R->steps[root]).first);
+    return sli_lower_bound(F->null.pivots, F->null.count,
+                           sli_tree_range_of(F->S, &R->steps[root]).first);
 }
 
 /* Before the forward sweep, where components have several null vectors: Y := z' b for all that are
@@ -159,7 +160,7 @@ static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b
             for (r = 0; r < nrhs; r++) {
                 if (Y != NULL) {
                     Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
-                } else if (fabs(dot.sums[r]) > F->consistency * norms[r]) {
+                } else if (fabs(dot.sums[r]) > F->null.consistency * norms[r]) {
                     return 0;
                 }
             }
@@ -180,12 +181,13 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
             continue;
         }
         tree = sli_tree_range_of(F->S, &R->steps[s]);
-        for (m = sli_lower_bound(F->nulls, F->n_nulls, tree.first);
-             m < F->n_nulls && F->nulls[m] <= tree.root; m++) {
-            const int is_judged = F->null_vectors > 1 && sli_null_column(F, F->nulls[m]) != -1;
-            const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->nulls[m]);
+        for (m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
+             m < F->null.count && F->null.pivots[m] <= tree.root; m++) {
+            const int is_judged =
+                F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
+            const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
             for (r = 0; at != -1 && r < lanes; r++) {
-                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->consistency * norms[r]) {
+                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
                     return 0;
                 }
             }
@@ -210,15 +212,15 @@ static void sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int
         double chains[SLI_TILE] = {0.0};
         for (s = first; s <= root; s++) {
             const sli_step *step = &R->steps[s];
-            sli_chains_add(chains, F->center + (size_t)j * (size_t)F->S->n + step->column,
+            sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
                            y + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
         }
         sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
     }
-    at = count == 1 ? sli_reach_index_of(R, F->anchors[m]) : -1;
+    at = count == 1 ? sli_reach_index_of(R, F->null.anchors[m]) : -1;
     for (r = 0; r < lanes && count == 1; r++) {
-        const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->ratios[m] : 0.0;
-        terms->t[r] = c * F->squares[m] - terms->c[0][r];
+        const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
+        terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
         terms->c[0][r] = c;
     }
 }
@@ -243,10 +245,10 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
  * there, and a local solve may reach some of them with b only, or with x. */
 static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
                        const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
-    const int is_one = F->null_vectors == 1;
-    const sl_int *list = is_one ? F->anchors : F->nulls;
-    const sl_int listed = is_one ? F->n_anchors : F->n_nulls;
-    const sl_int count = F->is_centered ? sli_center_count(F) : 0;
+    const int is_one = F->null.vectors == 1;
+    const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
+    const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
+    const sl_int count = F->null.is_centered ? sli_center_count(F) : 0;
     sl_int first = 0, at = 0, root, m, j;
     for (root = 0; root < from->count; root++) {
         sli_center_terms terms;
@@ -257,7 +259,7 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
         tree = sli_tree_range_of(F->S, &from->steps[root]);
         m = sli_lower_bound(list, listed, tree.first);
         if (m < listed && list[m] <= tree.root &&
-            (uses == NULL || uses[sli_lower_bound(F->nulls, F->n_nulls, list[m])] == 0)) {
+            (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
             sli_center_tree_terms(F, from, first, root, y, lanes, m, count, &terms);
             for (; m < listed && list[m] <= tree.root && !is_one; m++) {
                 j = sli_reach_index_of(to, list[m]);
@@ -270,7 +272,7 @@ static void sli_center(const sl_factor *F, const sli_reach *from, const double *
                 double *row = x + (ptrdiff_t)step->base * lanes;
                 const sl_int columns = sli_step_columns(step);
                 for (j = 0; j < count && step->column >= tree.first; j++) {
-                    const double *v = F->center + (size_t)j * (size_t)F->S->n + step->column;
+                    const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
                     const double *D = F->divisors + step->column;
 #define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
                     SLI_FOR_LANES(lanes, SLI_CALL)

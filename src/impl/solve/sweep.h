@@ -26,7 +26,7 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
     const sli_reach *R = &q->forward;
     const sl_int *rows = R->rows;
     sl_int first = 0, s;
-    if (F->n_nulls == 0 || F->null_vectors > 1) {
+    if (F->null.count == 0 || F->null.vectors > 1) {
         sli_forward_sweep(F, kind, R->count, R->steps, rows, v->y, v->scratch);
         return;
     }
@@ -57,15 +57,15 @@ static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vect
     const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     double norms[SLI_TILE];
     sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
-    if (F->checks) {
+    if (F->null.checks) {
         sli_norms(&q->forward, v->y, lanes, norms);
-        if (F->null_vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
+        if (F->null.vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
             !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
             return 0;
         }
     }
     sli_sweep_forward(F, q, v, nrhs);
-    return !F->checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
+    return !F->null.checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
 }
 
 /* P x := L'^-1 D^-1 y in the backward vector. */
@@ -79,7 +79,7 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     if (q->ending != NULL) {
         q->ending->calls->apply(F, q, kind, v);
     }
-    if (F->is_centered || F->null_vectors > 1) {
+    if (F->null.is_centered || F->null.vectors > 1) {
         sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
     }
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
@@ -122,7 +122,7 @@ static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double
 static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
                            const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
     sl_status status = SL_OK;
-    if (F->checks && nrhs > 8 && q->nb > 0) {
+    if (F->null.checks && nrhs > 8 && q->nb > 0) {
         status = sli_sweep_check(F, q, B + 8 * b_at.column, b_at, nrhs - 8, memory);
     }
     return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;

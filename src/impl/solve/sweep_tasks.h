@@ -200,7 +200,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     }
     workers = entries < workers ? (sl_int)entries : workers;
     if (workers < 2 || (nrhs > 1 && nrhs <= 8) || q->b_index != S->iperm ||
-        q->x_index != S->iperm || F->checks || F->n_nulls > 0) {
+        q->x_index != S->iperm || F->null.checks || F->null.count > 0) {
         return;
     }
     t->F = F;
