@@ -1,114 +1,58 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 67359e9f62b70f09
+ * FNV-1a of the lines after this comment, without the license: c5cf7efadb69e27f
  * The comments of the implementation are in src/impl.
  *
  * Contents
- * (what a user reads)
- *    111 intro.h      what the library does, a quick start, notation, conventions, threads, references
- *    181 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    214 config.h     macros that a user may define before the include, the version, and the integer types
- *    292 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    462 options.h    options of all calls, threads, and the allocator
- *    602 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    799 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    971 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1109 factor.h     the numerical factorization P A P' = L D L'
- *   1398 solve.h      full solves, and the workspace of all solves
- *   1491 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1569 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1668 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1792 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1891 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1999 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   2106 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   2145 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2335 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2523 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2616 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2768 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2823 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2926 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- * (bodies, in one source file)
- * (base: the compiler, status, memory, sorting, threads)
- *   3076 base.h   3376 status.h   3437 options.h   3498 alloc.h   3661 hash.h   3791 sort.h
- *   3856 parallel.h
- * (kernels: numerical kernels on raw arrays, once for each instruction set)
- *   4046 panel.h   4071 step.h   4150 pivot_rule.h   4225 front.h   4285 pairs.h   4492 table.h
- *   4508 simd.h   4611 simd_scalar.h   4638 simd_avx2.h   4705 simd_avx512.h   4737 simd_neon.h
- *   4767 dispatch.h
- * (matrix: sparse matrices of the caller and of the library)
- *   4881 csc.h   5024 csc_build.h   5158 csc_triangle.h   5223 csc_products.h   5340 permute.h
- * (ordering: fill-reducing orderings of a graph)
- *   5407 graph.h   5578 job.h   5614 reduce.h   5919 contract.h   6100 coarsen.h   6314 labels.h
- *   6540 subgraph.h   6734 bisect.h   7002 separator.h   7264 mindeg.h   7447 dissection.h
- *   7657 dissect.h   7911 levelset.h   8048 thin.h   8317 nd.h   8581 compress.h   8735 metis.h
- *   8865 levels.h   8939 quotient.h   9273 quotient_order.h   9367 choice.h   9539 order.h
- * (analysis: elimination tree, supernodes, structure of L; never sees a value)
- *   9743 symbolic_types.h   9786 etree.h   9983 supernodes.h  10241 pattern.h  10322 structure.h
- *  10493 schedule.h  10824 symbolic.h  11312 reach.h
- * (factor: the numbers of L and D)
- *  11588 factor_types.h  11794 storage_type.h  11859 panel_load.h  11900 pivot_check.h
- *  12004 null_product.h  12208 null_dense.h  12285 null_basis.h  12605 null_vectors.h
- *  12737 multifrontal.h  12880 uplooking.h  12954 front_tasks.h  13268 null_center.h
- *  13392 nullspace.h  13601 growth.h  13679 factor_setup.h  14016 factor.h  14231 factor_query.h
- * (solve: full and local solves)
- *  14367 work.h  14471 query.h  14726 singular.h  14988 backward.h  15018 sweep_tasks.h
- *  15349 sweep.h  15517 compile.h  15652 plan.h  15740 local.h
- * (accuracy: refinement, condition, defects, half solves)
- *  15842 parts.h  16102 refine.h  16269 refine_local.h  16468 rcond.h  16616 defects.h
- * (pivots: the order of the pivots by the values of a matrix)
- *  16673 pivot_search.h  17019 pivoted.h
- * (float: L and fronts in single precision)
- *  17091 simd_scalar_single.h  17122 simd_avx2_single.h  17179 simd_avx512_single.h
- *  17234 simd_neon_single.h  17279 float_kernels.h  17377 float_storage.h
- * (inverse: entries of the inverse, regions)
- *  17542 inverse_front.h  17614 inverse_kernels.h  17686 traversal.h  17940 traversal_run.h
- *  18149 row_sets.h  18183 unit_vectors.h  18404 bilinear.h  18576 entries.h  18853 block.h
- *  19083 selected.h  19280 selected_query.h  19382 region_types.h  19482 region_choose.h
- *  19709 region_ending.h  19825 region.h
- * (change: a factor that follows changes of its matrix)
- *  20067 change_kernels.h  20140 gather.h  20188 kept.h  20345 leftlooking.h  20515 update_pivots.h
- *  20686 update.h  20920 path.h  21022 rank.h  21414 edges.h  21568 choose.h  21818 pins_types.h
- *  21884 pins_nulls.h  22066 pins_capacitance.h  22331 pins_rows.h  22451 pins_balance.h
- *  22614 pins_held.h  22842 pins_choose.h  22908 pins_rebuild.h  23131 pins_matrix.h  23282 pins.h
- *  23544 pins_solve.h  23818 subset.h  23971 restrict_kept.h  24169 restrict_analysis.h
- *  24414 restrict_symbolic.h  24609 restrict.h  24840 edit_match.h  25039 edit_place.h
- *  25288 edit_separate.h  25602 edit_order.h  25765 edit_graph.h  25847 edit_join.h  26123 edit.h
- *  26286 edit_factor.h
- * (io: files that are written and mapped)
- *  26574 output_file.h  26783 file_map.h
- * (files: Matrix Market files, 64-bit indices)
- *  26884 csc64.h  26955 text_reader.h  27136 matrix_market.h
- * (save: factors in files)
- *  27406 format.h  27703 decode.h  27854 check.h  28184 write.h  28466 load.h  28739 load_inverse.h
- *  29069 load_calls.h
- * (batch: many solves and factorizations by one call, sums of matrices)
- *  29229 matrix_sum.h  29311 scatter.h  29469 combination.h  29529 batch_solve.h
- *  29723 batch_factor.h
- * (batch: diagonals of many inverses)
- *  29927 batch_diagonal.h
- * (complex: complex Hermitian systems over real factors)
- *  30069 complex_kernels.h  30181 complex_storage.h  30302 hermitian.h  30464 complex_rows.h
- * (packs: the tables through which the core calls packs)
- *  30633 storage_types.h
- * (last: undefine every internal macro)
- *  30660 undef.h
- * (templates: the header includes them from itself, once for each instruction set)
- *  30958 words_scalar.inl.h  31054 change.inl.h  31310 lanes_scalar.inl.h  31342 products.inl.h
- *  31380 inverse_front.inl.h  31685 inverse_set.inl.h  31698 front.inl.h  31700 product.inl.h
- *  32188 complex_groups.inl.h  32279 copy_rows.inl.h  32317 sweeps.inl.h  32319 unit_triangle.inl.h
- *  32356 two_rhs.inl.h  32526 small_supernode.inl.h  32728 single_rhs.inl.h  32968 multi_rhs.inl.h
- *  33031 multi_rhs_small.inl.h  33210 multi_rhs_tiles.inl.h  33449 complex_small.inl.h
- *  33645 complex_rows.inl.h  33868 complex_set.inl.h  33886 float_set.inl.h  33904 kernel_set.inl.h
- *  33906 row.inl.h  33938 interleave.inl.h  34040 lanes_undef.inl.h  34067 words_undef.inl.h
- *  34150 words_avx2.inl.h  34282 lanes_avx2.inl.h  34344 words_avx512.inl.h
- *  34453 lanes_avx512.inl.h  34500 words_neon.inl.h  34649 lanes_neon.inl.h  34728 fronts.inl.h
- *  34959 fronts_undef.inl.h
+ *     55 intro.h      what the library does, a quick start, which call for which question, references
+ *    158 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    191 config.h     macros that a user may define before the include, the version, and the integer types
+ *    269 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    439 options.h    options of all calls, threads, and the allocator
+ *    578 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    775 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    947 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1046 factor.h     the numerical factorization P A P' = L D L'
+ *   1197 solve.h      full solves, and the workspace of all solves
+ *   1290 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1368 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1467 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1584 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1663 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1771 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1878 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1917 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2107 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2295 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2377 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2529 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2572 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2663 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2813 impl/ base: the compiler, status, memory, sorting, threads
+ *   3783 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4618 impl/ matrix: sparse matrices of the caller and of the library
+ *   5144 impl/ ordering: fill-reducing orderings of a graph
+ *   9480 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11325 impl/ factor: the numbers of L and D
+ *  14104 impl/ solve: full and local solves
+ *  15579 impl/ accuracy: refinement, condition, defects, half solves
+ *  16410 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16828 impl/ float: L and fronts in single precision
+ *  17279 impl/ inverse: entries of the inverse, regions
+ *  19804 impl/ change: a factor that follows changes of its matrix
+ *  26311 impl/ io: files that are written and mapped
+ *  26621 impl/ files: Matrix Market files, 64-bit indices
+ *  27143 impl/ save: factors in files
+ *  28966 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29664 impl/ batch: diagonals of many inverses
+ *  29806 impl/ complex: complex Hermitian systems over real factors
+ *  30370 impl/ packs: the tables through which the core calls packs
+ *  30397 impl/ last: undefine every internal macro
+ *  30695 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
 #define SPARSE_LOCAL_H
-/* src/public/intro.h: what the library does, a quick start, notation, conventions, threads, references */
+/* src/public/intro.h: what the library does, a quick start, which call for which question, references */
 
 /* sparse_local.h factors a sparse symmetric matrix once, P A P' = L D L', and then answers many
  * small questions from that factor: b is nonzero in a few rows, x is wanted in a few others. The
@@ -124,12 +68,42 @@
  *     sl_symbolic *S;  sl_factor *F;  sl_plan *P;
  *     sl_symbolic_create(&S, &A, NULL, NULL);            once per pattern
  *     sl_factor_create(&F, S, &A, NULL, NULL);           once per matrix
- *     sl_factor_solve(F, x, n, b, n, 1, NULL);           full solve
- *     sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL);
+ *     sl_factor_solve(F, x, n, b, n, 1, NULL);           full solve: x and b have n rows
+ *     sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL);    rows of b and rows of x
  *     sl_plan_solve(P, F, x, nx, b, nb, 1, NULL);        local solve, any number of times
+ *     sl_local_solve(F, bset, nb, xset, nx, x, nx, b, nb, 1, NULL, NULL);       the same once
+ *     sl_factor_refactor(F, &A, NULL);                   new values, same pattern; P stays valid
  *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
  *
- * Notation     A is n x n. perm[k] is the row of A that is pivot k; iperm is the inverse of perm.
+ * The 1 is the number of right-hand sides; the NULLs are options, workspaces and statistics. These
+ * calls are the core.
+ */
+
+/* Which call for which question
+ *
+ *  the same pattern with new values               sl_factor_refactor                     factor.h
+ *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
+ *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
+ *  the same once                                  sl_local_solve                         plan.h
+ *  many such questions in one part of a mesh      sl_region_create                       region.h
+ *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  an indefinite or KKT system                    sl_symbolic_create_pivoted             analyze.h
+ *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
+ *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
+ *  rows held at given values                      sl_pins_create                         pins.h
+ *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
+ *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
+ *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
+ *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
+ *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
+ *  many solves, many factors, M + t K             sl_batch_solve, sl_batch_factor        batch.h
+ *  a factor in a file, mapped without a copy      sl_map_file                            save.h
+ *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
+ *  matrices from triplets or files                sl_matrix_from_triplets, _read         csc.h
+ *  several processors                             options.threads                        options.h
+ */
+
+/* Notation     A is n x n. perm[k] is the row of A that is pivot k; iperm is the inverse of perm.
  *              parent is the elimination tree, -1 at a root. L is unit lower triangular and stored
  *              in supernodal panels; D is diagonal. A reach is a set of columns closed under
  *              parent. nnz counts stored entries.
@@ -143,39 +117,42 @@
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work.
- *
- * References
- *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry
- *            processing, 2017.
- *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
- *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
- *  [FF56]    Ford, Fulkerson: Maximal flow through a network, 1956.
+ * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
+ *              details and measurements that a contract leaves out.
+ */
+
+/* References
+ *  [ADD96]    Amestoy, Davis, Duff: An approximate minimum degree ordering algorithm, 1996.
+ *  [AG89]     Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
+ *             method, 1989.
+ *  [Bie76]    Bierman: Measurement updating using the U-D factorization, 1976.
+ *  [Davis06]  Davis: Direct Methods for Sparse Linear Systems, 2006.
+ *  [DH01]     Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
+ *  [DR83]     Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear
+ *             equations, 1983.
+ *  [ET75]     Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix,
+ *             1975.
+ *  [FF56]     Ford, Fulkerson: Maximal flow through a network, 1956.
+ *  [FM82]     Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [George73] George: Nested dissection of a regular finite element mesh, 1973.
- *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
- *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
- *  [MR85]    Miller, Reif: Parallel tree contraction and its application, 1985.
- *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
- *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations,
- *            1983.
- *  [Liu92]   Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
- *  [ET75]    Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix,
- *            1975.
- *  [SelInv]  Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric matrix,
- *            2011.
- *  [ADD96]   Amestoy, Davis, Duff: An approximate minimum degree ordering algorithm. SIAM J. Matrix
- *            Anal. Appl. 17(4), 1996
- *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
- *            method, 1989.
- *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
- *  [HA18]    Herholz, Alexa: Factor once: reusing Cholesky factorizations on sub-meshes, 2018.
- *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
- *  [Hager89] Hager: Updating the inverse of a matrix, 1989.
- *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
- *  [Hi02]    Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
- *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
- *            1980.
- *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular
- *            graphs, 1998.
+ *  [HA18]     Herholz, Alexa: Factor once: reusing Cholesky factorizations on sub-meshes, 2018.
+ *  [Hager89]  Hager: Updating the inverse of a matrix, 1989.
+ *  [HDA17]    Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry
+ *             processing, 2017.
+ *  [Hi88]     Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
+ *  [Hi02]     Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
+ *  [KK98]     Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular
+ *             graphs, 1998.
+ *  [LDL05]    Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [Liu90]    Liu: The role of elimination trees in sparse factorization, 1990.
+ *  [Liu92]    Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
+ *  [MR85]     Miller, Reif: Parallel tree contraction and its application, 1985.
+ *  [NP93]     Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers,
+ *             1993.
+ *  [SelInv]   Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric
+ *             matrix, 2011.
+ *  [Sk80]     Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
+ *             1980.
  */
 
 /* src/public/packs.h: the packs that a user asks for: what each adds to the core, and what it brings along */
@@ -397,8 +374,8 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
-/** How a factor keeps L. D, B, X and the arithmetic of solves are double in any case. See
- *  sl_factor_create. */
+/** How a factor keeps L. B, X and the arithmetic of solves are double in any case. Accuracy and
+ *  limits: tools/docs/float.md. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
@@ -539,13 +516,12 @@ typedef struct sl_options {
     sl_method method;
     sl_null_pivots null_pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
-     * not read where a known null vector decides (sl_factor_create); 0: (64 + n/8) epsilon;
+     * not read where a known null vector decides (tools/docs/singular.md); 0: (64 + n/8) epsilon;
      * negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
-     * vectors z it has sum m z x = 0 for each of them (sl_factor_create); NULL: x is 0 in the null
-     * rows */
+     * vectors z it has sum m z x = 0 for each of them; NULL: x is 0 in the null rows */
     const double *mass;
     /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
@@ -581,10 +557,10 @@ typedef struct sl_options {
     double error_limit;
 
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
-     * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
+     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
     /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
-     * float; solutions have the accuracy of float until they are refined (sl_factor_create).
+     * float; solutions have the accuracy of float until they are refined (tools/docs/float.md).
      * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
@@ -972,33 +948,10 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
 
 /** Analyzes the pattern of a symmetric matrix, for any number of factorizations with that pattern.
  *
- *  Orders the rows; computes the elimination tree, its postorder, column counts, supernodes and
- *  their row structure; and maps each entry of A to its position in L.
- *
- *  SL_ORDERING_GIVEN and SL_ORDERING_NATURAL keep the caller's order if it is a postorder of the
- *  supernodes: the columns of each supernode are consecutive, and so are those of each subtree of
- *  supernodes. L is stored in this form. Any other order is replaced by an equivalent one, with the
- *  same fill and the same elimination tree up to numbering: the columns of a supernode keep the
- *  caller's order, and sibling subtrees follow each other by their last columns. With
- *  SL_RELAXATION_NONE every postorder of the elimination tree is kept; the default relaxation may
- *  move a small supernode next to the parent it merges into. sl_symbolic_view's perm is the order
- *  used.
- *
- *  SL_ORDERING_ND is nested dissection. On graphs whose degrees vary, such as networks and KKT
- *  systems, it also tries minimum degree, and takes that if both L and the paths to the roots have
- *  fewer entries. Dissection is not tried where it cannot win: if nearly all operations of minimum
- *  degree are in one dense block, and on KKT systems with a diagonal Hessian and paths as short as
- *  those of plane meshes.
- *
- *  Where one row in 8 or more has at most two neighbors, SL_ORDERING_ND and SL_ORDERING_MINDEG
- *  eliminate such rows first. This repeats while rows with at most two neighbors are left. Paths in
- *  a tree or a chain of n rows then have O(log n) columns, and with minimum degree a tree has no
- *  fill.
- *
- *  The other orderings treat a row that stores no diagonal entry and has 8 neighbors or more, and
- *  sqrt(n) or more, as a constraint, such as m in [L m; m' 0]: they never order it after all of its
- *  neighbors, so that no pivot of a singular Laplacian L is null. A corner that stores a zero hides
- *  this.
+ *  Orders the rows; computes the elimination tree, supernodes and their row structure; and maps
+ *  each entry of A to its position in L. A given or natural order that is not a postorder of the
+ *  supernodes is replaced by an equivalent one, of the same fill: sl_symbolic_view's perm is the
+ *  order used.
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  A      [in]   n x n, symmetric; values are not read (x may be NULL); not kept.
@@ -1007,46 +960,31 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  *                SL_ORDERING_GIVEN and SL_ORDERING_NATURAL; every ordering refuses an invalid one.
  *  stats  [out]  symbolic; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, perm is not a permutation (error.row is the first
- *           offending position), an unknown ordering, purpose, relaxation or triangle,
- *           metis_options that METIS would refuse, a block_size that does not divide n;
- *           SL_ERR_PATTERN; SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING;
+ *           offending position), or another option that is not allowed; SL_ERR_PATTERN;
+ *           SL_ERR_UNSUPPORTED: METIS is not compiled in; SL_ERR_ORDERING: METIS failed;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     the ordering, then nearly O(nnz(A) + rows of the supernodes). Each further thread has
  *           scratch of about the size of the pattern, of which it writes little.
- *  Threads  options.threads, up to 16, distribute the subgraphs of SL_ORDERING_ND and, except with
- *           SL_ORDERING_METIS, the entries of A, with the same result for any number of them. The
- *           call is one call of the pool; any of its threads may call the allocator, one at a time.
- *           Small systems use fewer threads. Any number of calls at once, with the same result for
- *           the same pattern however it is stored, on every processor and with every compiler,
- *           except with METIS: METIS seeds and draws from rand() of the C library and prints a line
- *           if it runs out of memory. During SL_ORDERING_METIS it traps SIGABRT and SIGTERM of the
- *           whole process. Concurrent calls with METIS are safe only if rand() is, and may then
- *           order differently from run to run.
+ *  Threads  options.threads, up to 16, distribute the ordering and the entries of A, by one call of
+ *           the pool, whose threads may call the allocator, one at a time. Any number of calls at
+ *           once. The result is the same for any number of threads, on every processor and with
+ *           every compiler, except with METIS, which uses rand() and signals of the process.
  *  Source   [George73] nested dissection; [KK98] multilevel graphs; [FM82] refinement of
  *           separators; [FF56] minimum vertex cuts; [ADD96] minimum degree; [MR85] trees;
  *           [Liu90] elimination tree, structures of columns; [AG89] relaxed supernodes.
+ *  Manual   tools/docs/ordering.md: the orderings, what METIS does to a process
  *  Example  tests/core/test_symbolic.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Analyzes a symmetric indefinite matrix, with pivots that are chosen by its values.
+/** Analyzes a symmetric indefinite matrix, with 1x1 and 2x2 pivots that are chosen by its values.
  *
- *  For matrices that have no stable factorization with a diagonal D in the order of the pattern,
- *  such as KKT systems with zeros on the diagonal or an indefinite H. A factorization selects 1x1
- *  and 2x2 pivots by threshold partial pivoting: with these values no entry of L exceeds 100. A
- *  column without an acceptable pivot in its front is delayed: it moves up to the parent's front.
- *  The result is analyzed in the order of the pivots, and D of its factors has 2x2 blocks.
- *
- *  The pivots are those of the values of A. Factors of other values keep them, and are then no more
- *  accurate than in any fixed order: check stats.factor.growth, as with any indefinite matrix
- *  (sl_factor_create), and analyze again if it is large. All calls work on these factors except the
- *  following.
- *  - If there are 2x2 pivots, factors use the supernodal method, whatever options.method, and
- *    entries of the inverse, selected inverses and regions give SL_ERR_UNSUPPORTED.
- *  - SL_NULL_PIVOT_SKIP gives SL_ERR_UNSUPPORTED.
- *  - With options.regularization and no signs, pivots of both signs are right, and only null ones
- *    are replaced. Signs do not apply to 2x2 pivots. A null one is shifted in both rows.
+ *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
+ *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
+ *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
+ *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
+ *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
  *
  *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
  *                tree.
@@ -1059,6 +997,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_c
  *           keeps its update matrices in memory of their own.
  *  Threads  as sl_symbolic_create.
  *  Source   [DR83] multifrontal with 1x1 and 2x2 pivots.
+ *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_pivots.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
@@ -1078,11 +1017,9 @@ SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats);
  *  from position panel_begin[s] of sl_factor_view's L: tile t has local rows 8t .. 8t+7 of columns
  *  0 .. min(width, 8(t+1))-1. The unit diagonal and the entries above it are stored as 0.
  *
- *  SL_ORDERING_ND keeps its separator tree. With other orderings, with minimum degree, if rows with
- *  few neighbors were eliminated first, and if a constraint was moved, n_nodes = 0 and the arrays
- *  are NULL. A node is a separator, or a subgraph that was not divided further. An entry of A joins
- *  two nodes only if one is an ancestor of the other. Nodes are numbered in elimination order, so
- *  that a separator follows the subgraphs that it separates.
+ *  Nodes are those of the separator tree, in elimination order: separators, and subgraphs that were
+ *  not divided further. An entry of A joins two nodes only if one is an ancestor of the other.
+ *  Without such a tree n_nodes = 0 and the arrays are NULL (tools/docs/ordering.md).
  */
 typedef struct sl_symbolic_arrays {
     sl_int n;
@@ -1111,132 +1048,10 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
 /** Factors P A P' = L D L' in the order of S: L unit lower triangular, D diagonal and of any sign,
  *  or with the 2x2 blocks of sl_symbolic_create_pivoted.
  *
- *  Definite and quasi-definite matrices can be factored in any order. Other symmetric indefinite
- *  matrices can be factored if no pivot is null. A pivot d is null if
- *  |d| <= null_tolerance * (sum of the magnitudes it was computed from); it is refused, skipped or
- *  regularized, depending on the options. Rounding from heavier rows may hide a null pivot from
- *  this test. Where null pivots are refused and null_tolerance is not negative, the last pivot of a
- *  component is therefore also null if it is below 16 (64 + n/8) epsilon times the heaviest pivot
- *  and constants are a null vector of the component, as defined below.
- *
- *  Accuracy: without pivoting, a small pivot of an indefinite matrix makes L grow, and digits of A
- *  are lost without any pivot being null, as in [1e-20 1; 1 1]. stats.factor.growth measures this.
- *  - Definite matrices have a growth of at most 2, however badly they are scaled, and need no test.
- *    Where all entries of a component are below 2.3e-308, growth counts the digits that they lack.
- *  - The backward error of sl_factor_solve and of local solves, as sl_csc_residual computes it, is
- *    at most about epsilon * growth: use a solution as it is if this is small enough and
- *    stats.factor.regularized is 0. It is a bound on normwise errors; rows that are tiny against
- *    others of their component can be worse, which sl_factor_refine sees.
- *  - Otherwise call sl_factor_refine, and trust X if it returns SL_OK. It repairs most systems
- *    whose growth is below options.growth_limit.
- *  - A growth beyond options.growth_limit is refused with SL_ERR_INACCURATE.
- *
- *  Storage: with SL_STORAGE_FLOAT each front is factored in double, and its panel of L is rounded
- *  to float when it is done. D, null pivots, growth and log-determinant are those of double, and
- *  every solve computes in double. L D L' is P (A + E) P' with |E| <= 1.2e-7 |L| |D| |L'|:
- *  solutions and entries of the inverse have a backward error of about 6e-8 * growth. The pivots
- *  are not rounded, so a definite matrix stays definite.
- *  - Full solves: each step of sl_factor_refine multiplies the error of x, in the energy norm of a
- *    definite matrix, by about 1e-7 sqrt(condition): 2 to 5 steps up to a condition of 1e9, more up
- *    to about 1e11. Beyond that, as sl_factor_rcond shows, use double: refinement then returns
- *    SL_ERR_INACCURATE, and a solution without it has no digit. Measured on grids for M + t (L
- *    M^-1)^(k-1) L, smoothing over a tenth of the grid, backward error and largest error of x:
- *
- *    | k, rows          | condition | no step    | 1 step     | 2 steps    | L in double |
- *    |------------------|-----------|------------|------------|------------|-------------|
- *    | 1 harmonic, 1e4  | 3e3       | 5e-8, 4e-7 | 2e-14, 2e-14 | 2e-16, 6e-15 | 5e-16, 7e-15 |
- *    | 1 harmonic, 1e6  | 3e5       | 1e-7, 5e-6 | 6e-13, 4e-13 | 3e-16, 5e-14 | 2e-15, 1e-13 |
- *    | 2 biharmonic, 1e4  | 9e6     | 4e-8, 8e-4 | 3e-11, 3e-10 | 3e-16, 6e-12 | 7e-16, 8e-12 |
- *    | 2 biharmonic, 1e5  | 2e9     | 6e-8, 2e-2 | 1e-9, 5e-8 | 1e-15, 5e-10 | 2e-15, 4e-10 |
- *    | 3 triharmonic, 1e4 | 3e10    | 3e-8, 0.9  | 3e-8, 7e-6 | 2e-13, 3e-7 | 1e-15, 2e-8 |
- *    | 3 triharmonic, 1e5 | 6e13    | 4e-8, 300  | 4e-8, 300  | 4e-8, 300  | 2e-15, 6e-6 |
- *
- *  - Local solves cannot be refined, as the residual needs all of x.
- *  - The method is supernodal. sl_factor_update and _update_entries return SL_ERR_UNSUPPORTED: each
- *    change would round L again. sl_factor_change and sl_factor_refactor_changed refactor
- *    completely.
- *  - An entry of L beyond the range of float is refused with SL_ERR_INACCURATE, as growth is; so is
- *    one that underflows where that loses more than rounding does. Scaling A to a unit diagonal
- *    avoids both.
- *
- *  With SL_STORAGE_FLOAT_FRONTS fronts and pivots are computed in float, too: about half the time
- *  and the memory of double, and all of the above with the following differences.
- *  - Solutions have a backward error of about 1e-7 to 1e-6 * growth before refinement: the rounding
- *    errors of the eliminations add up. D is rounded as well, and growth and log-determinant are
- *    known to float's accuracy.
- *    Refinement multiplies the error by about 1e-7 condition at most: 2 steps for harmonic systems
- *    and heat with 1e6 rows. Measured as above, with the 5-point Laplacian for heat, M + t L:
- *
- *    | k, rows            | condition | no step    | 1 step       | 2 steps      | 3 steps      |
- *    |--------------------|-----------|------------|--------------|--------------|--------------|
- *    | heat, t 1, 1e6     | 9         | 1e-7, 2e-7 | 6e-14, 6e-14 | 3e-16, 4e-16 |              |
- *    | the same, L alone in float | 9 | 6e-8, 2e-8 | 2e-15, 6e-16 | 2e-16, 4e-16 |              |
- *    | heat, t 10, 1e6    | 80        | 2e-7, 2e-7 | 1e-13, 2e-13 | 3e-16, 9e-16 |              |
- *    | 1 harmonic, 1e4    | 3e3       | 1e-7, 2e-6 | 6e-13, 4e-12 | 2e-16, 6e-15 |              |
- *    | 1 harmonic, 1e5    | 3e4       | 1e-7, 8e-6 | 4e-12, 5e-11 | 3e-16, 1e-14 |              |
- *    | 1 harmonic, 1e6    | 3e5       | 2e-7, 2e-5 | 1e-11, 7e-10 | 6e-16, 8e-14 | 3e-16, 4e-14 |
- *    | 2 biharmonic, 1e4  | 9e6       | 1e-7, 3e-3 | 5e-10, 6e-6  | 1e-12, 2e-8  | 5e-15, 9e-11 |
- *    | 2 biharmonic, 1e5; 3 triharmonic, 1e4 | 2e9; 3e10 | refused: SL_ERR_PIVOT |     |    |  |
- *
- *  - Pivots are judged by the rounding of float, epsilon = 1.2e-7: null_tolerance is (64 + n/8)
- *    epsilon, at most 1/32, unless it is given, and SL_ERR_PIVOT says that a pivot is null in
- *    float. A may be regular in double. A pivot of a semidefinite matrix within rounding of 0,
- *    which double would keep and count as weak, is refused, too.
- *  - Entries of A above 8.5e37, and pivots computed from magnitudes below 7.9e-31, are refused with
- *    SL_ERR_INACCURATE.
- *  - 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
- *
- *  Singular matrices: SL_NULL_PIVOT_SKIP factors positive or negative semidefinite matrices and
- *  skips null pivots; a Laplacian has one in each connected component, the last pivot of the
- *  component. Rounding cannot tell whether a pivot is null where weights differ by orders of
- *  magnitude, so the null vector decides. Let z be options.null_vector, or constant. Components are
- *  those of the graph of nonzero entries; duplicates that cancel are zeros.
- *  - Where |A z|_i <= 16 n_i epsilon (|A| |z|)_i in all rows i of a component, n_i the entries of
- *    row i, and z is not 0 in its last row, the last pivot is null, and no other one is. A pivot
- *    within rounding of 0, for example where a weak spring joins two grids, is kept and counted
- *    in stats.factor.weak. If such a component has a second null vector that is not given, its
- *    solutions are arbitrary in that direction; set z = 0 there.
- *  - Components with several null vectors, such as elastic bodies without supports, need all of
- *    them: options.null_vector is then a matrix of options.null_vector_count columns, such as the 3
- *    rigid motions in 2D or the 6 in 3D. Each component keeps the combinations Z of the columns
- *    with A Z = 0, by the bound above: a body that hangs on one hinge keeps the rotation
- *    about it. As many of its pivots are skipped, in rows that are far from each other, and no
- *    other one is null. The directions of translations and the center of rotations may be any; a
- *    center far from a body costs digits. In each tree of the elimination forest, the null vectors
- *    of all components with more than one row must not outnumber the columns.
- *  - In other components, and where z is 0, null_tolerance decides. It misses null pivots whose
- *    rounding errors come from rows much heavier than their own, and takes regular pivots for null
- *    that are smaller than it.
- *  - Components without a null pivot are counted in stats.factor.regular. Their solutions are
- *    unique; weights do not apply to them. If all components should be singular, check that it is
- *    0.
- *  - An indefinite matrix is refused: a diagonal entry or a pivot of the wrong sign beyond
- *    rounding, or a null pivot by the tolerance without a null vector.
- *  - With options.mass, weights m, and one null vector a component, every solve, full or local,
- *    computes in each component with a null pivot the x with sum m x = 0 that solves A x = b - c m.
- *    Here z is the null vector of the component, as above or computed from L, and c = z' b / z' m
- *    makes the right-hand side consistent. For a Laplacian z is constant, and x is the zero-mean
- *    solution of the Poisson problem. If all weights of a component are 0, as for a vertex without
- *    faces, all count as 1. A row of zeros is a component by itself, whatever the pattern; its x is
- *    0.
- *  - With options.mass, M = diag(m), and null_vector_count > 1, x has Z' M x = 0 for the null
- *    vectors Z that a component keeps, and solves A x = b - M Z c with c = (Z' M Z)^-1 Z' b. For
- *    rigid motions, x has neither a mean translation nor a mean rotation. Where Z' M Z is not
- *    definite beyond rounding, for example if only one vertex has weights, the factorization is
- *    refused; so are null pivots by the tolerance in components of more than one row.
- *  - Without options.mass, x is 0 in the rows of sl_factor_null_rows, and a solve refuses an
- *    inconsistent right-hand side with SL_ERR_INCONSISTENT (options.consistency_tolerance;
- *    sl_factor_defects computes how inconsistent it is). If that check is switched off, the
- *    residual of such a system is nonzero in these rows only.
- *  - Entries of the inverse are those of the generalized inverse that makes x 0 in the null rows.
- *
- *  KKT systems: with options.regularization and the known signs of the pivots, L D L' = P (A + E)
- *  P' where the diagonal matrix E is nonzero in the rows of sl_factor_regularized_rows only.
- *  sl_factor_refine and sl_plan_solve_refined then solve A x = b. If many diagonal entries are 0,
- *  add a small multiple of the signs to the whole diagonal beforehand: A becomes quasi-definite,
- *  and refinement removes the perturbation. If the signs are not those of the blocks, as when H is
- *  indefinite, regularization does not replace pivoting; stats.refine.backward_error shows this.
- *  sl_symbolic_create_pivoted needs neither signs nor shifts.
+ *  Definite and quasi-definite matrices can be factored in any order, other indefinite ones if no
+ *  pivot is null, semidefinite ones with SL_NULL_PIVOT_SKIP. Solves have a backward error of at
+ *  most about epsilon * stats.factor.growth. If that is not small enough, or if pivots were
+ *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
  *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
@@ -1245,39 +1060,24 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
  *                growth_limit, error_limit, storage; may be NULL.
  *  stats  [out]  factor; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, a weight or an entry
- *           of null_vector that is not finite or a sign other than -1, 0, 1 (error.row);
- *           SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_PIVOT: a null pivot at error.row; with
- *           SL_NULL_PIVOT_SKIP, the row that shows that A is indefinite; with mass, a second null
- *           pivot in its component or in one that explicit zeros join to it, or one whose null
- *           vectors the weights do not fix (z' m = 0, Z' M Z not definite); SL_ERR_NOT_FINITE: at
- *           error.row, and error.column if it is an entry of A; with mass, also a mean that
- *           overflows; SL_ERR_INACCURATE: growth above its limit, caused by the pivot error.value
- *           of error.row, or an entry of L in the column of that pivot that float cannot hold, or
- *           with SL_STORAGE_FLOAT_FRONTS that pivot or the entry of A at error.row, error.column;
- *           SL_ERR_UNSUPPORTED: the isa, or SL_NULL_PIVOT_SKIP with a pivoted analysis,
- *           SL_STORAGE_FLOAT_FRONTS with 2x2 pivots, or more null vectors in the tree of error.row
- *           than columns;
- *           SL_STORAGE_COMPLEX of a matrix that sl_matrix_from_hermitian did not make, of an
- *           analysis without block_size 2, of sums, or with null pivots that are replaced;
- *           SL_ERR_TOO_LARGE: L exceeds size_t; SL_ERR_MEMORY.
- *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles, or half the bytes
- *           and the largest panel in double for each thread, and, with the supernodal method, the
- *           update stack: about 5 % more for 2D meshes and 30 % for 3D meshes, more with threads.
- *           SL_NULL_PIVOT_SKIP adds a product
- *           with A, 66 bytes per row, and a few operations per visited column in solves; mass adds
- *           a forward sweep, 24 bytes per row, and as many operations again. k > 1 null vectors
- *           take k + 1 products with A, O(n k^2) operations, 24 (k + 1)
- *           bytes per row, and 2 k operations per visited column in solves; with mass another k
- *           sweeps, k products with L, 16 (k + 1) bytes per row, and twice as many operations.
- *  Threads  any number of calls at once on one S. options.threads distributes one call, and every
- *           sl_factor_refactor of the factor, by one loop of the pool, whose bodies draw subtrees
- *           and pieces of large fronts until none is left. A thread that begins late, or never,
- *           leaves its share to the others. Small systems use fewer threads. L has the same bits
- *           for any number of threads. Only the supernodal method uses threads, where the compiler
- *           has atomic operations (gcc, clang, MSVC).
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
+ *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one;
+ *           SL_ERR_PIVOT: a null pivot at error.row, or the row that shows that A is indefinite;
+ *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
+ *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
+ *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
+ *           and matrix that the manual excludes; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     O(sum over columns of entries^2) flops. Keeps nnz_panels doubles and, with the
+ *           supernodal method, the update stack: about 5 % more for 2D meshes and 30 % for 3D
+ *           meshes, more with threads.
+ *  Threads  any number of calls at once on one S. options.threads distribute this call, and every
+ *           sl_factor_refactor of the factor, by one loop of the pool; threads that begin late
+ *           leave their share to the others. Small systems use fewer threads. L has the same bits
+ *           for any number of them. Only the supernodal method uses them, with gcc, clang and MSVC.
  *  Source   supernodal: multifrontal [DR83] [Liu92] on row tiles; up-looking: [LDL05], [Davis06]
  *           4.7; growth: [Hi02] 11.1.
+ *  Manual   tools/docs/singular.md: null pivots, null vectors, weights; tools/docs/indefinite.md:
+ *           growth, regularization, KKT systems; tools/docs/float.md: L in float, its accuracy
  *  Example  tests/core/test_factor.c, test_growth.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S,
@@ -1288,25 +1088,23 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  sl_factor_create.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
- *                   SL_ERR_NOT_FINITE, SL_ERR_INACCURATE and SL_ERR_UNSUPPORTED it has no
- *                   numbers, and every solve refuses it until a refactor succeeds.
+ *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve
+ *                   refuses it until a refactor succeeds.
  *  A      [in]      the analyzed pattern, new values.
  *  stats  [out]     factor; may be NULL.
- *  Returns, Cost    as sl_factor_create, but SL_ERR_UNSUPPORTED only for the values, with
- *                   SL_STORAGE_COMPLEX; SL_ERR_STATE: a mapped
- *                   factor (sl_map_file). SL_ERR_MEMORY and SL_ERR_TOO_LARGE only with the first
- *                   refactorization of a loaded factor (sl_load_file), which allocates its fronts.
- *  Threads          exclusive use of F.
- *  Example          tests/core/test_factor.c
+ *  Returns  as sl_factor_create; SL_ERR_STATE: a mapped factor (sl_map_file). SL_ERR_MEMORY and
+ *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
+ *           which allocates its fronts; SL_ERR_UNSUPPORTED only with SL_STORAGE_COMPLEX.
+ *  Cost     as sl_factor_create, without its memory.
+ *  Threads  exclusive use of F.
+ *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
 
 /** Refactors after local changes: recomputes only the columns of L that the changes reach.
  *
- *  Meant for many changes in one place. Each recomputed supernode gathers from all its descendants,
- *  and the reach of a single vertex ends in the large top separators: on a 2D mesh that already
- *  costs about 30 % of a factorization. Results agree with sl_factor_refactor up to rounding;
- *  the other columns of L keep their bits. An up-looking factor is recomputed completely.
+ *  Results agree with sl_factor_refactor up to rounding; the other columns of L keep their bits. An
+ *  up-looking factor is recomputed completely.
  *
  *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
  *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
@@ -1318,12 +1116,13 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A
  *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
  *           F has no numbers, or is mapped.
- *  Cost     the update matrices of all descendants of the supernodes reached. Temporary memory: 16
- *           bytes per entry of the columns, 4 per row of A, of which only those reached are
- *           touched, and 4 per row of the largest front. With null pivots and
- *           mass, one complete sweep over L.
+ *  Cost     the update matrices of all descendants of the supernodes reached: about 30 % of a
+ *           factorization for one vertex of a 2D mesh. Temporary memory: 16 bytes per entry of the
+ *           columns, 4 per row of A, of which only those reached are touched, and 4 per row of the
+ *           largest front. With null pivots and mass, one complete sweep over L.
  *  Threads  exclusive use of F.
  *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_refactor_changed.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
@@ -1667,19 +1466,13 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, 
 
 /* src/public/accuracy.h: refinement of solutions, condition estimate, consistency of singular systems */
 
-/** Iterative refinement of A X = B. Stops when the backward error no longer halves.
+/** Iterative refinement of A X = B, until the backward error no longer halves.
  *
- *  For each column: computes the residual, solves for a correction and adds it, until the
- *  componentwise backward error max_i |b - A x|_i / (|A| |x| + |b|)_i is at most epsilon, a
- *  correction does not halve it, or the steps are used up. A correction that increases it is
- *  discarded. With L in float it takes two such corrections in a row, and the first is kept
- *  even if it doubles the error: x gains digits before the error shows it. With a regularized
- *  factor, of A + E, this turns the solution of (A + E) x = b into that of A x = b. If null pivots
- *  were skipped, B has to be consistent.
- *
- *  The call says whether the result is good: if the backward error that remains in some column is
- *  above options.error_limit of the factor, 1e-8 by default, it returns SL_ERR_INACCURATE. X then
- *  holds the best solutions that were found.
+ *  The backward error is componentwise, max_i |b - A x|_i / (|A| |x| + |b|)_i. If it remains above
+ *  options.error_limit of the factor, 1e-8 by default, in some column, the call returns
+ *  SL_ERR_INACCURATE, and X holds the best solutions that were found. With a regularized factor, of
+ *  A + E, the solution of (A + E) x = b becomes that of A x = b. If null pivots were skipped, B has
+ *  to be consistent.
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
@@ -1698,6 +1491,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, 
  *           O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
+ *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X,
@@ -1707,11 +1501,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
 
 /** sl_plan_solve with a regularized factor, L D L' = P (A + E) P', refined to solve A x = b.
  *
- *  Up to rounding, the residual of the solution x of (A + E) x = b is E x, and E is nonzero in the
- *  regularized rows only. The iteration x <- (A + E)^-1 (b + E x) therefore needs x in these rows
- *  and in the wanted ones only, and each step costs one local solve. It removes the error of
- *  regularization. Rounding errors remain as in sl_plan_solve; reducing them takes all of x
- *  and sl_factor_refine. If nothing was regularized, this is sl_plan_solve.
+ *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. If nothing was
+ *  regularized, this is sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
@@ -1725,6 +1516,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
  *  Threads  any number at once on one P and one F, each with its own W.
+ *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F,
@@ -1759,7 +1551,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *
  *  Column k of Z belongs to row k of sl_factor_null_rows; it is 1 there and 0 in the other null
  *  rows. Known null vectors are used as they are, combinations of them where a component has
- *  several, and others are computed from L (sl_factor_create).
+ *  several, and others are computed from L (tools/docs/singular.md).
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
  *  Laplacian, Y contains the sums of B over the components.
  *
@@ -1791,46 +1583,26 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
 #if defined(SL_WITH_INVERSE)
 /* src/public/inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
 
-/* With P A P' = L D L', y = L^-1 P b and z = L^-1 P c,
- *
- *     c' A^-1 b = sum over columns k of y(k) z(k) / d(k),
- *
- * where only the common ancestors of b and c in the elimination tree contribute: one forward sweep
- * for each and no backward sweep. Requests are sorted internally, and nearby ones share one sweep
- * of up to 8 SIMD lanes. Results are in the caller's order and equal those of full solves up
- * to rounding. The last bits depend on the other requests of the same call, since these determine
- * which sweeps are shared.
+/* Entries come from forward sweeps, or from selected inversion where that is cheaper, as it is for
+ * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
+ * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
+ * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these.
  *
  * All calls below
  *  F      [in]      a factor of A, n x n.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     inverse; error.row, error.column: an index out of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE:
- *           failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow. On error nothing is
- *           written.
+ *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
+ *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
- *           many requests should share a call; a single pair of distant vertices costs as much as a
- *           local solve from one to the other. Nothing O(n), except for NULL sets; no allocation
+ *           many requests should share a call. Nothing O(n), except for NULL sets; no allocation
  *           once W has grown to the largest reach and 16 bytes per request.
- *  Threads  any number at once on one F, each with its own W.
+ *  Threads  any number at once on one F, each with its own W. Selected inversion uses the threads
+ *           that F was created with, and has the same bits for any number of them.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
+ *  Manual   tools/docs/inverse.md
  *  Example  tests/core/test_inverse.c
- *
- * Selected inversion (selected.h) is cheaper for many entries. sl_inverse_diagonal and
- * sl_inverse_pairs count the operations of both methods and choose the cheaper one: selected
- * inversion from several hundred nearby vertices of a mesh, or several thousand distant ones;
- * always for the whole diagonal. stats.inverse.method names the choice. Selected inversion then
- * keeps only the active fronts, uses the threads that F was created with (one call of the caller's
- * pool) and gives the same bits for any number of threads. W grows to 8
- * height^2 bytes per active front, where height counts the columns of a supernode and the rows
- * below them. Active are the fronts on the path from the current supernode to its root that have
- * unvisited children; with several threads, those of every thread and the roots of the subtrees
- * distributed among them, a few dozen.
- *
- * If null pivots were skipped (SL_NULL_PIVOT_SKIP), the inverse is that of the matrix without their
- * rows and columns, and 0 in these: A Z A = A if A has no other null vectors.
- *
- * Factors with 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).
@@ -2525,22 +2297,13 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
 /** Changes a factor of A into one of A + V diag(sigma) V'. Plans stay valid; regions and selected
  *  inverses of the old numbers are refused.
  *
- *  Only the columns of L on the paths from the rows of V to the roots change. Vectors are taken in
- *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 5 of one vector.
+ *  Only the columns of L on the paths from the rows of V to the roots change. A vector must not
+ *  create entries outside of L: all its rows have to be in the column of L that belongs to the
+ *  first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
  *
- *  A vector must not create entries outside of L: all its rows have to be in the column of L that
- *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
- *
- *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
- *  first, and the others fail only if the changed matrix is not definite, up to rounding: with
- *  SL_NULL_PIVOT_SKIP that of the heaviest rows. With pivots of both signs a change may also fail
- *  because it meets a null pivot on its way.
- *
- *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
- *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
- *  growth or drift is too large, refactor.
- *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
- *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
+ *  If all pivots of F have one sign, they must keep it: the change fails only if the changed matrix
+ *  is not definite, up to rounding. With pivots of both signs it may also fail because it meets a
+ *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
  *
  *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
  *                   SL_ERR_NOT_FINITE for an overflow, or where rounding makes a pivot fail that a
@@ -2548,7 +2311,8 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     change, factor; may be NULL.
+ *  stats  [out]     change, factor; may be NULL. For pivots of both signs growth, pivot_min and
+ *                   pivot_max become bounds until the next refactorization.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is
  *           malformed, or its row error.row is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
@@ -2556,12 +2320,11 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           growth beyond its limit; SL_ERR_STATE: F has no numbers or is mapped;
  *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
- *           writes these columns once. A pass that may fail takes another forward sweep, or a copy
- *           of the columns: where several vectors change few of them, in several such passes,
- *           and with pivots of both signs.
+ *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
+ *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
@@ -2589,11 +2352,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
 /** Changes a factor by entries of A in the cheapest way: by rank-one changes, by recomputing the
  *  columns of L that the change reaches, or by a refactorization.
  *
- *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
- *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
- *  has reached 1e-11, which takes some 40,000 changes of moderate size, or one by which the largest
- *  entry goes: then a refactorization follows it. Where they are refused because a pivot changes
- *  its sign or may be null, a refactorization decides whether A can be factored.
+ *  The ways are compared by their flops, each with what a flop costs in it. Where rank-one changes
+ *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
@@ -2607,6 +2367,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
  *  Threads  exclusive use of F.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,
@@ -2770,24 +2531,18 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
 /** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
- *  kept whose supernode and all its descendants are in R; they are copied without the rows that are
- *  not in R. The others are analyzed and computed again, in the order of A; nothing is ordered. If
- *  fewer than 40 % of the columns could be kept, all are analyzed and computed
- *  (stats.restriction.is_anew). The same happens if F has several null vectors or stores L in
- *  another way than SL_STORAGE_DOUBLE. G has the storage of F; but with SL_STORAGE_COMPLEX, L of G
- *  is in double if rows 2j and 2j+1 of A do not follow each other in rows.
+ *  copied if their supernode and all its descendants are in R. The others are computed again, in
+ *  the order of A; if fewer than 40 % could be copied, all are (stats.restriction.is_anew).
  *
- *  G and S do not depend on F, which may change or be released. Their row k is row rows[k] of A.
- *  Plans, full, half and local solves, pins, entries of the inverse, selected inverses and regions
- *  work as with any factor. The numbers stay as they are: refactorizations, changes and saving give
- *  SL_ERR_STATE. What compares a matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement,
- *  sl_factor_rcond, another factor over S. Where a supernode lost rows, parent and counts of
- *  sl_symbolic_view are an ancestor of the parent and an upper bound.
+ *  G and S do not depend on F. Their row k is row rows[k] of A. They can be solved with, pinned and
+ *  inverted as any factor. Refactorizations, changes and saving give SL_ERR_STATE; what compares a
+ *  matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement, sl_factor_rcond, another
+ *  factor over S. Where a supernode lost rows, parent and counts of sl_symbolic_view are an
+ *  ancestor of the parent and an upper bound.
  *
- *  G refuses null pivots, also if F skips them: a singular Laplacian is regular without one of the
- *  rows of each component. A component that is in R as a whole gives SL_ERR_PIVOT. Only
- *  null_tolerance decides which other pivots are null. The rest of F's options apply to G:
- *  instruction set, null_tolerance, regularization with its signs, growth_limit, error_limit.
+ *  G has the options and the storage of F (SL_STORAGE_COMPLEX becomes double if rows 2j and 2j+1 of
+ *  A do not follow each other in rows), but refuses null pivots by null_tolerance: a component
+ *  of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
  *
  *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
@@ -2799,18 +2554,12 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  stats  [out]  restriction, factor; errors are in rows of A; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
  *           SL_ERR_PATTERN: A differs in size or number of entries from the analyzed matrix, or
- *           error.column of it is malformed; SL_ERR_PIVOT, SL_ERR_NOT_FINITE, SL_ERR_INACCURATE: as
+ *           error.column of it is malformed; SL_ERR_PIVOT, _NOT_FINITE, _INACCURATE: as
  *           sl_factor_create; SL_ERR_STATE: F has no numbers; SL_ERR_UNSUPPORTED: F has 2x2
  *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
- *           entries of L, and the flops of the other columns. For a disc of 1e4 vertices in a grid
- *           of 1e6, 80 % of the columns are kept, but the others have half of the flops, and the
- *           Schur complements of the kept ones another fifth. The call then takes 0.58 of the time
- *           of analyzing and factoring A[R, R] in a given order, and 0.44 for half of the grid.
- *           Where nothing is kept, it takes 0.8 to 0.93 times as long as extracting, analyzing and
- *           factoring A[R, R] in that order (bands, lines, spirals), and 0.6 to 0.83 times for
- *           random rows. If A[R, R] is available already, it takes 0.9 to 1.1 times as long, and
- *           1.15 to 1.45 times for 1 to 10 % of 1e6 rows at random: reading A is the difference.
+ *           entries of L, and the flops of the other columns: 0.44 to 1.45 of the time of analyzing
+ *           and factoring A[R, R] in a given order (tools/docs/changes.md).
  *  Threads  reads F; one thread.
  *  Source   [HA18]
  *  Example  tests/core/test_restrict.c
@@ -2825,16 +2574,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
 /** Analyzes an edited matrix B, starting from the analysis of A, the matrix before the edit.
  *
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
- *  and vertices are doubled. Where no neighbors change, the elimination tree of A is kept. A row
- *  that is new or has other neighbors goes to the lowest supernode that has all of its neighbors
- *  among its ancestors and descendants. So an entry between two subtrees moves one of its rows into
- *  their separator, which is then replaced near the edit by a minimum vertex cut. Subtrees with
- *  many such rows are ordered again.
- *
- *  The result is an analysis like any other. If edits are local, its order is about as good as the
- *  one before, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
- *  stats.edit.is_due is set, create a new analysis of the present matrix when there is time. If a
- *  quarter of the rows have other neighbors, or the edits are not local, this call does so itself
+ *  and vertices are doubled. The elimination tree of A is kept where no neighbors change. If edits
+ *  are local, the order is about as good as the one before, and slowly becomes worse than a new
+ *  one: if stats.edit.is_due is set, create a new analysis when there is time. If a quarter of the
+ *  rows have other neighbors, or the edits are not local, this call does so itself
  *  (stats.edit.is_anew).
  *
  *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
@@ -2851,11 +2594,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
  *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A does not have the
  *           analyzed pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created
  *           with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
- *           copy the analysis, and the order and analysis of the columns above the edit. Where
- *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
+ *  Cost     O(n + nnz + rows of supernodes) with small constants, and the order and analysis of the
+ *           columns above the edit. Where 0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14
+ *           of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_symbolic_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
@@ -2866,18 +2610,11 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
 /** Factors an edited matrix B, starting from a factor of A, the matrix before the edit.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
- *  were computed from the same entries; F knows these by hashes. The others, all of them ancestors
- *  of a change, are computed; they gather the updates of copied columns from L. If that takes more
- *  time than a whole factorization, by counted flops, this call is one (stats.reuse.is_anew).
- *
- *  Entries that refactorizations and rank-one changes of F have changed are compared as well, so
- *  F may be any factor: new_of and F decide about the time alone, not about the result. Solutions
- *  are as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
+ *  were computed from the same entries; F knows these by hashes, so new_of and F decide about the
+ *  time alone, not about the result. The others are computed. If a whole factorization takes less
+ *  time, or F or the options are not suited, this call is one (stats.reuse.is_anew). Solutions are
+ *  as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
  *  judged again by the null tolerance, whose default depends on n.
- *
- *  A whole factorization follows if F or the options are not suited: L in float or complex, 2x2
- *  pivots, several null vectors, the up-looking method, a factor that was loaded or is a
- *  restriction, or another treatment of null pivots than that of F.
  *
  *  out     [out]  the factor of B, or NULL on error; release with sl_factor_free. It does not
  *                 depend on F.
@@ -2891,11 +2628,11 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
- *           mesh of 1e6 vertices is remeshed in one place, about a third of the flops and of the
- *           time of a new factorization. Where little is worth keeping, a few percent of that, and
- *           at most about a tenth, are spent on the comparison.
+ *           mesh of 1e6 vertices is remeshed in one place, about a third of a new factorization; at
+ *           most a tenth more than that where little is worth keeping.
  *  Threads  reads F; otherwise as sl_factor_create.
  *  Source   [HA18]
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_factor_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor *F,

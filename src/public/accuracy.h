@@ -5,19 +5,13 @@
 #include "options.h"
 #include "stats.h"
 
-/** Iterative refinement of A X = B. Stops when the backward error no longer halves.
+/** Iterative refinement of A X = B, until the backward error no longer halves.
  *
- *  For each column: computes the residual, solves for a correction and adds it, until the
- *  componentwise backward error max_i |b - A x|_i / (|A| |x| + |b|)_i is at most epsilon, a
- *  correction does not halve it, or the steps are used up. A correction that increases it is
- *  discarded. With L in float it takes two such corrections in a row, and the first is kept
- *  even if it doubles the error: x gains digits before the error shows it. With a regularized
- *  factor, of A + E, this turns the solution of (A + E) x = b into that of A x = b. If null pivots
- *  were skipped, B has to be consistent.
- *
- *  The call says whether the result is good: if the backward error that remains in some column is
- *  above options.error_limit of the factor, 1e-8 by default, it returns SL_ERR_INACCURATE. X then
- *  holds the best solutions that were found.
+ *  The backward error is componentwise, max_i |b - A x|_i / (|A| |x| + |b|)_i. If it remains above
+ *  options.error_limit of the factor, 1e-8 by default, in some column, the call returns
+ *  SL_ERR_INACCURATE, and X holds the best solutions that were found. With a regularized factor, of
+ *  A + E, the solution of (A + E) x = b becomes that of A x = b. If null pivots were skipped, B has
+ *  to be consistent.
  *
  *  F      [in]      a factor of A, or of a matrix close to A.
  *  A      [in]      the matrix, with the analyzed pattern.
@@ -36,6 +30,7 @@
  *           O(n min(nrhs, 8)).
  *  Threads  any number at once on one F, each with its own W.
  *  Source   [Sk80]: one step makes a solver stable row by row.
+ *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X,
@@ -45,11 +40,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
 
 /** sl_plan_solve with a regularized factor, L D L' = P (A + E) P', refined to solve A x = b.
  *
- *  Up to rounding, the residual of the solution x of (A + E) x = b is E x, and E is nonzero in the
- *  regularized rows only. The iteration x <- (A + E)^-1 (b + E x) therefore needs x in these rows
- *  and in the wanted ones only, and each step costs one local solve. It removes the error of
- *  regularization. Rounding errors remain as in sl_plan_solve; reducing them takes all of x
- *  and sl_factor_refine. If nothing was regularized, this is sl_plan_solve.
+ *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. If nothing was
+ *  regularized, this is sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
@@ -63,6 +55,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
  *  Cost     1 + steps local solves; nothing O(n); no allocation once W has grown, by 16 numbers per
  *           row of the x-set.
  *  Threads  any number at once on one P and one F, each with its own W.
+ *  Manual   tools/docs/indefinite.md
  *  Example  tests/core/test_refine_local.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F,
@@ -97,7 +90,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
  *
  *  Column k of Z belongs to row k of sl_factor_null_rows; it is 1 there and 0 in the other null
  *  rows. Known null vectors are used as they are, combinations of them where a component has
- *  several, and others are computed from L (sl_factor_create).
+ *  several, and others are computed from L (tools/docs/singular.md).
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
  *  Laplacian, Y contains the sums of B over the components.
  *

@@ -8,22 +8,13 @@
 /** Changes a factor of A into one of A + V diag(sigma) V'. Plans stay valid; regions and selected
  *  inverses of the old numbers are refused.
  *
- *  Only the columns of L on the paths from the rows of V to the roots change. Vectors are taken in
- *  passes of 8, neighbors together; a pass of 8 takes about as long as 2 to 5 of one vector.
+ *  Only the columns of L on the paths from the rows of V to the roots change. A vector must not
+ *  create entries outside of L: all its rows have to be in the column of L that belongs to the
+ *  first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
  *
- *  A vector must not create entries outside of L: all its rows have to be in the column of L that
- *  belongs to the first of them. This holds for e_i and, for an entry (i, j) of A, for e_i - e_j.
- *
- *  If all pivots of F have one sign, they must keep it. Vectors of that sign are then applied
- *  first, and the others fail only if the changed matrix is not definite, up to rounding: with
- *  SL_NULL_PIVOT_SKIP that of the heaviest rows. With pivots of both signs a change may also fail
- *  because it meets a null pivot on its way.
- *
- *  Errors add up: stats.change.drift estimates their backward error, relative to what changes have
- *  left of A. In 10,000 random changes of a definite matrix it stayed above the measured one. If
- *  growth or drift is too large, refactor.
- *  For pivots of both signs stats.factor.growth becomes an upper bound, and pivot_min and pivot_max
- *  bounds, until the next refactorization. The effect of regularization (A + E) stays as it was.
+ *  If all pivots of F have one sign, they must keep it: the change fails only if the changed matrix
+ *  is not definite, up to rounding. With pivots of both signs it may also fail because it meets a
+ *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
  *
  *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
  *                   SL_ERR_NOT_FINITE for an overflow, or where rounding makes a pivot fail that a
@@ -31,7 +22,8 @@
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
- *  stats  [out]     change, factor; may be NULL.
+ *  stats  [out]     change, factor; may be NULL. For pivots of both signs growth, pivot_min and
+ *                   pivot_max become bounds until the next refactorization.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also if V does not have n rows; SL_ERR_PATTERN: V is
  *           malformed, or its row error.row is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
@@ -39,12 +31,11 @@
  *           growth beyond its limit; SL_ERR_STATE: F has no numbers or is mapped;
  *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     4 flops per vector and entry of L in the columns on its path; each pass reads and
- *           writes these columns once. A pass that may fail takes another forward sweep, or a copy
- *           of the columns: where several vectors change few of them, in several such passes,
- *           and with pivots of both signs.
+ *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
+ *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *  Threads  exclusive use of F.
  *  Source   [DH01], with the factorization of [Bie76] for several vectors.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *sigma,
@@ -72,11 +63,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
 /** Changes a factor by entries of A in the cheapest way: by rank-one changes, by recomputing the
  *  columns of L that the change reaches, or by a refactorization.
  *
- *  The ways are compared by their flops, each with what a flop costs in it. Rank-one changes are
- *  not taken if there are null or 2x2 pivots, if L is stored in float, and if stats.change.drift
- *  has reached 1e-11, which takes some 40,000 changes of moderate size, or one by which the largest
- *  entry goes: then a refactorization follows it. Where they are refused because a pivot changes
- *  its sign or may be null, a refactorization decides whether A can be factored.
+ *  The ways are compared by their flops, each with what a flop costs in it. Where rank-one changes
+ *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
  *                           sl_factor_refactor.
@@ -90,6 +78,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *  Cost     that of the way, and at most a few percent of a refactorization to count flops;
  *           nothing of O(n) or O(nnz) for rank-one changes.
  *  Threads  exclusive use of F.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_change_choice.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *rows,

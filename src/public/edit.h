@@ -8,16 +8,10 @@
 /** Analyzes an edited matrix B, starting from the analysis of A, the matrix before the edit.
  *
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
- *  and vertices are doubled. Where no neighbors change, the elimination tree of A is kept. A row
- *  that is new or has other neighbors goes to the lowest supernode that has all of its neighbors
- *  among its ancestors and descendants. So an entry between two subtrees moves one of its rows into
- *  their separator, which is then replaced near the edit by a minimum vertex cut. Subtrees with
- *  many such rows are ordered again.
- *
- *  The result is an analysis like any other. If edits are local, its order is about as good as the
- *  one before, and slowly becomes worse than a new one: stats.edit compares the entries of L. If
- *  stats.edit.is_due is set, create a new analysis of the present matrix when there is time. If a
- *  quarter of the rows have other neighbors, or the edits are not local, this call does so itself
+ *  and vertices are doubled. The elimination tree of A is kept where no neighbors change. If edits
+ *  are local, the order is about as good as the one before, and slowly becomes worse than a new
+ *  one: if stats.edit.is_due is set, create a new analysis when there is time. If a quarter of the
+ *  rows have other neighbors, or the edits are not local, this call does so itself
  *  (stats.edit.is_anew).
  *
  *  out     [out]  the analysis of B, or NULL on error; release with sl_symbolic_free. It does not
@@ -34,11 +28,12 @@
  *           the row of A), and as sl_symbolic_create; SL_ERR_PATTERN: A does not have the
  *           analyzed pattern, or B is malformed or not symmetric; SL_ERR_UNSUPPORTED: S was created
  *           with pivots or by sl_factor_restrict; SL_ERR_ORDERING; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     O(n + nnz + rows of supernodes) with small constants, to compare the patterns and to
- *           copy the analysis, and the order and analysis of the columns above the edit. Where
- *           0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14 of a new order and analysis.
+ *  Cost     O(n + nnz + rows of supernodes) with small constants, and the order and analysis of the
+ *           columns above the edit. Where 0.1 % of a mesh of 1e6 vertices is remeshed, about 1/14
+ *           of a new order and analysis.
  *  Threads  reads S; otherwise as sl_symbolic_create.
  *  Source   [Liu90] elimination trees; [George73] separators; [FF56] minimum vertex cuts.
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_symbolic_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S,
@@ -49,18 +44,11 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
 /** Factors an edited matrix B, starting from a factor of A, the matrix before the edit.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
- *  were computed from the same entries; F knows these by hashes. The others, all of them ancestors
- *  of a change, are computed; they gather the updates of copied columns from L. If that takes more
- *  time than a whole factorization, by counted flops, this call is one (stats.reuse.is_anew).
- *
- *  Entries that refactorizations and rank-one changes of F have changed are compared as well, so
- *  F may be any factor: new_of and F decide about the time alone, not about the result. Solutions
- *  are as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
+ *  were computed from the same entries; F knows these by hashes, so new_of and F decide about the
+ *  time alone, not about the result. The others are computed. If a whole factorization takes less
+ *  time, or F or the options are not suited, this call is one (stats.reuse.is_anew). Solutions are
+ *  as accurate as those of a new factor, but their last bits may differ. Copied pivots are not
  *  judged again by the null tolerance, whose default depends on n.
- *
- *  A whole factorization follows if F or the options are not suited: L in float or complex, 2x2
- *  pivots, several null vectors, the up-looking method, a factor that was loaded or is a
- *  restriction, or another treatment of null pivots than that of F.
  *
  *  out     [out]  the factor of B, or NULL on error; release with sl_factor_free. It does not
  *                 depend on F.
@@ -74,11 +62,11 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row of B out of range or twice in new_of (error.row is
  *           the row of A); SL_ERR_STATE: F has no numbers; otherwise as sl_factor_create.
  *  Cost     O(n + nnz + rows of supernodes), a copy of L, and stats.reuse.flops. Where 0.1 % of a
- *           mesh of 1e6 vertices is remeshed in one place, about a third of the flops and of the
- *           time of a new factorization. Where little is worth keeping, a few percent of that, and
- *           at most about a tenth, are spent on the comparison.
+ *           mesh of 1e6 vertices is remeshed in one place, about a third of a new factorization; at
+ *           most a tenth more than that where little is worth keeping.
  *  Threads  reads F; otherwise as sl_factor_create.
  *  Source   [HA18]
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_factor_edit.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor *F,

@@ -1,4 +1,4 @@
-/* intro.h: what the library does, a quick start, notation, conventions, threads, references */
+/* intro.h: what the library does, a quick start, which call for which question, references */
 #ifndef SL_PUBLIC_INTRO_H
 #define SL_PUBLIC_INTRO_H
 
@@ -16,12 +16,42 @@
  *     sl_symbolic *S;  sl_factor *F;  sl_plan *P;
  *     sl_symbolic_create(&S, &A, NULL, NULL);            once per pattern
  *     sl_factor_create(&F, S, &A, NULL, NULL);           once per matrix
- *     sl_factor_solve(F, x, n, b, n, 1, NULL);           full solve
- *     sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL);
+ *     sl_factor_solve(F, x, n, b, n, 1, NULL);           full solve: x and b have n rows
+ *     sl_plan_create(&P, S, bset, nb, xset, nx, NULL, NULL);    rows of b and rows of x
  *     sl_plan_solve(P, F, x, nx, b, nb, 1, NULL);        local solve, any number of times
+ *     sl_local_solve(F, bset, nb, xset, nx, x, nx, b, nb, 1, NULL, NULL);       the same once
+ *     sl_factor_refactor(F, &A, NULL);                   new values, same pattern; P stays valid
  *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
  *
- * Notation     A is n x n. perm[k] is the row of A that is pivot k; iperm is the inverse of perm.
+ * The 1 is the number of right-hand sides; the NULLs are options, workspaces and statistics. These
+ * calls are the core.
+ */
+
+/* Which call for which question
+ *
+ *  the same pattern with new values               sl_factor_refactor                     factor.h
+ *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
+ *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
+ *  the same once                                  sl_local_solve                         plan.h
+ *  many such questions in one part of a mesh      sl_region_create                       region.h
+ *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  an indefinite or KKT system                    sl_symbolic_create_pivoted             analyze.h
+ *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
+ *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
+ *  rows held at given values                      sl_pins_create                         pins.h
+ *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
+ *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
+ *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
+ *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
+ *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
+ *  many solves, many factors, M + t K             sl_batch_solve, sl_batch_factor        batch.h
+ *  a factor in a file, mapped without a copy      sl_map_file                            save.h
+ *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
+ *  matrices from triplets or files                sl_matrix_from_triplets, _read         csc.h
+ *  several processors                             options.threads                        options.h
+ */
+
+/* Notation     A is n x n. perm[k] is the row of A that is pivot k; iperm is the inverse of perm.
  *              parent is the elimination tree, -1 at a root. L is unit lower triangular and stored
  *              in supernodal panels; D is diagonal. A reach is a set of columns closed under
  *              parent. nnz counts stored entries.
@@ -35,39 +65,42 @@
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work.
- *
- * References
- *  [HDA17]   Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry
- *            processing, 2017.
- *  [Davis06] Davis: Direct Methods for Sparse Linear Systems, 2006.
- *  [LDL05]   Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
- *  [FF56]    Ford, Fulkerson: Maximal flow through a network, 1956.
+ * Manual       tools/docs/NAME.md in the repository, and the page NAME.html that make docs writes:
+ *              details and measurements that a contract leaves out.
+ */
+
+/* References
+ *  [ADD96]    Amestoy, Davis, Duff: An approximate minimum degree ordering algorithm, 1996.
+ *  [AG89]     Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
+ *             method, 1989.
+ *  [Bie76]    Bierman: Measurement updating using the U-D factorization, 1976.
+ *  [Davis06]  Davis: Direct Methods for Sparse Linear Systems, 2006.
+ *  [DH01]     Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
+ *  [DR83]     Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear
+ *             equations, 1983.
+ *  [ET75]     Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix,
+ *             1975.
+ *  [FF56]     Ford, Fulkerson: Maximal flow through a network, 1956.
+ *  [FM82]     Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
  *  [George73] George: Nested dissection of a regular finite element mesh, 1973.
- *  [FM82]    Fiduccia, Mattheyses: A linear-time heuristic for improving network partitions, 1982.
- *  [Liu90]   Liu: The role of elimination trees in sparse factorization, 1990.
- *  [MR85]    Miller, Reif: Parallel tree contraction and its application, 1985.
- *  [NP93]    Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers, 1993.
- *  [DR83]    Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear equations,
- *            1983.
- *  [Liu92]   Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
- *  [ET75]    Erisman, Tinney: On computing certain elements of the inverse of a sparse matrix,
- *            1975.
- *  [SelInv]  Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric matrix,
- *            2011.
- *  [ADD96]   Amestoy, Davis, Duff: An approximate minimum degree ordering algorithm. SIAM J. Matrix
- *            Anal. Appl. 17(4), 1996
- *  [AG89]    Ashcraft, Grimes: The influence of relaxed supernode partitions on the multifrontal
- *            method, 1989.
- *  [DH01]    Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
- *  [HA18]    Herholz, Alexa: Factor once: reusing Cholesky factorizations on sub-meshes, 2018.
- *  [Bie76]   Bierman: Measurement updating using the U-D factorization, 1976.
- *  [Hager89] Hager: Updating the inverse of a matrix, 1989.
- *  [Hi88]    Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
- *  [Hi02]    Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
- *  [Sk80]    Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
- *            1980.
- *  [KK98]    Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular
- *            graphs, 1998.
+ *  [HA18]     Herholz, Alexa: Factor once: reusing Cholesky factorizations on sub-meshes, 2018.
+ *  [Hager89]  Hager: Updating the inverse of a matrix, 1989.
+ *  [HDA17]    Herholz, Davis, Alexa: Localized solutions of sparse linear systems for geometry
+ *             processing, 2017.
+ *  [Hi88]     Higham: FORTRAN codes for estimating the one-norm of a real or complex matrix, 1988.
+ *  [Hi02]     Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
+ *  [KK98]     Karypis, Kumar: A fast and high quality multilevel scheme for partitioning irregular
+ *             graphs, 1998.
+ *  [LDL05]    Davis: Algorithm 849: a concise sparse Cholesky factorization package, 2005.
+ *  [Liu90]    Liu: The role of elimination trees in sparse factorization, 1990.
+ *  [Liu92]    Liu: The multifrontal method for sparse matrix solution: theory and practice, 1992.
+ *  [MR85]     Miller, Reif: Parallel tree contraction and its application, 1985.
+ *  [NP93]     Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers,
+ *             1993.
+ *  [SelInv]   Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric
+ *             matrix, 2011.
+ *  [Sk80]     Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
+ *             1980.
  */
 
 #endif

@@ -5,46 +5,26 @@
 #include "options.h"
 #include "stats.h"
 
-/* With P A P' = L D L', y = L^-1 P b and z = L^-1 P c,
- *
- *     c' A^-1 b = sum over columns k of y(k) z(k) / d(k),
- *
- * where only the common ancestors of b and c in the elimination tree contribute: one forward sweep
- * for each and no backward sweep. Requests are sorted internally, and nearby ones share one sweep
- * of up to 8 SIMD lanes. Results are in the caller's order and equal those of full solves up
- * to rounding. The last bits depend on the other requests of the same call, since these determine
- * which sweeps are shared.
+/* Entries come from forward sweeps, or from selected inversion where that is cheaper, as it is for
+ * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
+ * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
+ * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these.
  *
  * All calls below
  *  F      [in]      a factor of A, n x n.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  stats  [out]     inverse; error.row, error.column: an index out of range. May be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, a negative count, an index out of range; SL_ERR_STATE:
- *           failed factor; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow. On error nothing is
- *           written.
+ *           failed factor; SL_ERR_UNSUPPORTED: a factor with 2x2 pivots; SL_ERR_TOO_LARGE,
+ *           SL_ERR_MEMORY: W could not grow. On error nothing is written.
  *  Cost     sweeps take 2 entries flops per lane, and 8 lanes take as long as two to three, so that
- *           many requests should share a call; a single pair of distant vertices costs as much as a
- *           local solve from one to the other. Nothing O(n), except for NULL sets; no allocation
+ *           many requests should share a call. Nothing O(n), except for NULL sets; no allocation
  *           once W has grown to the largest reach and 16 bytes per request.
- *  Threads  any number at once on one F, each with its own W.
+ *  Threads  any number at once on one F, each with its own W. Selected inversion uses the threads
+ *           that F was created with, and has the same bits for any number of them.
  *  Source   [HDA17] 5; [Davis06] 3.2, 4.1.
+ *  Manual   tools/docs/inverse.md
  *  Example  tests/core/test_inverse.c
- *
- * Selected inversion (selected.h) is cheaper for many entries. sl_inverse_diagonal and
- * sl_inverse_pairs count the operations of both methods and choose the cheaper one: selected
- * inversion from several hundred nearby vertices of a mesh, or several thousand distant ones;
- * always for the whole diagonal. stats.inverse.method names the choice. Selected inversion then
- * keeps only the active fronts, uses the threads that F was created with (one call of the caller's
- * pool) and gives the same bits for any number of threads. W grows to 8
- * height^2 bytes per active front, where height counts the columns of a supernode and the rows
- * below them. Active are the fronts on the path from the current supernode to its root that have
- * unvisited children; with several threads, those of every thread and the roots of the subtrees
- * distributed among them, a few dozen.
- *
- * If null pivots were skipped (SL_NULL_PIVOT_SKIP), the inverse is that of the matrix without their
- * rows and columns, and 0 in these: A Z A = A if A has no other null vectors.
- *
- * Factors with 2x2 pivots (sl_symbolic_create_pivoted) are refused with SL_ERR_UNSUPPORTED.
  */
 
 /** Diagonal entries of the inverse: out[k] = (A^-1)(rows[k], rows[k]).

@@ -82,13 +82,12 @@ typedef struct sl_options {
     sl_method method;
     sl_null_pivots null_pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
-     * not read where a known null vector decides (sl_factor_create); 0: (64 + n/8) epsilon;
+     * not read where a known null vector decides (tools/docs/singular.md); 0: (64 + n/8) epsilon;
      * negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
-     * vectors z it has sum m z x = 0 for each of them (sl_factor_create); NULL: x is 0 in the null
-     * rows */
+     * vectors z it has sum m z x = 0 for each of them; NULL: x is 0 in the null rows */
     const double *mass;
     /* with SL_NULL_PIVOT_SKIP and no mass: a solve refuses b if |z' b| > consistency_tolerance *
      * sum |b| for a null vector z scaled to 1 in its null row; 0: 1e-6, which accepts
@@ -124,10 +123,10 @@ typedef struct sl_options {
     double error_limit;
 
     /* the columns of null_vector, at most 32: the null vectors of each component are combinations
-     * of them (sl_factor_create). Column-major, leading dimension n; 0: 1 */
+     * of them (tools/docs/singular.md). Column-major, leading dimension n; 0: 1 */
     size_t null_vector_count;
     /* SL_STORAGE_FLOAT keeps L in half the bytes, SL_STORAGE_FLOAT_FRONTS also computes it in
-     * float; solutions have the accuracy of float until they are refined (sl_factor_create).
+     * float; solutions have the accuracy of float until they are refined (tools/docs/float.md).
      * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 

@@ -110,8 +110,8 @@ typedef enum sl_method {
     SL_METHOD_SUPERNODAL  /* multifrontal with dense fronts: everything else; uses threads */
 } sl_method;
 
-/** How a factor keeps L. D, B, X and the arithmetic of solves are double in any case. See
- *  sl_factor_create. */
+/** How a factor keeps L. B, X and the arithmetic of solves are double in any case. Accuracy and
+ *  limits: tools/docs/float.md. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_style.sh: line lengths of all sources, wording of public headers and README (make style)
+# check_style.sh: lengths of lines and public comments, wording of headers and README (make style)
 #
 #     tools/build/check_style.sh
 #
@@ -7,6 +7,8 @@
 # violation makes the exit status 1. Columns are bytes: sources are ASCII.
 
 max_columns=100
+max_comment=40  # lines of a comment in src/public; what is longer belongs in tools/docs
+max_contract=14 # mean lines of the contracts: the comments of functions in src/public
 # Turns of phrase that are not plain technical English. A phrase belongs here only if it has no use
 # that is worth keeping.
 phrases='stands|tells|comes to|goes on|such as are|aside|wishes|of it,|that is none|so long as that'
@@ -22,6 +24,22 @@ export LC_ALL=C
             printf "%s:%d: %d columns, at most %d: %.60s...\n", FILENAME, FNR, length($0), max, $0
         }
         /[^\t -~]/ { printf "%s:%d: not ASCII: %.60s\n", FILENAME, FNR, $0 }' $sources
+    awk -v max=$max_comment -v max_contract=$max_contract '
+        FNR == 1 { inside = contract = 0 }
+        !inside && /^ *\/\*/ { inside = 1; lines = 0 }
+        inside { lines++ }
+        inside && /\*\// {
+            inside = 0
+            contract = lines
+            if (lines > max) printf "%s:%d: a comment of %d lines\n", FILENAME, FNR, lines
+            next
+        }
+        !inside && contract && /^SL_API .*\(/ { total += contract; count++ }
+        !inside { contract = 0 }
+        END {
+            if (total > max_contract * count)
+                printf "src/public: contracts have %.1f lines on average\n", total / count
+        }' src/public/*.h
     grep -nEw -e "$phrases" src/public/*.h README.md /dev/null | sed 's/$/ (wording)/'
 } | {
     count=0

@@ -138,33 +138,30 @@ size_t banner(text *out, const job *j, size_t shift) {
     }
     append_string(out, " *\n * Contents\n");
     lines += 2;
-    size_t column = 0; /* of the last line, if that lists parts of the implementation */
+    const char *layer = NULL; /* a heading of the manifest that is not listed yet */
     for (size_t k = 0; k < j->n_entries; k++) {
         const entry *e = &j->entries[k];
         const char *slash = strrchr(e->name, '/'), *base = slash ? slash + 1 : e->name;
         unsigned long at = (unsigned long)(e->line + shift);
-        if (strncmp(e->name, "impl/", 5) == 0) {
-            size_t width = strlen(base) + 8;
-            size_t is_new = column == 0 || column + width > 100;
-            snprintf(line, sizeof line, "%s%s%6lu %s", is_new && column > 0 ? "\n" : "",
-                     is_new ? " * " : " ", at, base);
-            lines += is_new;
-            column = (is_new ? 2 : column) + width;
-        } else {
-            if (column > 0) append_string(out, "\n");
-            column = 0;
-            lines++;
-            if (*e->name && *e->condition && !j->is_selection)
+        if (!*e->name) {
+            layer = e->title;
+            continue;
+        }
+        if (strncmp(e->name, "impl/", 5) != 0) {
+            if (*e->condition && !j->is_selection)
                 snprintf(line, sizeof line, " * %6lu %-12s %s (%s)\n", at, base, e->title,
                          e->condition);
-            else if (*e->name)
-                snprintf(line, sizeof line, " * %6lu %-12s %s\n", at, base, e->title);
             else
-                snprintf(line, sizeof line, " * (%s)\n", e->title);
+                snprintf(line, sizeof line, " * %6lu %-12s %s\n", at, base, e->title);
+        } else if (layer) {
+            snprintf(line, sizeof line, " * %6lu impl/ %s\n", at, layer);
+        } else {
+            continue;
         }
+        layer = NULL;
         append_string(out, line);
+        lines++;
     }
-    if (column > 0) append_string(out, "\n");
     append_string(out, " */\n");
     return lines + 1;
 }

@@ -3,9 +3,10 @@
 
     tools/docs/manual.py OUTPUT
 
-Pages: index (the guide), api, algorithms, format, tests, platforms, changelog. Names of the API
-become links. Ends with 1 if a link leads nowhere, a public name has no comment, or a file that a
-comment gives as its example is missing.
+Pages: index (the guide), api, the chapters of tools/docs, format, tests, platforms, changelog.
+Names of the API become links, and so do chapters that a comment names as tools/docs/NAME.md. Ends
+with 1 if a link leads nowhere, a public name has no comment, or a file that a comment gives as its
+example is missing.
 """
 import html
 import os
@@ -27,8 +28,13 @@ a:hover { text-decoration: underline }
 nav { border-bottom: 1px solid #ccc; padding-bottom: .5em }
 h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 """
-PAGES = [("index", "Guide"), ("api", "API"), ("algorithms", "Algorithms"), ("format", "Format"),
-         ("tests", "Tests"), ("platforms", "Platforms"), ("changelog", "Changelog")]
+CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
+            ("singular", "Singular systems"), ("indefinite", "Indefinite and KKT systems"),
+            ("float", "L in float"), ("inverse", "Entries of the inverse"),
+            ("changes", "Changes of a matrix")]
+PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
+    ("format", "Format"), ("tests", "Tests"), ("platforms", "Platforms"),
+    ("changelog", "Changelog")]
 
 
 def read(path):
@@ -143,7 +149,7 @@ def inline(text):
     text = re.sub(r"\[([^\]]+)\]\(([^)\s]+)\)", lambda m: keep('<a href="%s">%s</a>' % (
         page_of(m.group(2)), html.escape(m.group(1)))), text)
     text = re.sub(r"\*\*([^*]+)\*\*", r"<b>\1</b>", html.escape(text, quote=False))
-    text = re.sub(r"@(\w+)", r'<a href="#example-\1">\1</a>', text)
+    text = re.sub(r"@(\w+)", r'<a href="index.html#example-\1">\1</a>', text)
     while "\0" in text:
         text = re.sub("\0(\\d+)\0", lambda m: kept[int(m.group(1))], text)
     return text
@@ -241,6 +247,11 @@ def link_names(body, names):
     return "".join(pieces)
 
 
+def link_chapters(body):
+    """Names of chapters in comments as links."""
+    return re.sub(r"tools/docs/([a-z]+)\.md", r'<a href="\1.html">tools/docs/\1.md</a>', body)
+
+
 def section(text, title):
     """One section of a Markdown file, as a page."""
     match = re.search(r"^## %s\n(.*?)(?=^## |\Z)" % title, text, re.M | re.S)
@@ -264,19 +275,24 @@ def main():
     os.makedirs(output, exist_ok=True)
     api, names = api_page(read("src/sparse_local.in.h"))
     pages = {"index": markdown(read("tools/docs/guide.md")), "api": api,
-             "algorithms": markdown(read("tools/docs/algorithms.md")),
              "format": markdown(read("src/FORMAT.md")), "tests": markdown(read("tests/README.md")),
              "platforms": markdown(section(read("README.md"), "Platforms")),
              "changelog": markdown(read("CHANGELOG.md"))}
+    for name, _ in CHAPTERS:
+        pages[name] = markdown(read("tools/docs/%s.md" % name))
     for name in pages:
         pages[name] = link_names(pages[name], names)
+    pages["api"] = link_chapters(pages["api"])
     check_links(pages)
     guide = read("tools/docs/guide.md")
     for name in examples():
         if "@" + name not in guide:
             PROBLEMS.append("the guide does not mention the example %s" % name)
-    for name in set(re.findall(r"\bsl_\w+\b", guide)) - set(names):
-        PROBLEMS.append("the guide mentions %s, which is not public" % name)
+    written = [("guide", guide), ("intro.h", read("src/public/intro.h"))]
+    written += [(name, read("tools/docs/%s.md" % name)) for name, _ in CHAPTERS]
+    for page, text in written:
+        for name in sorted(set(re.findall(r"\bsl_\w+\b", text)) - set(names)):
+            PROBLEMS.append("%s mentions %s, which is not public" % (page, name))
     nav = "<nav>sparse_local.h: %s</nav>" % " &middot; ".join(
         '<a href="%s.html">%s</a>' % page for page in PAGES)
     for name, title in PAGES:
