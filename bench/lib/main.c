@@ -23,7 +23,8 @@ static const question questions[] = {
     {"vertex_pairs",
      "b and x at one vertex; random pairs by one or two reaches ([HDA17] section 5)",
      bench_vertex_pairs},
-    {"locality", "the same local solve on meshes of growing size", bench_locality},
+    {"locality", "the same local solve on meshes of growing size; plans of long chains",
+     bench_locality},
     {"patches",
      "local solves on a patch against refactorization of the patch, conjugate gradients and full "
      "solves ([HDA17] Figures 4, 5)",

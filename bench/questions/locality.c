@@ -1,4 +1,4 @@
-/* locality.c: does the cost of a local solve per entry of L grow with the mesh? */
+/* locality.c: does the cost of a plan and of a solve per entry of L grow with the mesh? */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -77,6 +77,92 @@ static void plot_trend(const bench_run *run, bench_report *report, const trend *
     bench_plot_close(plot);
 }
 
+/* ---- long chains ---- */
+
+/* Matrices whose elimination tree in natural order is one chain. In the ring and in the wheel (a
+ * ring plus its hub as the last row) every supernode also has a row at the far end of the chain. A
+ * plan that climbed to the far row from each of them would take a thousand times as long on these
+ * matrices, and more as n grows. */
+enum { PATH, RING, WHEEL, N_CHAINS, CHAIN_LENGTH = 150000 };
+
+static const char *const chain_names[N_CHAINS] = {"chain: path", "chain: ring", "chain: wheel"};
+
+typedef struct chain {
+    sl_symbolic *S;
+    sl_stats stats;
+} chain;
+
+static chain chain_make(int kind) {
+    const sl_int n = CHAIN_LENGTH;
+    const sl_int rim = kind == WHEEL ? n - 1 : n; /* rows of the path or of the ring */
+    sl_int *i = (sl_int *)bench_alloc(3 * (size_t)n, sizeof *i);
+    sl_int *j = (sl_int *)bench_alloc(3 * (size_t)n, sizeof *j);
+    sl_off count = 0;
+    for (sl_int k = 0; k < n; k++) {
+        i[count] = j[count] = k;
+        count++;
+        if (k + 1 < rim) {
+            i[count] = k + 1;
+            j[count++] = k;
+        }
+        if (kind == WHEEL && k < rim) {
+            i[count] = rim;
+            j[count++] = k;
+        }
+    }
+    if (kind != PATH) {
+        i[count] = rim - 1;
+        j[count++] = 0;
+    }
+    sl_matrix *M = NULL;
+    bench_must(sl_matrix_from_triplets(&M, n, n, count, i, j, NULL, NULL, NULL), "chain");
+    const sl_csc A = sl_matrix_view(M);
+    const sl_options natural = {.ordering = SL_ORDERING_NATURAL};
+    chain c = {0};
+    bench_must(sl_symbolic_create(&c.S, &A, &natural, &c.stats), "analysis of a chain");
+    sl_matrix_free(M);
+    free(j);
+    free(i);
+    return c;
+}
+
+/* A plan from the leaf of the chain: its reach is the whole chain. */
+static void call_plan_from_leaf(void *state) {
+    chain *c = (chain *)state;
+    const sl_int leaf = 0;
+    sl_plan *P = NULL;
+    bench_must(sl_plan_create(&P, c->S, &leaf, 1, &leaf, 1, NULL, &c->stats), "plan of a chain");
+    sl_plan_free(P);
+}
+
+/* The baseline of the ratios is the path. */
+static void time_chains(bench_run *run, bench_report *report) {
+    chain chains[N_CHAINS];
+    bench_contender contenders[N_CHAINS];
+    bench_sample samples[N_CHAINS];
+    for (int kind = 0; kind < N_CHAINS; kind++) {
+        chains[kind] = chain_make(kind);
+        contenders[kind] = (bench_contender){call_plan_from_leaf, &chains[kind], 1, NULL};
+        call_plan_from_leaf(&chains[kind]);
+        bench_expect(run, chains[kind].stats.plan.b_columns == CHAIN_LENGTH,
+                     "%s: the plan visits %d columns", chain_names[kind],
+                     (int)chains[kind].stats.plan.b_columns);
+    }
+    bench_race(samples, contenders, N_CHAINS, run->seconds / 4);
+    const bench_system system = {
+        .name = "a chain in natural order", .n = CHAIN_LENGTH, .stats = chains[PATH].stats};
+    for (int kind = 0; kind < N_CHAINS; kind++) {
+        bench_row row = {.what = chain_names[kind],
+                         .method = bench_solve_variants[BENCH_PLAN_CREATE],
+                         .nrhs = 1,
+                         .time = samples[kind],
+                         .baseline = samples[PATH].median};
+        row.reach = chains[kind].stats;
+        bench_report_row(report, &system, &row);
+        sl_symbolic_free(chains[kind].S);
+    }
+}
+
 void bench_locality(bench_run *run) {
     static const double wanted[] = {1e4, 5e4, 1e5, 2e5, 5e5, 1e6, 4e6};
     static trend patch, vertex;
@@ -101,6 +187,7 @@ void bench_locality(bench_run *run) {
         time_queries(run, report, q, "vertex", &vertex);
         bench_queries_free(q);
     }
+    time_chains(run, report);
     printf("\n");
     plot_trend(run, report, &patch, "a patch of 500 around its center", "locality_patch");
     plot_trend(run, report, &vertex, "b and x at one vertex", "locality_vertex");

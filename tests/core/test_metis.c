@@ -41,8 +41,9 @@ static void metis_options_are_handed_on(void **state) {
     memset(&stats, 0, sizeof stats);
     sl_symbolic *S = NULL;
     SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, &stats));
-    /* METIS must beat the natural order, in which L of a 30 x 30 grid has about 30 n entries. */
-    assert_true(stats.symbolic.nnz_l < 15 * (sl_off)stats.symbolic.n);
+    /* METIS must beat the natural order, in which L of a 30 x 30 grid has about 30 n entries. METIS
+     * 5.1.0 gives 12.8 n; any other has a margin of half as many. */
+    assert_true(stats.symbolic.nnz_l < 20 * (sl_off)stats.symbolic.n);
     sl_int metis[METIS_NOPTIONS];
     all_default(metis); /* the same as no options */
     opt.metis_options = metis;

@@ -4,6 +4,19 @@
 #define SIZES 3
 #define NAMES 4
 
+/* The limits against METIS were measured with METIS 5.1.0 and the rand() of glibc, from which it
+ * draws. Another one, or another rand(), is another seed: the cost of one matrix scatters by 3 to
+ * 6 % over seeds. */
+#if defined(SL_METIS) && !defined(SL_NO_METIS)
+#include <metis.h>
+#if defined(__GLIBC__) && METIS_VER_MAJOR == 5 && METIS_VER_MINOR == 1 && METIS_VER_SUBMINOR == 0
+#define METIS_MARGIN 1.0
+#endif
+#endif
+#ifndef METIS_MARGIN
+#define METIS_MARGIN 1.06
+#endif
+
 /* Squares with one diagonal each: the shorter one, after every vertex has moved by up to `jitter`
  * along both axes. With jitter 0 all diagonals have one direction. */
 static void edges_triangulated(gen_list_t *t, sl_int side, double jitter, uint64_t *state) {
@@ -89,6 +102,12 @@ static int is_worse(const char *name, order_quality a, order_quality b, double f
     return worse;
 }
 
+/* The same against METIS, whichever is installed. */
+static int is_worse_than_metis(const char *name, order_quality ours, order_quality metis,
+                               double fill, double path) {
+    return is_worse(name, ours, metis, METIS_MARGIN * fill, METIS_MARGIN * path);
+}
+
 /* Entries of L and path weight by the default ordering relative to METIS, summed over three sizes
  * so that a single lucky separator does not decide. The numbers are the limit of the fill and, in
  * parentheses, what was measured: with minimum vertex separators in bands; with bands of no layers,
@@ -123,7 +142,8 @@ static void fill_is_near_that_of_metis(void **state) {
             gen_matrix_free(&M);
             gen_list_free(&t);
         }
-        failures += is_worse(grids[kind].name, ours, metis, grids[kind].fill, grids[kind].path);
+        failures +=
+            is_worse_than_metis(grids[kind].name, ours, metis, grids[kind].fill, grids[kind].path);
     }
     assert_int_equal(failures, 0);
 }
@@ -155,7 +175,7 @@ static void meshes_are_near_metis(void **state) {
             gen_matrix_free(&M);
             free(xyz);
         }
-        failures += is_worse(meshes[m].name, ours, metis, 1.06, meshes[m].path);
+        failures += is_worse_than_metis(meshes[m].name, ours, metis, 1.06, meshes[m].path);
     }
     assert_int_equal(failures, 0);
 }
@@ -207,7 +227,7 @@ static void volumes_are_near_metis(void **state) {
             add_renamed(&M.view, &ours, &metis);
             gen_matrix_free(&M);
         }
-        failures += is_worse(boxes[k].name, ours, metis, 1.06, boxes[k].path);
+        failures += is_worse_than_metis(boxes[k].name, ours, metis, 1.06, boxes[k].path);
     }
     assert_int_equal(failures, 0);
 }
@@ -234,7 +254,7 @@ static void rings_are_near_metis(void **state) {
                 gen_matrix_free(&M);
                 free(xyz);
             }
-            failures += is_worse(meshes[m].name, ours, metis, 1.06, 1.09);
+            failures += is_worse_than_metis(meshes[m].name, ours, metis, 1.06, 1.09);
         }
     }
     assert_int_equal(failures, 0);
