@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c5cf7efadb69e27f
+ * FNV-1a of the lines after this comment, without the license: c43eb338e8ec6cf5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -24,30 +24,30 @@
  *   2107 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2295 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
  *   2377 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2529 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2572 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2663 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2813 impl/ base: the compiler, status, memory, sorting, threads
- *   3783 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4618 impl/ matrix: sparse matrices of the caller and of the library
- *   5144 impl/ ordering: fill-reducing orderings of a graph
- *   9480 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11325 impl/ factor: the numbers of L and D
- *  14104 impl/ solve: full and local solves
- *  15579 impl/ accuracy: refinement, condition, defects, half solves
- *  16410 impl/ pivots: the order of the pivots by the values of a matrix
- *  16828 impl/ float: L and fronts in single precision
- *  17279 impl/ inverse: entries of the inverse, regions
- *  19804 impl/ change: a factor that follows changes of its matrix
- *  26311 impl/ io: files that are written and mapped
- *  26621 impl/ files: Matrix Market files, 64-bit indices
- *  27143 impl/ save: factors in files
- *  28966 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29664 impl/ batch: diagonals of many inverses
- *  29806 impl/ complex: complex Hermitian systems over real factors
- *  30370 impl/ packs: the tables through which the core calls packs
- *  30397 impl/ last: undefine every internal macro
- *  30695 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2504 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2547 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2634 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2784 impl/ base: the compiler, status, memory, sorting, threads
+ *   3754 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4589 impl/ matrix: sparse matrices of the caller and of the library
+ *   5115 impl/ ordering: fill-reducing orderings of a graph
+ *   9451 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11296 impl/ factor: the numbers of L and D
+ *  14075 impl/ solve: full and local solves
+ *  15550 impl/ accuracy: refinement, condition, defects, half solves
+ *  16381 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16799 impl/ float: L and fronts in single precision
+ *  17250 impl/ inverse: entries of the inverse, regions
+ *  19775 impl/ change: a factor that follows changes of its matrix
+ *  26277 impl/ io: files that are written and mapped
+ *  26587 impl/ files: Matrix Market files, 64-bit indices
+ *  27109 impl/ save: factors in files
+ *  28932 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29630 impl/ batch: diagonals of many inverses
+ *  29772 impl/ complex: complex Hermitian systems over real factors
+ *  30336 impl/ packs: the tables through which the core calls packs
+ *  30363 impl/ last: undefine every internal macro
+ *  30661 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -422,7 +422,7 @@ typedef enum sl_pins_method {
 /** Why pins hold rows in their way. */
 typedef enum sl_pins_reason {
     SL_PINS_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
-    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_set_matrix */
+    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_refactor */
     SL_PINS_UNSUITED,     /* several null vectors, regularization, or SL_STORAGE_COMPLEX */
     SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
 } sl_pins_reason;
@@ -735,7 +735,7 @@ typedef struct sl_reuse_info {
     double seconds;          /* processor seconds, summed over all threads */
 } sl_reuse_info;
 
-/** A set of pins: sl_pins_set_matrix, _add, _add_rows, _add_equality, _release_rows. */
+/** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_pins_method method; /* the way in use */
     sl_pins_reason reason; /* why */
@@ -2379,7 +2379,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. If
- *  the matrix is known (sl_pins_set_matrix), many pins are eliminated instead: a second factor, in
+ *  the matrix is known (sl_pins_refactor), many pins are eliminated instead: a second factor, in
  *  which their rows are those of the identity, over the same analysis.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
@@ -2409,33 +2409,26 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F
 /** Releases a set of pins; NULL is allowed. */
 SL_API void sl_pins_free(sl_pins *P);
 
-/** Adds a pin: x is held at a value in one row of A. It becomes the last one of P.
+/** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
+ *  order of rows.
  *
- *  row    [in]   in 0..n-1.
- *  stats  [out]  error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
+ *  rows   [in]   count >= 0 rows in 0..n-1.
+ *  stats  [out]  pins; error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
- *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 16 bytes per column
- *           of the path, and 4 per row below its supernodes. If the matrix is known, k counts the
- *           pins since the last elimination, and once their cost exceeds that of the next one, all
- *           are eliminated. sl_pins_add_rows takes about half as long for 100 pins together.
+ *  Cost     by the capacitance matrix, for each pin, a forward sweep, which up to 8 nearby rows
+ *           share, k products over shared columns and O(k^2); keeps 16 bytes per column of the
+ *           path, and 4 per row below its supernodes. 100 pins together take half as long as one by
+ *           one.
+ *           If the matrix is known, k counts the pins since the last elimination. Once their cost
+ *           exceeds that of the next elimination, all are eliminated: by a copy of the factor if P
+ *           has none yet, and a refactorization of the reach of the changed rows, or of all.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
-
-/** Adds pins, all or none, by the cheaper way. They become the last ones of P, in this order.
- *
- *  rows   [in]   count >= 0 rows.
- *  stats  [out]  pins; error.row; may be NULL.
- *  Returns, Threads  as in sl_pins_add.
- *  Cost     by the capacitance matrix as in sl_pins_add, but up to 8 nearby rows share a sweep; by
- *           elimination a copy of the factor if P has none yet, and a refactorization of the reach
- *           of the changed rows, or of all.
- */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count,
-                                                 sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
+                                            sl_stats *stats);
 
 /** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
  *  value 1.
@@ -2447,18 +2440,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
                                                      const double *values, sl_int count,
                                                      sl_stats *stats);
 
-/** Releases pin number `index`, 0-based. Those after it move down by one.
- *
- *  Returns  as sl_pins_release_rows.
- *  Cost     O(k^2); of a pin that is eliminated as sl_pins_release_rows.
- *  Threads  exclusive use of P.
- */
-SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
-
 /** Releases pins, all or none. The others move together and keep their order.
  *
- *  indices  [in]   count >= 0 different numbers of pins, in any order.
- *  stats    [out]  pins; may be NULL.
+ *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
+ *  stats    [out]  pins, of which count is the number that is left; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
  *           also SL_ERR_STATE: F has changed, and the errors of sl_pins_add. On error P is as
  *           before.
@@ -2466,37 +2451,27 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
  *           of the released rows, or added anew by the capacitance matrix: release them together.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices,
-                                                     sl_int count, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
+                                                sl_stats *stats);
 
-/** Gives P the matrix of F, so that pins may be eliminated. After F has changed this also takes
- *  its present numbers, as sl_pins_refactor does, by the cheaper way. Both ways give the same
- *  solutions, up to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX, pins
- *  stay with the capacitance matrix (stats.pins.reason).
+/** Takes the present numbers of the factor, after it has changed. EXPERIMENTAL: takes its matrix,
+ *  so that pins may be eliminated; both ways to hold them give the same solutions, up to rounding.
  *
  *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
- *                with a random right-hand side.
+ *                with a random right-hand side. Pins are then held by the cheaper way; with several
+ *                null vectors, regularization or SL_STORAGE_COMPLEX they stay with the capacitance
+ *                matrix (stats.pins.reason). NULL: no matrix; one that P was given before is
+ *                forgotten, and all pins use the capacitance matrix.
  *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: not the
- *           analyzed pattern; SL_ERR_STATE: failed factor; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; after F
- *           has changed also the errors of sl_pins_refactor.
- *  Cost     a solve and two products with A; 8 bytes per entry of A. Elimination keeps a second
- *           factor.
+ *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: A
+ *           has not the analyzed pattern; SL_ERR_STATE: failed factor. On error P is as before, or,
+ *           if F has changed or A is NULL, solves are refused until a later call succeeds.
+ *  Cost     after F has changed, and without A, k forward sweeps and O(k^3), or a refactorization
+ *           of the second factor, which elimination keeps. For A a solve, two products with A, and
+ *           8 bytes per entry.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats);
-
-/** The number k of pins and equalities. */
-SL_API sl_int sl_pins_count(const sl_pins *P);
-
-/** Takes the present numbers of the factor, after it has changed. The matrix that P may have been
- *  given is forgotten, and all pins use the capacitance matrix: sl_pins_set_matrix does the same
- *  with the new matrix.
- *
- *  Returns  as sl_pins_add. On error solves are refused until a later call succeeds.
- *  Cost     k forward sweeps and O(k^3).  Threads  exclusive use of P; F is read.
- */
-SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
+SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats);
 
 /** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
  *  in their rows, and A x = b in all others.
@@ -2647,12 +2622,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
 #define sl_pins_create(...) sl_pins_create_needs_SL_WITH_CHANGE
 #define sl_pins_free(...) sl_pins_free_needs_SL_WITH_CHANGE
 #define sl_pins_add(...) sl_pins_add_needs_SL_WITH_CHANGE
-#define sl_pins_add_rows(...) sl_pins_add_rows_needs_SL_WITH_CHANGE
 #define sl_pins_add_equality(...) sl_pins_add_equality_needs_SL_WITH_CHANGE
 #define sl_pins_release(...) sl_pins_release_needs_SL_WITH_CHANGE
-#define sl_pins_release_rows(...) sl_pins_release_rows_needs_SL_WITH_CHANGE
-#define sl_pins_set_matrix(...) sl_pins_set_matrix_needs_SL_WITH_CHANGE
-#define sl_pins_count(...) sl_pins_count_needs_SL_WITH_CHANGE
 #define sl_pins_refactor(...) sl_pins_refactor_needs_SL_WITH_CHANGE
 #define sl_pins_solve(...) sl_pins_solve_needs_SL_WITH_CHANGE
 #define sl_factor_restrict(...) sl_factor_restrict_needs_SL_WITH_CHANGE
@@ -22865,7 +22836,7 @@ static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *v
   return SL_OK;
 }
 
-/* src/impl/change/pins_matrix.h: sl_pins_set_matrix: the matrix of the factor, whose rows can then be eliminated */
+/* src/impl/change/pins_matrix.h: sl_pins_refactor: new numbers, and the matrix, whose rows can be eliminated */
 
 #define SLI_PINS_OTHER 1e-7
 #define SLI_PINS_OTHER_FLOAT 1e-3
@@ -22959,21 +22930,13 @@ static sl_status sli_pins_renew(sl_pins *P, double *values, sl_stats *stats) {
   return status;
 }
 
-SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats) {
-  const double started = sli_seconds(), one = 1.0;
+static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats) {
+  const double one = 1.0;
   sli_source from;
   double *values, error;
   sl_status status;
   sl_int row;
   sl_off m, entries;
-  sli_stats_clear_error(stats);
-  if (P == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_factor_fits(P->F, A);
-  if (status != SL_OK) {
-    return status;
-  }
   entries = P->F->S->scatter_begin[P->F->S->n_supers];
   values = (double *)sli_alloc(&P->allocator, ((size_t)entries + 1) * sizeof *values);
   if (values == NULL) {
@@ -23006,14 +22969,26 @@ SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats
       sli_free(&P->allocator, values);
     }
   }
+  return status;
+}
+
+SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) {
+  const double started = sli_seconds();
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (P == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (A == NULL) {
+    status = sli_pins_renew(P, NULL, stats);
+  } else {
+    status = sli_factor_fits(P->F, A);
+    status = status == SL_OK ? sli_pins_set_matrix(P, A, stats) : status;
+  }
   if (status == SL_OK) {
     sli_pins_report(P, started, stats);
   }
   return status;
-}
-
-SL_API sl_status sl_pins_refactor(sl_pins *P) {
-  return P == NULL ? SL_ERR_ARGUMENT : sli_pins_renew(P, NULL, NULL);
 }
 
 /* src/impl/change/pins.h: sets of pins: created, added, released */
@@ -23170,7 +23145,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
   return status;
 }
 
-SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
+SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   double seconds = 0.0, threshold;
   sl_pins_reason reason;
@@ -23213,12 +23188,7 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
   return status;
 }
 
-SL_API sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats) {
-  return sl_pins_add_rows(P, &row, 1, stats);
-}
-
-SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int count,
-                    sl_stats *stats) {
+SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sli_pins_target t;
   sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
@@ -23229,6 +23199,10 @@ SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int 
   sli_stats_clear_error(stats);
   if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
     return SL_ERR_ARGUMENT;
+  }
+  if (count == 0) {
+    sli_pins_report(P, started, stats);
+    return SL_OK;
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     gone = SLI_TAKE(&b, unsigned char, P->count);
@@ -23268,14 +23242,6 @@ SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int 
     sli_pins_report(P, started, stats);
   }
   return status;
-}
-
-SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
-  return sl_pins_release_rows(P, &index, 1, NULL);
-}
-
-SL_API sl_int sl_pins_count(const sl_pins *P) {
-  return P == NULL ? 0 : P->count;
 }
 
 /* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */

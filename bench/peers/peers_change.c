@@ -85,11 +85,12 @@ static void call_down(void *state) {
 /* The diagonal entry of the inverse at a vertex while its neighbor is held at 0. */
 static double our_pinned(const changes *c, int at) {
     const double one = 1, zero = 0;
+    const sl_int first = 0;
     double x;
-    bench_must(sl_pins_add(c->pins, c->near[at][1], NULL), "pin");
+    bench_must(sl_pins_add(c->pins, &c->near[at][1], 1, NULL), "pin");
     bench_must(sl_pins_solve(c->pins, c->plan[at], &x, 1, &one, 1, &zero, 1, 1, c->cmp->W),
                "solve with a pin");
-    bench_must(sl_pins_release(c->pins, 0), "release");
+    bench_must(sl_pins_release(c->pins, &first, 1, NULL), "release");
     return x;
 }
 
@@ -187,7 +188,7 @@ static int check(bench_run *run, const changes *c) {
         }
         apart = fmax(apart, difference(c));
     }
-    bench_must(sl_pins_refactor(c->pins), "pins");
+    bench_must(sl_pins_refactor(c->pins, NULL, NULL), "pins");
     for (int k = 0; k < PLACES; k++) {
         values[0] = our_pinned(c, k);
         values[1] = their_pinned(c, k);
@@ -225,7 +226,7 @@ static void pin_step(bench_run *run, bench_report *report, changes *c) {
                          {.method = "CHOLMOD rowdel/rowadd", .call = call_their_pin, .is_peer = 1}};
     rows[0].state = &places[0];
     rows[1].state = &places[1];
-    bench_must(sl_pins_refactor(c->pins), "pins");
+    bench_must(sl_pins_refactor(c->pins, NULL, NULL), "pins");
     peers_race(run->seconds / 2, report, c->cmp, "pin, solve, release", 0, rows, 2, NULL, 0);
 }
 

@@ -23,6 +23,7 @@ typedef struct change {
     double w;
     sl_stats stats;
     sl_pins *pins;
+    sl_int n_pins;
     sl_int held[MANY];
     double values[PINS];
 } change;
@@ -106,33 +107,39 @@ static void call_refactor(void *state) {
 /* Adds a pin, solves with all of them, and releases it. */
 static void call_pin(void *state) {
     change *c = state;
-    const sl_int count = sl_pins_count(c->pins);
+    const sl_int count = c->n_pins;
     const double b = 1.0;
     double x;
-    bench_must(sl_pins_add(c->pins, c->held[count], NULL), "pin");
+    bench_must(sl_pins_add(c->pins, &c->held[count], 1, NULL), "pin");
     bench_must(sl_pins_solve(c->pins, c->plan[c->next], &x, 1, &b, 1, c->values, PINS, 1, c->W),
                "solve with pins");
-    bench_must(sl_pins_release(c->pins, count), "release");
+    bench_must(sl_pins_release(c->pins, &count, 1, NULL), "release");
     c->next = (c->next + 1) % EDGES;
 }
 
 static void call_hundred(void *state) {
     change *c = state;
-    while (sl_pins_count(c->pins) < PINS) {
-        bench_must(sl_pins_add(c->pins, c->held[sl_pins_count(c->pins)], NULL), "pin");
+    for (; c->n_pins < PINS; c->n_pins++) {
+        bench_must(sl_pins_add(c->pins, &c->held[c->n_pins], 1, NULL), "pin");
+    }
+}
+
+/* Releases the last pins, one by one, until `count` are left. */
+static void release_to(change *c, sl_int count) {
+    while (c->n_pins > count) {
+        c->n_pins--;
+        bench_must(sl_pins_release(c->pins, &c->n_pins, 1, NULL), "release");
     }
 }
 
 static void ready_hundred(void *state) {
-    change *c = state;
-    while (sl_pins_count(c->pins) > 0) {
-        bench_must(sl_pins_release(c->pins, sl_pins_count(c->pins) - 1), "release");
-    }
+    release_to(state, 0);
 }
 
 static void call_many(void *state) {
     change *c = state;
-    bench_must(sl_pins_add_rows(c->pins, c->held, MANY, &c->stats), "pins");
+    bench_must(sl_pins_add(c->pins, c->held, MANY, &c->stats), "pins");
+    c->n_pins = MANY;
 }
 
 static void ready_many(void *state) {
@@ -141,7 +148,8 @@ static void ready_many(void *state) {
     for (sl_int k = 0; k < MANY; k++) {
         indices[k] = k;
     }
-    bench_must(sl_pins_release_rows(c->pins, indices, sl_pins_count(c->pins), NULL), "release");
+    bench_must(sl_pins_release(c->pins, indices, c->n_pins, NULL), "release");
+    c->n_pins = 0;
 }
 
 /* ---- one system ---- */
@@ -195,7 +203,7 @@ static int change_check(bench_run *run, change *c) {
     bench_must(sl_factor_solve(c->F, x, n, b, n, 1, NULL), "solve");
     int held = bench_check_residual(run, c->system, x, b, 1, "update and downdate");
     bench_must(sl_factor_refactor(c->F, &c->system->A, NULL), "refactorization");
-    bench_must(sl_pins_refactor(c->pins), "pins");
+    bench_must(sl_pins_refactor(c->pins, NULL, NULL), "pins");
     free(x);
     free(b);
     return held;
@@ -213,7 +221,7 @@ static double race(bench_run *run, bench_report *report, change *c, const char *
     row.baseline = baseline > 0 ? baseline : sample.median;
     bench_report_row(report, c->system, &row);
     bench_must(sl_factor_refactor(c->F, &c->system->A, NULL), "refactorization");
-    bench_must(sl_pins_refactor(c->pins), "pins");
+    bench_must(sl_pins_refactor(c->pins, NULL, NULL), "pins");
     return sample.median;
 }
 
@@ -232,15 +240,13 @@ static void time_system(bench_run *run, bench_report *report, const bench_system
         race(run, report, c, "pin, solve, release", (bench_contender){.call = call_pin}, one);
         race(run, report, c, "100 pins",
              (bench_contender){.call = call_hundred, .ready = ready_hundred}, one);
-        while (sl_pins_count(c->pins) >= PINS) {
-            bench_must(sl_pins_release(c->pins, PINS - 1), "release");
-        }
+        release_to(c, PINS - 1);
         race(run, report, c, "pin 100, solve, rel.", (bench_contender){.call = call_pin}, one);
         const bench_contender many = {.call = call_many, .ready = ready_many};
         ready_hundred(c);
         race(run, report, c, "400 pins, no matrix", many, one);
         ready_many(c);
-        bench_must(sl_pins_set_matrix(c->pins, &system->A, NULL), "matrix of the pins");
+        bench_must(sl_pins_refactor(c->pins, &system->A, NULL), "matrix of the pins");
         race(run, report, c, "400 pins, matrix", many, one);
         bench_report_note(report, "with the matrix %d of %d pins were eliminated",
                           (int)c->stats.pins.eliminated, MANY);

@@ -8,7 +8,7 @@
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
  *  values. For definite A this minimizes x' A x / 2 - b' x under these equalities. The factor does
  *  not change: a pin is one forward sweep, and solves take one forward and one backward sweep. If
- *  the matrix is known (sl_pins_set_matrix), many pins are eliminated instead: a second factor, in
+ *  the matrix is known (sl_pins_refactor), many pins are eliminated instead: a second factor, in
  *  which their rows are those of the identity, over the same analysis.
  *
  *  Singular matrices: with SL_NULL_PIVOT_SKIP and known null vectors (sl_factor_create), one pin
@@ -38,33 +38,26 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_create(sl_pins **out, const sl_factor *F
 /** Releases a set of pins; NULL is allowed. */
 SL_API void sl_pins_free(sl_pins *P);
 
-/** Adds a pin: x is held at a value in one row of A. It becomes the last one of P.
+/** Adds pins, all or none: x is held at values in rows of A. They become the last ones of P, in the
+ *  order of rows.
  *
- *  row    [in]   in 0..n-1.
- *  stats  [out]  error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: the row is held already, by this pin or a
+ *  rows   [in]   count >= 0 rows in 0..n-1.
+ *  stats  [out]  pins; error.row; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PIVOT: a row is held already, by its pin or by a
  *           combination of the others, up to rounding; SL_ERR_STATE: F has changed;
  *           SL_ERR_UNSUPPORTED: null vectors in the row's tree of the factor are not known
  *           (error.row); SL_ERR_MEMORY; SL_ERR_TOO_LARGE. On error P is as before.
- *  Cost     a forward sweep, k products over shared columns and O(k^2); keeps 16 bytes per column
- *           of the path, and 4 per row below its supernodes. If the matrix is known, k counts the
- *           pins since the last elimination, and once their cost exceeds that of the next one, all
- *           are eliminated. sl_pins_add_rows takes about half as long for 100 pins together.
+ *  Cost     by the capacitance matrix, for each pin, a forward sweep, which up to 8 nearby rows
+ *           share, k products over shared columns and O(k^2); keeps 16 bytes per column of the
+ *           path, and 4 per row below its supernodes. 100 pins together take half as long as one by
+ *           one.
+ *           If the matrix is known, k counts the pins since the last elimination. Once their cost
+ *           exceeds that of the next elimination, all are eliminated: by a copy of the factor if P
+ *           has none yet, and a refactorization of the reach of the changed rows, or of all.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats);
-
-/** Adds pins, all or none, by the cheaper way. They become the last ones of P, in this order.
- *
- *  rows   [in]   count >= 0 rows.
- *  stats  [out]  pins; error.row; may be NULL.
- *  Returns, Threads  as in sl_pins_add.
- *  Cost     by the capacitance matrix as in sl_pins_add, but up to 8 nearby rows share a sweep; by
- *           elimination a copy of the factor if P has none yet, and a refactorization of the reach
- *           of the changed rows, or of all.
- */
-SL_API SL_WARN_UNUSED sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count,
-                                                 sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count,
+                                            sl_stats *stats);
 
 /** Adds an equality: the sum of values[k] x(rows[k]) is held. A pin is the case of one row and the
  *  value 1.
@@ -76,18 +69,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_add_equality(sl_pins *P, const sl_int *r
                                                      const double *values, sl_int count,
                                                      sl_stats *stats);
 
-/** Releases pin number `index`, 0-based. Those after it move down by one.
- *
- *  Returns  as sl_pins_release_rows.
- *  Cost     O(k^2); of a pin that is eliminated as sl_pins_release_rows.
- *  Threads  exclusive use of P.
- */
-SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
-
 /** Releases pins, all or none. The others move together and keep their order.
  *
- *  indices  [in]   count >= 0 different numbers of pins, in any order.
- *  stats    [out]  pins; may be NULL.
+ *  indices  [in]   count >= 0 different numbers of pins, 0-based, in any order.
+ *  stats    [out]  pins, of which count is the number that is left; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; of pins that are eliminated
  *           also SL_ERR_STATE: F has changed, and the errors of sl_pins_add. On error P is as
  *           before.
@@ -95,37 +80,27 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, sl_int index);
  *           of the released rows, or added anew by the capacitance matrix: release them together.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices,
-                                                     sl_int count, sl_stats *stats);
+SL_API SL_WARN_UNUSED sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count,
+                                                sl_stats *stats);
 
-/** Gives P the matrix of F, so that pins may be eliminated. After F has changed this also takes
- *  its present numbers, as sl_pins_refactor does, by the cheaper way. Both ways give the same
- *  solutions, up to rounding. With several null vectors, regularization or SL_STORAGE_COMPLEX, pins
- *  stay with the capacitance matrix (stats.pins.reason).
+/** Takes the present numbers of the factor, after it has changed. EXPERIMENTAL: takes its matrix,
+ *  so that pins may be eliminated; both ways to hold them give the same solutions, up to rounding.
  *
  *  A      [in]   the matrix that F is a factor of; its values are copied. This is tested by a solve
- *                with a random right-hand side.
+ *                with a random right-hand side. Pins are then held by the cheaper way; with several
+ *                null vectors, regularization or SL_STORAGE_COMPLEX they stay with the capacitance
+ *                matrix (stats.pins.reason). NULL: no matrix; one that P was given before is
+ *                forgotten, and all pins use the capacitance matrix.
  *  stats  [out]  pins; error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: not the
- *           analyzed pattern; SL_ERR_STATE: failed factor; SL_ERR_MEMORY; SL_ERR_TOO_LARGE; after F
- *           has changed also the errors of sl_pins_refactor.
- *  Cost     a solve and two products with A; 8 bytes per entry of A. Elimination keeps a second
- *           factor.
+ *  Returns  as sl_pins_add; SL_ERR_ARGUMENT: also if the test fails (error.row); SL_ERR_PATTERN: A
+ *           has not the analyzed pattern; SL_ERR_STATE: failed factor. On error P is as before, or,
+ *           if F has changed or A is NULL, solves are refused until a later call succeeds.
+ *  Cost     after F has changed, and without A, k forward sweeps and O(k^3), or a refactorization
+ *           of the second factor, which elimination keeps. For A a solve, two products with A, and
+ *           8 bytes per entry.
  *  Threads  exclusive use of P; F is read.
  */
-SL_API SL_WARN_UNUSED sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats);
-
-/** The number k of pins and equalities. */
-SL_API sl_int sl_pins_count(const sl_pins *P);
-
-/** Takes the present numbers of the factor, after it has changed. The matrix that P may have been
- *  given is forgotten, and all pins use the capacitance matrix: sl_pins_set_matrix does the same
- *  with the new matrix.
- *
- *  Returns  as sl_pins_add. On error solves are refused until a later call succeeds.
- *  Cost     k forward sweeps and O(k^3).  Threads  exclusive use of P; F is read.
- */
-SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P);
+SL_API SL_WARN_UNUSED sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats);
 
 /** Solves A x = b + C f with C' x = g, where the columns of C are the equalities: for pins, x is g
  *  in their rows, and A x = b in all others.

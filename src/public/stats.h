@@ -162,7 +162,7 @@ typedef struct sl_reuse_info {
     double seconds;          /* processor seconds, summed over all threads */
 } sl_reuse_info;
 
-/** A set of pins: sl_pins_set_matrix, _add, _add_rows, _add_equality, _release_rows. */
+/** A set of pins: sl_pins_add, _add_equality, _release, _refactor. */
 typedef struct sl_pins_info {
     sl_pins_method method; /* the way in use */
     sl_pins_reason reason; /* why */

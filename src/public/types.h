@@ -158,7 +158,7 @@ typedef enum sl_pins_method {
 /** Why pins hold rows in their way. */
 typedef enum sl_pins_reason {
     SL_PINS_CHEAPEST = 0, /* the fewest flops, weighted by what one costs in each way */
-    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_set_matrix */
+    SL_PINS_NO_MATRIX,    /* the matrix is not known: sl_pins_refactor */
     SL_PINS_UNSUITED,     /* several null vectors, regularization, or SL_STORAGE_COMPLEX */
     SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
 } sl_pins_reason;

@@ -1,6 +1,7 @@
 /* test_change_threads.c: solves by threads between edits, and edits of several factors at once */
 #include "tests/lib/parallel_for.h"
 #include "tests/lib/factored.h"
+#include "tests/lib/pin_calls.h"
 
 enum { TASKS = 8, ROUNDS = 6, PINS = 3, NEAR = 5 };
 
@@ -30,7 +31,7 @@ static shared_t shared_make(void) {
     SL_CHECK(sl_plan_create(&s.plan, s.y.S, near_rows, NEAR, near_rows, NEAR, NULL, NULL));
     SL_CHECK(sl_pins_create(&s.pins, s.y.F, NULL));
     for (int k = 0; k < PINS; k++) {
-        SL_CHECK(sl_pins_add(s.pins, pinned[k], NULL));
+        SL_CHECK(pin_row(s.pins, pinned[k], NULL));
     }
     for (int k = 0; k < TASKS; k++) {
         s.X[k] = test_reals((size_t)s.n);
@@ -108,7 +109,7 @@ static void edit(shared_t *s, int round) {
     if (round % 3 == 2) {
         SL_CHECK(sl_factor_change(s->y.F, &s->y.M.view, &row, &row, &delta, 1, s->W[0], NULL));
     }
-    SL_CHECK(sl_pins_refactor(s->pins));
+    SL_CHECK(sl_pins_refactor(s->pins, NULL, NULL));
 }
 
 static void solves_between_edits_share_a_factor(void **state) {
@@ -189,10 +190,10 @@ static void pin_task(void *shared, sl_int k) {
     sl_pins *pins = NULL;
     s->status[k] = sl_pins_create(&pins, s->y.F, NULL);
     for (sl_int p = 0; p < PINS + 1 && s->status[k] == SL_OK; p++) {
-        s->status[k] = sl_pins_add(pins, (17 * k + 41 * p) % s->n, NULL);
+        s->status[k] = pin_row(pins, (17 * k + 41 * p) % s->n, NULL);
     }
     if (s->status[k] == SL_OK) {
-        s->status[k] = sl_pins_release(pins, k % PINS);
+        s->status[k] = unpin(pins, k % PINS);
     }
     if (s->status[k] == SL_OK) {
         s->status[k] = sl_pins_solve(pins, NULL, s->X[k], (size_t)s->n, s->B, (size_t)s->n, s->G,

@@ -1,5 +1,6 @@
 /* test_interleaved.c: interleaved right-hand sides give the bits of column-major ones */
 #include "tests/lib/factored.h"
+#include "tests/lib/pin_calls.h"
 
 enum { MOST = 17, GUARD = 4 };
 
@@ -199,7 +200,7 @@ static void other_calls_refuse_rows(void **state) {
     sl_pins *pins = NULL;
     SL_CHECK(sl_plan_create(&P, y.S, set, 6, set, 6, NULL, NULL));
     SL_CHECK(sl_pins_create(&pins, F, NULL));
-    SL_CHECK(sl_pins_add(pins, 2, NULL));
+    SL_CHECK(pin_row(pins, 2, NULL));
     memcpy(before, X, sizeof X);
     for (int k = 0; k < 4; k++) {
         const size_t w = wrong[k];

@@ -57,16 +57,16 @@ static void rows_are_pinned_together(void **state) {
         pin(&p, rows[count]);
         pin_rows(&p, rows, count, NULL);
         assert_pinned(&p, gen_bits(&seed));
-        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows + count, 2, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows + count, 2, &stats));
         assert_int_equal(stats.error.row, rows[count]);
         for (sl_int m = 0; m <= count; m++) {
             release(&p, p.count - 1);
         }
         const sl_int other = rows[count - 2];
         rows[count - 2] = rows[1];
-        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows, count, &stats));
+        SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows, count, &stats));
         assert_int_equal(stats.error.row, rows[1]);
-        assert_int_equal(sl_pins_count(p.P), 0);
+        assert_int_equal(pins_count(p.P), 0);
         rows[count - 2] = other;
         pin_rows(&p, rows, count, NULL);
         assert_pinned(&p, gen_bits(&seed));
@@ -204,8 +204,8 @@ static void a_changed_factor_is_refused_until_the_refactorization(void **state) 
     SL_CHECK(sl_factor_update_entries(p.y.F, &i, &i, &two, 1, NULL, NULL));
     p.dense[(size_t)i * (n + 1)] += two;
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, n, x, n, g, 3, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_pins_add(p.P, 4, NULL));
-    SL_CHECK(sl_pins_refactor(p.P));
+    SL_EXPECT(SL_ERR_STATE, pin_row(p.P, 4, NULL));
+    SL_CHECK(sl_pins_refactor(p.P, NULL, NULL));
     assert_pinned(&p, 3);
     free(x);
     pinned_free(&p);
@@ -224,24 +224,24 @@ static void invalid_arguments_are_refused(void **state) {
     sl_options wrong = options_none();
     wrong.size = 1;
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_create(&P, p.y.F, &wrong));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(NULL, 0, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, -1, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, pin_row(NULL, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, pin_row(p.P, -1, &stats));
     assert_int_equal(stats.error.row, -1);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, p.n, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, pin_row(p.P, p.n, &stats));
     assert_int_equal(stats.error.row, p.n);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, &row, &one, 0, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, NULL, &one, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_equality(p.P, &row, NULL, 1, NULL));
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_add_equality(p.P, &row, &nan, 1, &stats));
     assert_int_equal(stats.error.row, 3);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, unpin(p.P, 0));
     pin(&p, 3);
     pin(&p, 4);
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, 3, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, pin_row(p.P, 3, &stats));
     assert_int_equal(stats.error.row, 3);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, -1));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(NULL, 0));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, unpin(p.P, -1));
+    SL_EXPECT(SL_ERR_ARGUMENT, unpin(NULL, 0));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(NULL, NULL, x, n, x, n, x, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, NULL, 2, 1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_solve(p.P, NULL, x, n, x, n, x, 1, 1, NULL));
@@ -263,7 +263,7 @@ static void invalid_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_create(&P, kkt.F, NULL));
     assert_null(P);
     factored_free(&kkt);
-    assert_int_equal(sl_pins_count(NULL), 0);
+    assert_int_equal(pins_count(NULL), 0);
     sl_pins_free(NULL);
 }
 
@@ -283,19 +283,19 @@ static void failing_allocations_leave_the_pins(void **state) {
         sl_status status = SL_ERR_MEMORY;
         for (int m = 0; status != SL_OK; m++) {
             counter.fail_at = (int64_t)counter.calls + m;
-            status = sl_pins_add(P, 4 * k, NULL);
+            status = pin_row(P, 4 * k, NULL);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
-            assert_int_equal(sl_pins_count(P), k + (status == SL_OK));
+            assert_int_equal(pins_count(P), k + (status == SL_OK));
         }
         counter.fail_at = -1;
     }
     counter.fail_at = (int64_t)counter.calls;
     SL_EXPECT(SL_ERR_MEMORY, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     counter.fail_at = (int64_t)counter.calls;
-    SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P));
+    SL_EXPECT(SL_ERR_MEMORY, sl_pins_refactor(P, NULL, NULL));
     counter.fail_at = -1;
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
-    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_refactor(P, NULL, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, 60, b, 60, g, PINS, 1, NULL));
     for (sl_int k = 0; k < PINS; k++) {
         assert_true(fabs(x[4 * k] - g[k]) <= 1e-13);

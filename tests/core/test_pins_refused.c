@@ -1,7 +1,7 @@
 /* test_pins_refused.c: pins that cannot be eliminated, or only just; memory that ends in between */
 #include "tests/lib/pinned.h"
 
-/* Each allocation of sl_pins_set_matrix fails once after the factor has changed: solves are refused
+/* Each allocation of sl_pins_refactor fails once after the factor has changed: solves are refused
  * until it succeeds. */
 static void failing_allocations_refuse_solves(void **state) {
     (void)state;
@@ -14,7 +14,7 @@ static void failing_allocations_refuse_solves(void **state) {
     sl_stats stats;
     sl_pins_free(p.P);
     SL_CHECK(sl_pins_create(&p.P, p.y.F, &opt));
-    SL_CHECK(sl_pins_set_matrix(p.P, &p.y.M.view, NULL));
+    SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
     for (sl_int k = 0; k < 40; k++) {
         rows[k] = 2 * k;
     }
@@ -24,7 +24,7 @@ static void failing_allocations_refuse_solves(void **state) {
     for (int m = 0; status != SL_OK; m++) {
         SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, 100, x, 100, x, 100, 1, NULL));
         counter.fail_at = (int64_t)counter.calls + m;
-        status = sl_pins_set_matrix(p.P, &p.y.M.view, &stats);
+        status = sl_pins_refactor(p.P, &p.y.M.view, &stats);
         assert_true(status == SL_ERR_MEMORY || (status == SL_OK && m > 5));
         counter.fail_at = -1;
     }
@@ -55,24 +55,24 @@ static void nearly_dependent_pins_are_not_eliminated(void **state) {
                 others[n_others++] = i;
             }
         }
-        SL_CHECK(sl_pins_set_matrix(p.P, A, NULL));
+        SL_CHECK(sl_pins_refactor(p.P, A, NULL));
         SL_CHECK(sl_pins_add_equality(p.P, both, one, 2, NULL));
         SL_CHECK(sl_pins_add_equality(p.P, both, other, 2, NULL));
-        status = sl_pins_add_rows(p.P, rows, count, &stats);
+        status = sl_pins_add(p.P, rows, count, &stats);
         if (status == SL_OK) {
             assert_int_equal(stats.pins.reason, SL_PINS_REFUSED);
-            SL_CHECK(sl_pins_add(p.P, 98, &stats)); /* elimination is not tried again */
+            SL_CHECK(pin_row(p.P, 98, &stats)); /* elimination is not tried again */
             assert_int_equal(stats.pins.reason, SL_PINS_REFUSED);
             SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
-            SL_CHECK(sl_pins_set_matrix(p.P, A, &stats));
+            SL_CHECK(sl_pins_refactor(p.P, A, &stats));
             assert_int_equal(stats.pins.reason, SL_PINS_REFUSED);
             assert_int_equal(stats.pins.eliminated, 0);
-            assert_int_equal(sl_pins_count(p.P), count + 3);
+            assert_int_equal(pins_count(p.P), count + 3);
             taken++;
         } else { /* the set is as it was: other rows are eliminated */
             assert_int_equal(status, SL_ERR_PIVOT);
-            assert_int_equal(sl_pins_count(p.P), 2);
-            SL_CHECK(sl_pins_add_rows(p.P, others, n_others, &stats));
+            assert_int_equal(pins_count(p.P), 2);
+            SL_CHECK(sl_pins_add(p.P, others, n_others, &stats));
             assert_int_equal(stats.pins.reason, SL_PINS_CHEAPEST);
             assert_int_equal(stats.pins.eliminated, n_others);
             refused++;
@@ -114,14 +114,14 @@ static void a_null_vector_may_be_lost(void **state) {
     SL_CHECK(sl_symbolic_create(&S, &A.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&F, S, &A.view, &opt, NULL));
     SL_CHECK(sl_pins_create(&P, F, NULL));
-    SL_CHECK(sl_pins_set_matrix(P, &A.view, NULL));
+    SL_CHECK(sl_pins_refactor(P, &A.view, NULL));
     SL_CHECK(sl_pins_add_equality(P, ends, values, 2, NULL));
-    SL_CHECK(sl_pins_add_rows(P, rows, 90, &stats));
+    SL_CHECK(sl_pins_add(P, rows, 90, &stats));
     assert_int_equal(stats.pins.eliminated, 90);
     SL_CHECK(sl_factor_refactor(F, &B.view, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_set_matrix(P, &B.view, &stats));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P, &B.view, &stats));
     SL_CHECK(sl_factor_refactor(F, &A.view, NULL));
-    SL_CHECK(sl_pins_set_matrix(P, &A.view, &stats));
+    SL_CHECK(sl_pins_refactor(P, &A.view, &stats));
     assert_int_equal(stats.pins.eliminated, 90);
     sl_pins_free(P);
     sl_factor_free(F);
@@ -141,13 +141,13 @@ static void assert_unsuited(const sl_symbolic *S, const sl_csc *A, const sl_opti
     sl_stats stats;
     SL_CHECK(sl_factor_create(&F, S, A, opt, NULL));
     SL_CHECK(sl_pins_create(&P, F, NULL));
-    SL_CHECK(sl_pins_set_matrix(P, A, &stats));
+    SL_CHECK(sl_pins_refactor(P, A, &stats));
     assert_int_equal(stats.pins.reason, SL_PINS_UNSUITED);
-    SL_CHECK(sl_pins_add(P, 7, NULL));
+    SL_CHECK(pin_row(P, 7, NULL));
     SL_CHECK(sl_factor_refactor(F, A, NULL));
-    SL_CHECK(sl_pins_set_matrix(P, A, &stats));
+    SL_CHECK(sl_pins_refactor(P, A, &stats));
     assert_int_equal(stats.pins.reason, SL_PINS_UNSUITED);
-    SL_CHECK(sl_pins_add(P, 30, &stats));
+    SL_CHECK(pin_row(P, 30, &stats));
     assert_int_equal(stats.pins.method, SL_PINS_CAPACITANCE);
     SL_CHECK(sl_pins_solve(P, NULL, x, n, b, n, g, 2, 1, NULL));
     assert_true(fabs(x[7] - g[0]) <= 1e-9 && fabs(x[30] - g[1]) <= 1e-9);
@@ -226,16 +226,16 @@ static void every_suited_factor_is_eliminated(void **state) {
         memcpy(values, A.x, (size_t)A.p[M] * sizeof *values);
         values[A.p[M / 2]] = (double)NAN;
         A.x = values;
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(P, &A, &stats));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(P, &A, &stats));
         assert_true(isnan(stats.error.value));
         A.x = y.M.x;
-        SL_CHECK(sl_pins_set_matrix(P, &A, NULL));
+        SL_CHECK(sl_pins_refactor(P, &A, NULL));
         for (sl_int k = 0; k < HELD; k++) {
             rows[k] = k;
         }
         gen_reals(B, M, 3);
         gen_reals(Y, M, 4);
-        SL_CHECK(sl_pins_add_rows(P, rows, HELD, &stats));
+        SL_CHECK(sl_pins_add(P, rows, HELD, &stats));
         assert_int_equal(stats.pins.eliminated, HELD);
         for (sl_int held = HELD; held > HELD - 3; held--) {
             SL_CHECK(sl_pins_solve(P, NULL, X, M, B, M, Y, M, 1, NULL));
@@ -247,7 +247,7 @@ static void every_suited_factor_is_eliminated(void **state) {
                 assert_true(k < held ? X[k] == Y[k]
                                      : fabs(r[k]) <= (way == 0 ? 1e-4 : 1e-11) * (1.0 + largest));
             }
-            SL_CHECK(sl_pins_release(P, held - 1));
+            SL_CHECK(unpin(P, held - 1));
         }
         sl_pins_free(P);
         gen_list_free(&t);
@@ -265,7 +265,7 @@ static void held_rows_of_a_singular_matrix_change(void **state) {
     pinned_t p = pinned_make(GEN_SINGULAR, 400, 1, &opt);
     sl_int rows[200];
     sl_stats stats;
-    SL_CHECK(sl_pins_set_matrix(p.P, &p.y.M.view, NULL));
+    SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
     for (sl_int k = 0; k < 200; k++) {
         rows[k] = 2 * k;
     }
@@ -289,9 +289,9 @@ static void a_row_twice_among_many_is_refused(void **state) {
     for (sl_int k = 0; k < 20; k++) {
         rows[k] = 2 * (k % 19);
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows, 20, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows, 20, &stats));
     assert_int_equal(stats.error.row, 0);
-    assert_int_equal(sl_pins_count(p.P), 1);
+    assert_int_equal(pins_count(p.P), 1);
     assert_pinned(&p, 3);
     pin_rows(&p, rows, 19, NULL);
     assert_pinned(&p, 4);

@@ -1,5 +1,6 @@
 /* test_pins_rigid.c: pins on elastic bodies with several null vectors each, and on rows of zeros */
 #include "tests/lib/elasticity.h"
+#include "tests/lib/pin_calls.h"
 
 enum { R = 3 };
 
@@ -44,7 +45,7 @@ static void held_free(held_t *h) {
 }
 
 static void hold(held_t *h, sl_int row) {
-    SL_CHECK(sl_pins_add(h->P, row, NULL));
+    SL_CHECK(pin_row(h->P, row, NULL));
     h->is_held[row] = 1;
     h->rows[h->count++] = row;
 }
@@ -152,7 +153,7 @@ static void pins_hold_bodies(void **state) {
         assert_held(&h, &seed);
         while (h.count > 0) { /* the last half of them goes first */
             const size_t at = h.count / 2;
-            SL_CHECK(sl_pins_release(h.P, (sl_int)at));
+            SL_CHECK(unpin(h.P, (sl_int)at));
             h.is_held[h.rows[at]] = 0;
             memmove(h.rows + at, h.rows + at + 1, (--h.count - at) * sizeof *h.rows);
             load(&h, -2, &seed);

@@ -1,6 +1,7 @@
 /* test_pins_trust.c: pins say what they cannot answer: lost digits, unknown null vectors, forces
  * out of balance; weights count where no pin holds */
 #include "tests/lib/zero_mean.h"
+#include "tests/lib/pin_calls.h"
 
 enum { N = 120, HALF = 60 }; /* so many rows that they are eliminated */
 
@@ -63,7 +64,7 @@ static void lost_digits_are_reported_in_each_component(void **state) {
     }
     for (int firm = 0; firm < 2; firm++) {
         paths_t y = paths_make(two_paths(firm ? 1e-4 : 1e-13, 1e-20, 1e-20), NULL);
-        SL_CHECK(sl_pins_add(y.P, 5, NULL));
+        SL_CHECK(pin_row(y.P, 5, NULL));
         SL_EXPECT(firm ? SL_OK : SL_ERR_INACCURATE,
                   sl_pins_solve(y.P, NULL, x, N, b, N, &g, 1, 1, NULL));
         paths_free(&y);
@@ -107,8 +108,8 @@ static void a_second_tree_may_have_an_unknown_null_vector(void **state) {
         sl_stats stats;
         SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add_equality(y.P, rows, values, 2, &stats));
         assert_int_equal(stats.error.row, HALF + 3);
-        assert_int_equal(sl_pins_count(y.P), 0);
-        SL_CHECK(sl_pins_add(y.P, 3, NULL));
+        assert_int_equal(pins_count(y.P), 0);
+        SL_CHECK(pin_row(y.P, 3, NULL));
         double b[N] = {0.0}, x[N], g[1] = {0.0};
         b[HALF + 3] = 1.0;
         expect_solves(&y, SL_ERR_INCONSISTENT, x, b, g);
@@ -141,8 +142,8 @@ static void components_without_pins_are_as_without_a_set(void **state) {
         for (sl_int k = 0; k + 1 < HALF; k++) {
             rows[k] = k == 0 ? 0 : k + 1;
         }
-        SL_CHECK(is_held ? sl_pins_set_matrix(y.P, &y.M.view, NULL) : SL_OK);
-        SL_CHECK(sl_pins_add_rows(y.P, rows, is_held ? HALF - 1 : 1, &stats));
+        SL_CHECK(is_held ? sl_pins_refactor(y.P, &y.M.view, NULL) : SL_OK);
+        SL_CHECK(sl_pins_add(y.P, rows, is_held ? HALF - 1 : 1, &stats));
         assert_int_equal(stats.pins.method, is_held ? SL_PINS_ELIMINATION : SL_PINS_CAPACITANCE);
         gen_reals(b, N, 3);
         b[HALF] += 1.0;
@@ -202,7 +203,7 @@ static void motions_that_pins_leave_need_balance(void **state) {
             assert_true(k == rows[0] || k == rows[1] || fabs(r[k]) <= 1e-13);
         }
         b[20] = 0.0; /* one pin more, and nothing is left */
-        SL_CHECK(sl_pins_add(y.P, 0, NULL));
+        SL_CHECK(pin_row(y.P, 0, NULL));
         expect_solves(&y, SL_OK, x, b, g);
         paths_free(&y);
     }
@@ -231,8 +232,8 @@ static void a_weak_bridge_holds_what_pins_leave(void **state) {
             rows[k] = first + k;
         }
         b[rest + 7] = 1.0;
-        SL_CHECK(sl_pins_set_matrix(y.P, &y.M.view, NULL));
-        const sl_status status = sl_pins_add_rows(y.P, rows, HALF, NULL);
+        SL_CHECK(sl_pins_refactor(y.P, &y.M.view, NULL));
+        const sl_status status = sl_pins_add(y.P, rows, HALF, NULL);
         assert_true(status == SL_OK || status == SL_ERR_PIVOT);
         if (status == SL_OK) {
             SL_CHECK(sl_pins_solve(y.P, NULL, x, N, b, N, g, N, 1, NULL));
@@ -263,7 +264,7 @@ static void failing_allocations_change_nothing(void **state) {
     for (int64_t k = 0; status == SL_ERR_MEMORY; k++) {
         counter.fail_at = (int64_t)counter.calls + k;
         status = sl_pins_add_equality(P, rows, values, 2, NULL);
-        assert_int_equal(sl_pins_count(P), status == SL_OK);
+        assert_int_equal(pins_count(P), status == SL_OK);
     }
     SL_CHECK(status);
     status = SL_ERR_MEMORY;

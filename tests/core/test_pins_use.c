@@ -1,5 +1,6 @@
 /* test_pins_use.c: what pins refuse; null vectors that they do not know */
 #include "tests/lib/factored.h"
+#include "tests/lib/pin_calls.h"
 
 enum { N = 40 };
 
@@ -44,19 +45,19 @@ static void failed_factors_are_refused(void **state) {
     sl_pins *P, *Q = (sl_pins *)(void *)&y;
     A.x = bad; /* zeros */
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(y.F, &A, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_create(&Q, y.F, NULL));
     assert_null(Q);
     const sl_int row = 4;
-    SL_EXPECT(SL_ERR_STATE, sl_pins_add(P, row, NULL));
+    SL_EXPECT(SL_ERR_STATE, pin_row(P, row, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_add_equality(P, &row, &g, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_pins_refactor(P));
+    SL_EXPECT(SL_ERR_STATE, sl_pins_refactor(P, NULL, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_pins_add(P, row, NULL));
+    SL_EXPECT(SL_ERR_STATE, pin_row(P, row, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_add_equality(P, &row, &g, 1, NULL));
-    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_refactor(P, NULL, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     assert_true(fabs(x[3] - g) <= 1e-14);
     sl_pins_free(P);
@@ -86,7 +87,7 @@ static void unsuited_factors_are_refused(void **state) {
     double b[N] = {0.0}, out[N] = {0.0}, g = 1.0;
     sl_plan *plan;
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     SL_CHECK(sl_plan_create(&plan, z.S, &row, 1, &row, 1, NULL, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, plan, out, 1, b, 1, &g, 1, 1, NULL));
     sl_plan_free(plan);
@@ -111,10 +112,10 @@ static void an_overflow_is_refused(void **state) {
     sl_stats stats;
     sl_pins *P;
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     SL_EXPECT(SL_ERR_NOT_FINITE, sl_pins_add_equality(P, &row, &large, 1, &stats));
     assert_int_equal(stats.error.row, row);
-    assert_int_equal(sl_pins_count(P), 1);
+    assert_int_equal(pins_count(P), 1);
     SL_CHECK(sl_pins_solve(P, NULL, x, n, x, n, &g, 1, 1, NULL));
     assert_true(fabs(x[3] - g) <= 1e-14);
     sl_pins_free(P);
@@ -130,17 +131,17 @@ static void null_vectors_must_be_known(void **state) {
     sl_stats stats;
     assert_int_equal(null_count(y.F), 1);
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, &stats));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 3, &stats));
     assert_int_equal(stats.error.row, 3);
-    assert_int_equal(sl_pins_count(P), 0);
+    assert_int_equal(pins_count(P), 0);
     sl_pins_free(P);
     factored_free(&y);
 
     y = path(1.0, 20, 0.0); /* two such components */
     assert_int_equal(null_count(y.F), 2);
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 33, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 3, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 33, NULL));
     sl_pins_free(P);
     factored_free(&y);
 
@@ -158,14 +159,14 @@ static void null_vectors_must_be_known(void **state) {
     sl_factor_free(y.F);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 3, NULL));
+    SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 3, NULL));
     sl_pins_free(P);
     factored_free(&y);
     y = path(-1.0, 0, 0.0);
     sl_factor_free(y.F);
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
     for (sl_int k = 0; k < N; k++) {
         assert_true(fabs(x[k] - g[0]) <= 1e-12);
@@ -176,8 +177,8 @@ static void null_vectors_must_be_known(void **state) {
     y = path(-1.0, 20, 0.5);
     assert_int_equal(null_count(y.F), 1);
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 30, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 30, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
     assert_true(fabs(x[30] - g[0]) <= 1e-13);
     for (sl_int k = 0; k < 20; k++) { /* a constant */
@@ -226,15 +227,15 @@ static void a_refactorization_may_lose_the_null_vector(void **state) {
     double b[N] = {0.0}, x[N], g = 4.0;
     sl_pins *P;
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 8, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 8, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &bad.M.view, NULL));
-    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P));
-    SL_CHECK(sl_pins_release(P, 0));
-    assert_int_equal(sl_pins_count(P), 1);
+    SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_refactor(P, NULL, NULL));
+    SL_CHECK(unpin(P, 0));
+    assert_int_equal(pins_count(P), 1);
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_CHECK(sl_pins_refactor(P));
+    SL_CHECK(sl_pins_refactor(P, NULL, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));
     for (sl_int k = 0; k < N; k++) {
         assert_true(fabs(x[k] - g) <= 1e-12);
@@ -263,7 +264,7 @@ static void failing_allocations_leave_the_set(void **state) {
             if (step == 1) {
                 counter.fail_at = (int64_t)counter.calls + k;
                 status = sl_pins_add_equality(P, rows, values, 2, NULL);
-                assert_int_equal(sl_pins_count(P), status == SL_OK);
+                assert_int_equal(pins_count(P), status == SL_OK);
             }
             assert_true(status == SL_ERR_MEMORY || (status == SL_OK && k > step));
             counter.fail_at = -1;
@@ -306,17 +307,17 @@ static void rows_of_zeros_can_be_pinned(void **state) {
         SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, &opt, NULL));
         assert_int_equal(null_count(y.F), way == 2 ? 3 : 2);
         SL_CHECK(sl_pins_create(&P, y.F, NULL));
-        SL_CHECK(sl_pins_set_matrix(P, &y.M.view, &stats));
+        SL_CHECK(sl_pins_refactor(P, &y.M.view, &stats));
         if (way == 2) {
-            SL_EXPECT(SL_ERR_UNSUPPORTED, sl_pins_add(P, 30, NULL));
-            SL_CHECK(sl_pins_add(P, N - 1, NULL));
+            SL_EXPECT(SL_ERR_UNSUPPORTED, pin_row(P, 30, NULL));
+            SL_CHECK(pin_row(P, N - 1, NULL));
             sl_pins_free(P);
             gen_list_free(&t);
             factored_free(&y);
             continue;
         }
-        SL_CHECK(sl_pins_add(P, 30, NULL));
-        SL_CHECK(sl_pins_add(P, N - 1, NULL));
+        SL_CHECK(pin_row(P, 30, NULL));
+        SL_CHECK(pin_row(P, N - 1, NULL));
         SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, 2, 1, NULL));
         for (sl_int k = 0; k < N; k++) {
             assert_true(fabs(x[k] - (k == N - 1 ? g[1] : g[0])) <= 1e-12);
@@ -345,7 +346,7 @@ static void lost_digits_are_noticed(void **state) {
     SL_CHECK(sl_symbolic_create(&y.S, &y.M.view, NULL, NULL));
     SL_CHECK(sl_factor_create(&y.F, y.S, &y.M.view, NULL, NULL));
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_CHECK(sl_pins_add(P, 3, NULL));
+    SL_CHECK(pin_row(P, 3, NULL));
     for (int k = 0; k < 9 * N; k++) {
         B[k] = 1.0 + 0.1 * (k % 7);
         X[k] = before[k] = 123.0;
@@ -379,8 +380,8 @@ static void a_matrix_without_rows_has_no_pins(void **state) {
     factored_t y = factored_make(GEN_NONE, 0, 1, 0, NULL);
     sl_pins *P;
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(P, 0, NULL));
-    SL_CHECK(sl_pins_refactor(P));
+    SL_EXPECT(SL_ERR_ARGUMENT, pin_row(P, 0, NULL));
+    SL_CHECK(sl_pins_refactor(P, NULL, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, NULL, 0, NULL, 0, NULL, 0, 1, NULL));
     sl_pins_free(P);
     factored_free(&y);

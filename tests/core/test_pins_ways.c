@@ -49,7 +49,7 @@ static void release_rows(pinned_t *p, sl_int least, sl_int count, uint64_t *seed
     for (sl_int k = 0; k < count; k++) {
         set[k] += least;
     }
-    SL_CHECK(sl_pins_release_rows(p->P, set, count, stats));
+    SL_CHECK(sl_pins_release(p->P, set, count, stats));
     for (sl_int k = 0; k < p->count; k++) {
         int is_gone = 0;
         for (sl_int m = 0; m < count; m++) {
@@ -61,7 +61,7 @@ static void release_rows(pinned_t *p, sl_int least, sl_int count, uint64_t *seed
     }
     memset(p->C + n * (size_t)kept, 0, n * (size_t)(p->count - kept) * sizeof(double));
     p->count = kept;
-    assert_int_equal(sl_pins_count(p->P), kept);
+    assert_int_equal(pins_count(p->P), kept);
     free(set);
 }
 
@@ -137,7 +137,7 @@ static void both_ways_give_the_same(void **state) {
             opt.null_pivots =
                 kinds[k % 6] == GEN_SINGULAR ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
             pinned_t p = pinned_make(kinds[k % 6], 90, sign, &opt);
-            SL_CHECK(sl_pins_set_matrix(p.P, &p.y.M.view, NULL));
+            SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
             const sl_int least = kinds[k % 6] == GEN_SINGULAR;
             if (least > 0) {
                 pin(&p, 7);
@@ -155,7 +155,7 @@ static void single_pins_are_eliminated(void **state) {
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
     sl_stats stats;
     sl_int count = 0;
-    SL_CHECK(sl_pins_set_matrix(p.P, &p.y.M.view, NULL));
+    SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
     do {
         assert_true(count < 99);
         pin_rows(&p, &count, 1, &stats);
@@ -186,12 +186,12 @@ static void failing_allocations_leave_the_way(void **state) {
         sl_status status = SL_ERR_MEMORY;
         for (int m = 0; status != SL_OK; m++) {
             counter.fail_at = (int64_t)counter.calls + m;
-            status = step == 0   ? sl_pins_set_matrix(p.P, &p.y.M.view, &stats)
-                     : step == 1 ? sl_pins_add_rows(p.P, rows, 40, &stats)
-                     : step == 2 ? sl_pins_add_rows(p.P, rows + 40, 9, &stats)
-                     : step == 3 ? sl_pins_add(p.P, rows[49], &stats)
-                     : step == 4 ? sl_pins_release_rows(p.P, some, 10, &stats)
-                                 : sl_pins_release(p.P, 0);
+            status = step == 0   ? sl_pins_refactor(p.P, &p.y.M.view, &stats)
+                     : step == 1 ? sl_pins_add(p.P, rows, 40, &stats)
+                     : step == 2 ? sl_pins_add(p.P, rows + 40, 9, &stats)
+                     : step == 3 ? pin_row(p.P, rows[49], &stats)
+                     : step == 4 ? sl_pins_release(p.P, some, 10, &stats)
+                                 : unpin(p.P, 0);
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
             counter.fail_at = -1;
             if (status == SL_OK && step >= 1 && step <= 3) {
@@ -210,7 +210,7 @@ static void failing_allocations_leave_the_way(void **state) {
                 memset(p.C + n * (size_t)kept, 0, n * (size_t)(p.count - kept) * sizeof(double));
                 p.count = kept;
             }
-            assert_int_equal(sl_pins_count(p.P), p.count);
+            assert_int_equal(pins_count(p.P), p.count);
             assert_pinned(&p, (uint64_t)m);
         }
         assert_int_equal(step == 5 ? SL_PINS_ELIMINATION : stats.pins.method,
@@ -220,7 +220,7 @@ static void failing_allocations_leave_the_way(void **state) {
     COUNTER_CLEAN(&counter);
 }
 
-/* New numbers: by sl_pins_set_matrix the rows stay eliminated, by sl_pins_refactor the matrix is
+/* New numbers: by sl_pins_refactor the rows stay eliminated, by sl_pins_refactor the matrix is
  * forgotten. A matrix of other values is refused with the row. */
 static void new_numbers_are_taken(void **state) {
     (void)state;
@@ -233,14 +233,13 @@ static void new_numbers_are_taken(void **state) {
     for (sl_int k = 0; k < 40; k++) {
         rows[k] = 2 * k;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(NULL, A, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(p.P, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(NULL, A, NULL));
     pin_rows(&p, rows, 2, &stats);
     assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
-    SL_CHECK(sl_pins_set_matrix(p.P, A, &stats));
+    SL_CHECK(sl_pins_refactor(p.P, A, &stats));
     pin_rows(&p, rows + 2, 38, &stats);
     assert_int_equal(stats.pins.eliminated, 40);
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, 4, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, pin_row(p.P, 4, &stats));
     assert_int_equal(stats.error.row, 4);
     memcpy(values, A->x, (size_t)A->p[n] * sizeof(double));
     A->x = values;
@@ -250,49 +249,49 @@ static void new_numbers_are_taken(void **state) {
     for (size_t k = 0; k < n * n; k++) {
         p.dense[k] *= 1.5;
     }
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_set_matrix(p.P, A, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_refactor(p.P, A, &stats));
     assert_true(stats.error.row >= 0 && stats.error.row < p.n && stats.error.value > 0.1);
     SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
     SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, n, x, n, x, n, 1, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_pins_release(p.P, 0));
-    SL_CHECK(sl_pins_set_matrix(p.P, A, &stats));
+    SL_EXPECT(SL_ERR_STATE, unpin(p.P, 0));
+    SL_CHECK(sl_pins_refactor(p.P, A, &stats));
     assert_int_equal(stats.pins.eliminated, 40);
     assert_pinned(&p, 4);
     SL_CHECK(sl_factor_refactor(p.y.F, A, NULL));
-    SL_CHECK(sl_pins_refactor(p.P));
+    SL_CHECK(sl_pins_refactor(p.P, NULL, NULL));
     assert_pinned(&p, 5);
     release_rows(&p, 0, 3, &(uint64_t){7}, &stats);
     assert_int_equal(stats.pins.method, SL_PINS_CAPACITANCE);
     assert_int_equal(stats.pins.reason, SL_PINS_NO_MATRIX);
     assert_pinned(&p, 6);
     const sl_int twice[2] = {3, 3}, outside[2] = {3, p.n};
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, twice, 2, &stats));
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, twice, 2, &stats));
     assert_int_equal(stats.error.row, 3);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(p.P, outside, 2, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, outside, 2, &stats));
     assert_int_equal(stats.error.row, p.n);
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(p.P, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(p.P, twice, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add_rows(NULL, twice, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, twice, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, outside, 2, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(NULL, twice, 1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release_rows(p.P, NULL, 1, NULL));
-    SL_EXPECT(SL_ERR_TOO_LARGE, sl_pins_add_rows(p.P, twice, INT32_MAX, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(p.P, twice, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_add(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, twice, 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, outside, 2, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(NULL, twice, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_pins_release(p.P, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_TOO_LARGE, sl_pins_add(p.P, twice, INT32_MAX, NULL));
     assert_pinned(&p, 7);
-    SL_CHECK(sl_pins_set_matrix(p.P, A, NULL));
-    SL_CHECK(sl_pins_add_rows(p.P, NULL, 0, NULL));
+    SL_CHECK(sl_pins_refactor(p.P, A, NULL));
+    SL_CHECK(sl_pins_add(p.P, NULL, 0, NULL));
     for (sl_int k = 0; k < 40; k++) {
         rows[k] = 2 * (k % 39) + 1;
     }
-    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add_rows(p.P, rows, 40, &stats)); /* row 1 twice */
+    SL_EXPECT(SL_ERR_PIVOT, sl_pins_add(p.P, rows, 40, &stats)); /* row 1 twice */
     assert_int_equal(stats.error.row, 1);
     pin_rows(&p, rows, 39, &stats);
     assert_int_equal(stats.pins.method, SL_PINS_ELIMINATION);
     assert_pinned(&p, 8);
     A->x = x; /* zeros */
     SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(p.y.F, A, NULL));
-    SL_EXPECT(SL_ERR_STATE, sl_pins_release(p.P, p.count - 1));
-    assert_int_equal(sl_pins_count(p.P), p.count);
+    SL_EXPECT(SL_ERR_STATE, unpin(p.P, p.count - 1));
+    assert_int_equal(pins_count(p.P), p.count);
     A->x = p.y.M.x;
     free(values);
     free(x);
@@ -325,9 +324,9 @@ static void many_pins_with_long_paths_hold(void **state) {
         sl_pins *P = NULL;
         SL_CHECK(sl_pins_create(&P, y.F, NULL));
         if (has_matrix) {
-            SL_CHECK(sl_pins_set_matrix(P, &M.view, NULL));
+            SL_CHECK(sl_pins_refactor(P, &M.view, NULL));
         }
-        SL_CHECK(sl_pins_add_rows(P, rows, PINS, NULL));
+        SL_CHECK(sl_pins_add(P, rows, PINS, NULL));
         SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, g, PINS, 1, NULL));
         SL_CHECK(sl_csc_residual(&M.view, r, N, NULL, x, N, b, N, 1));
         for (sl_int k = 0; k < N; k++) {
@@ -364,8 +363,8 @@ static void large_fronts_have_room(void **state) {
     gen_reals(G, n * MOST, 1);
     gen_reals(b, SET * MOST, 2);
     SL_CHECK(sl_pins_create(&P, y.F, &opt));
-    SL_CHECK(sl_pins_set_matrix(P, &y.M.view, NULL));
-    SL_CHECK(sl_pins_add_rows(P, rows, count, NULL));
+    SL_CHECK(sl_pins_refactor(P, &y.M.view, NULL));
+    SL_CHECK(sl_pins_add(P, rows, count, NULL));
     SL_CHECK(sl_plan_create(&plan, y.S, set, SET, set, SET, NULL, NULL));
     for (sl_int nrhs = 1; nrhs <= MOST; nrhs++) {
         for (size_t k = 0; k < SET * (size_t)nrhs; k++) {

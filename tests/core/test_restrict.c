@@ -1,6 +1,7 @@
 /* test_restrict.c: sl_factor_restrict: the factor of A[R, R], what is kept, solves with it */
 #include "tests/lib/check_inverse.h"
 #include "tests/lib/restricted.h"
+#include "tests/lib/pin_calls.h"
 
 static void restrictions_are_factors_of_the_submatrix(void **state) {
     (void)state;
@@ -188,7 +189,7 @@ static void restrictions_are_independent_and_complete(void **state) {
         SL_CHECK(sl_region_create(&region, t.G, some, 3, NULL, NULL, NULL));
         gen_reals(b, (size_t)n, 6);
         SL_CHECK(sl_pins_create(&pins, t.G, NULL));
-        SL_CHECK(sl_pins_add(pins, n / 2, NULL));
+        SL_CHECK(pin_row(pins, n / 2, NULL));
         SL_CHECK(sl_pins_solve(pins, NULL, x, (size_t)n, b, (size_t)n, &two, 1, 1, NULL));
         assert_true(fabs(x[n / 2] - 2.0) <= 1e-14);
         sl_pins_free(pins);

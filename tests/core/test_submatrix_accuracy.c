@@ -2,6 +2,7 @@
  * refused */
 #include "tests/lib/random_systems.h"
 #include "tests/lib/subset.h"
+#include "tests/lib/pin_calls.h"
 
 typedef struct tally_t {
     int solved, refused, unsupported, grown;
@@ -105,12 +106,12 @@ static void pin_and_judge(const random_system_t *y, const sl_factor *F, uint64_t
         t->unsupported++;
     } else {
         if (way) {
-            SL_CHECK(sl_pins_set_matrix(P, &y->M.view, NULL));
+            SL_CHECK(sl_pins_refactor(P, &y->M.view, NULL));
         }
         gen_set(rows, y->n, y->n, gen_bits(seed));
         gen_reals(g, n, gen_bits(seed));
-        status = sl_pins_add_rows(P, rows, most, &stats);
-        count = sl_pins_count(P);
+        status = sl_pins_add(P, rows, most, &stats);
+        count = pins_count(P);
         assert_int_equal(count, status == SL_OK ? most : 0);
         t->refused += status != SL_OK;
         status = sl_pins_solve(P, NULL, X, n, y->b, n, g, n, 1, NULL);

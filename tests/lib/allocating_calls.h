@@ -3,6 +3,7 @@
 #define SL_TEST_ALLOCATING_CALLS_H
 
 #include "factored.h"
+#include "pin_calls.h"
 
 typedef struct fixture_t {
     factored_t y; /* a grid, allocated by malloc */
@@ -294,15 +295,15 @@ static sl_status pins(fixture_t *f, const sl_int *rows, sl_int count, const sl_o
     sl_status status = sl_pins_create(&P, f->y.F, opt);
     MADE_OR_NULL(status, P);
     if (status == SL_OK) {
-        status = sl_pins_set_matrix(P, &f->y.M.view, NULL);
+        status = sl_pins_refactor(P, &f->y.M.view, NULL);
     }
     if (status == SL_OK) {
-        status = sl_pins_add_rows(P, rows, count, NULL);
-        assert_int_equal(sl_pins_count(P), status == SL_OK ? count : 0);
+        status = sl_pins_add(P, rows, count, NULL);
+        assert_int_equal(pins_count(P), status == SL_OK ? count : 0);
     }
     if (status == SL_OK) {
-        status = sl_pins_release_rows(P, gone, 3, NULL);
-        assert_int_equal(sl_pins_count(P), status == SL_OK ? count - 3 : count);
+        status = sl_pins_release(P, gone, 3, NULL);
+        assert_int_equal(pins_count(P), status == SL_OK ? count - 3 : count);
     }
     if (status == SL_OK) {
         memcpy(f->X, f->before, sizeof f->X);

@@ -180,7 +180,7 @@ static sl_pins *pins_make(sl_int count) {
     sl_pins *pins = NULL;
     SL_CHECK(sl_pins_create(&pins, o->good.F, NULL));
     for (sl_int row = 0; row < count; row++) {
-        SL_CHECK(sl_pins_add(pins, row, NULL));
+        SL_CHECK(sl_pins_add(pins, &row, 1, NULL));
     }
     return pins;
 }
@@ -207,13 +207,12 @@ CALL(selected_diagonal, sl_selected_diagonal(a->Z, a->X, a->xset, a->nx, &a->sta
 CALL(selected_entries, sl_selected_entries(a->Z, a->X, a->xset, a->xset, a->nx, &a->stats))
 CALL(region_refactor, sl_region_refactor(a->R, a->F, NULL, NULL))
 CALL(reserve, sl_work_reserve(a->W, 64))
-ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset[0], &a->stats))
-ON_PINS(pins_add_rows, 1, sl_pins_add_rows(pins, a->xset, a->nx, &a->stats))
+ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset, a->nx, &a->stats))
 ON_PINS(pins_equality, 1, sl_pins_add_equality(pins, a->xset, a->B, a->nx, &a->stats))
-ON_PINS(pins_release, 1, sl_pins_release(pins, 0))
-ON_PINS(pins_release_rows, N, sl_pins_release_rows(pins, a->xset, a->nx, &a->stats))
-ON_PINS(pins_matrix, 1, sl_pins_set_matrix(pins, a->A, &a->stats))
-ON_PINS(pins_refactor, 1, sl_pins_refactor(pins))
+ON_PINS(pins_release, N, sl_pins_release(pins, a->xset, a->nx, &a->stats))
+/* NULL is no matrix, and not refused */
+ON_PINS(pins_matrix, 1, a->A == NULL ? SL_ERR_ARGUMENT : sl_pins_refactor(pins, a->A, &a->stats))
+ON_PINS(pins_refactor, 1, sl_pins_refactor(pins, NULL, &a->stats))
 ON_PINS(pins_solve, 1,
         sl_pins_solve(pins, NULL, a->X, a->ldx, a->B, a->ldb, o->entries, N, a->nrhs, NULL))
 CREATE(pins, sl_pins, sl_pins_free, sl_pins_create(&out, a->F, NULL))
@@ -278,12 +277,10 @@ static const struct {
     {"sl_region_create", region, F_ | FAILED_ | XSET_},
     {"sl_region_refactor", region_refactor, F_ | FAILED_ | OTHER_ | R_},
     {"sl_pins_create", pins, F_ | FAILED_},
-    {"sl_pins_add", pins_add, PINS_},
-    {"sl_pins_add_rows", pins_add_rows, PINS_ | LIST_},
+    {"sl_pins_add", pins_add, PINS_ | LIST_},
     {"sl_pins_add_equality", pins_equality, PINS_ | LIST_ | B_},
-    {"sl_pins_release", pins_release, PINS_},
-    {"sl_pins_release_rows", pins_release_rows, PINS_ | LIST_},
-    {"sl_pins_set_matrix", pins_matrix, PINS_ | A_ | SQUARE_ | VALUES_},
+    {"sl_pins_release", pins_release, PINS_ | LIST_},
+    {"sl_pins_refactor, matrix", pins_matrix, PINS_ | A_ | SQUARE_ | VALUES_},
     {"sl_pins_refactor", pins_refactor, PINS_},
     {"sl_pins_solve", pins_solve, PINS_ | X_ | LDX_ | B_ | LDB_ | NRHS_},
     {"sl_save_bytes", save_bytes, S_ | FAILED_ | OTHER_},

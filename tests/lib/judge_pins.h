@@ -3,6 +3,7 @@
 #define SL_TEST_JUDGE_PINS_H
 
 #include "judge.h"
+#include "pin_calls.h"
 
 enum { JUDGE_EQUALITIES = 3 };
 
@@ -41,8 +42,7 @@ static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *he
                 rows[count++] = row;
             }
         }
-        const sl_status status = count == 1 ? sl_pins_add(p->P, rows[0], NULL)
-                                            : sl_pins_add_rows(p->P, rows, count, NULL);
+        const sl_status status = sl_pins_add(p->P, rows, count, NULL);
         for (sl_int k = 0; k < count; k++) {
             if (status == SL_OK) {
                 p->row[p->count] = rows[k];
@@ -57,7 +57,7 @@ static inline void judge_pins_add(judge_t *t, judge_pins_t *p, unsigned char *he
 
 static inline void judge_pins_release(judge_t *t, judge_pins_t *p, unsigned char *held) {
     const sl_int at = gen_below(&t->state, p->count);
-    if (p->row[at] == -1 || sl_pins_release(p->P, at) != SL_OK) {
+    if (p->row[at] == -1 || unpin(p->P, at) != SL_OK) {
         return; /* equalities stay: their columns are numbered */
     }
     held[p->row[at]] = 0;
@@ -199,7 +199,7 @@ static inline void judge_way_pins(judge_t *t) {
     p.C = test_reals(t->n * JUDGE_EQUALITIES);
     if (judge_succeeded(t, sl_pins_create(&p.P, t->F, NULL), "pins create")) {
         if (gen_below(&t->state, 2)) {
-            const sl_status status = sl_pins_set_matrix(p.P, &t->y->M.view, NULL);
+            const sl_status status = sl_pins_refactor(p.P, &t->y->M.view, NULL);
             if (status != SL_OK) { /* the test of the matrix may fail where digits are lost */
                 judge_count(t, JUDGE_REFUSED, 0.0, "pins matrix");
             }

@@ -3,6 +3,7 @@
 #define SL_TEST_PINNED_H
 
 #include "factored.h"
+#include "pin_calls.h"
 
 /* A system and its pins, as the tests keep them. */
 typedef struct pinned_t {
@@ -29,13 +30,13 @@ static inline void pinned_free(pinned_t *p) {
 }
 
 static inline void pin(pinned_t *p, sl_int row) {
-    SL_CHECK(sl_pins_add(p->P, row, NULL));
+    SL_CHECK(pin_row(p->P, row, NULL));
     p->C[(size_t)p->n * (size_t)p->count++ + (size_t)row] = 1.0;
-    assert_int_equal(sl_pins_count(p->P), p->count);
+    assert_int_equal(pins_count(p->P), p->count);
 }
 
 static inline void pin_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_stats *stats) {
-    SL_CHECK(sl_pins_add_rows(p->P, rows, count, stats));
+    SL_CHECK(sl_pins_add(p->P, rows, count, stats));
     for (sl_int k = 0; k < count; k++) {
         p->C[(size_t)p->n * (size_t)p->count++ + (size_t)rows[k]] = 1.0;
     }
@@ -43,7 +44,7 @@ static inline void pin_rows(pinned_t *p, const sl_int *rows, sl_int count, sl_st
 
 static inline void release(pinned_t *p, sl_int index) {
     size_t n = (size_t)p->n;
-    SL_CHECK(sl_pins_release(p->P, index));
+    SL_CHECK(unpin(p->P, index));
     p->count--;
     memmove(p->C + n * (size_t)index, p->C + n * (size_t)(index + 1),
             n * (size_t)(p->count - index) * sizeof(double));

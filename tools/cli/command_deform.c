@@ -79,7 +79,7 @@ static mesh deformed(const deform_command *cmd) {
 static void write_shape(const deform_command *cmd, const app_output *output) {
     static const rgb moved = {0xd5, 0x2b, 0x1e}, still = {0x28, 0x50, 0xa0};
     mesh m = deformed(cmd);
-    size_t n = (size_t)m.n_vertices, n_marks = (size_t)sl_pins_count(cmd->d.pins);
+    size_t n = (size_t)m.n_vertices, n_marks = (size_t)cmd->d.n_pins;
     render_mark *marks = app_alloc(n_marks, sizeof *marks);
     double *displacement = app_alloc(n, sizeof *displacement);
     for (size_t v = 0; v < n; v++) {
@@ -148,8 +148,8 @@ static void report(deform_command *cmd, const script_step *step, const step_time
     cmd->worst = t->difference <= cmd->worst ? cmd->worst : t->difference; /* a NaN counts */
     if (cmd->table != NULL) {
         fprintf(cmd->table, "%ld,%s,%d,%d,%.3f,%.3f,%.3f,%.3f", step->line,
-                script_word(step->action), (int)step->handle, (int)sl_pins_count(cmd->d.pins),
-                t->pin, t->release, t->rotations, t->solve);
+                script_word(step->action), (int)step->handle, (int)cmd->d.n_pins, t->pin,
+                t->release, t->rotations, t->solve);
         if (step->action == SCRIPT_FRAME) {
             fprintf(cmd->table, ",%.17g", t->energy);
         } else {

@@ -167,7 +167,7 @@ enum { HELD = 1, CHANGING = 2 };
 
 sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
     size_t n = (size_t)d->n;
-    sl_int *added = d->held + sl_pins_count(d->pins), n_added = 0;
+    sl_int *added = d->held + d->n_pins, n_added = 0;
     for (sl_int k = 0; k < count; k++) {
         size_t v = (size_t)vertices[k];
         if (d->is_held[v]) {
@@ -181,7 +181,8 @@ sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
             d->target[3 * v + c] = d->Y[c * n + v];
         }
     }
-    sl_status status = sl_pins_add_rows(d->pins, added, n_added, &d->stats);
+    sl_status status = sl_pins_add(d->pins, added, n_added, &d->stats);
+    d->n_pins += status == SL_OK ? n_added : 0;
     for (sl_int k = 0; k < count; k++) {
         if (d->is_held[vertices[k]] == CHANGING) {
             d->is_held[vertices[k]] = status == SL_OK ? HELD : 0;
@@ -198,7 +199,7 @@ void deformer_move(deformer *d, sl_int vertex, const double position[3]) {
 }
 
 sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count) {
-    sl_int n_pins = sl_pins_count(d->pins), n_gone = 0, n_left = 0;
+    sl_int n_pins = d->n_pins, n_gone = 0, n_left = 0;
     sl_int *gone = malloc(((size_t)n_pins + 1) * sizeof *gone);
     for (sl_int k = 0; k < count; k++) {
         d->is_held[vertices[k]] = d->is_held[vertices[k]] ? CHANGING : 0;
@@ -209,12 +210,13 @@ sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count) {
         }
     }
     sl_status status =
-        gone == NULL ? SL_ERR_MEMORY : sl_pins_release_rows(d->pins, gone, n_gone, &d->stats);
+        gone == NULL ? SL_ERR_MEMORY : sl_pins_release(d->pins, gone, n_gone, &d->stats);
     for (sl_int k = 0; k < n_pins && status == SL_OK; k++) {
         if (d->is_held[d->held[k]] != CHANGING) {
             d->held[n_left++] = d->held[k];
         }
     }
+    d->n_pins = status == SL_OK ? n_left : n_pins;
     for (sl_int k = 0; k < count; k++) {
         if (d->is_held[vertices[k]] == CHANGING) {
             d->is_held[vertices[k]] = status == SL_OK ? 0 : HELD;
@@ -233,7 +235,7 @@ double deformer_rotations(deformer *d) {
 
 /* G(k, c) = displacement of pin k. */
 static void gather_pins(deformer *d) {
-    size_t n = (size_t)d->n, count = (size_t)sl_pins_count(d->pins);
+    size_t n = (size_t)d->n, count = (size_t)d->n_pins;
     for (size_t k = 0; k < count; k++) {
         size_t v = (size_t)d->held[k];
         for (size_t c = 0; c < 3; c++) {

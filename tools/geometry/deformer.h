@@ -36,7 +36,8 @@ typedef struct deformer {
     double *B;         /* n x 3: right-hand side of the last solve */
     double *U;         /* n x 3: scratch */
     double *G;         /* n x 3: displacements of the pins, leading dimension n */
-    sl_int *held;      /* vertices that are pins, in their order */
+    sl_int *held;      /* n_pins vertices that are pins, in their order */
+    sl_int n_pins;
     double *target;    /* 3 n: where each held vertex is held */
     unsigned char *is_held;
     sl_int n_components;
@@ -64,15 +65,15 @@ void deformer_free(deformer *d);
 
 /** Holds vertices where they are, all or none. Those that are held already stay so.
  *
- *  Returns  SL_OK; as sl_pins_add_rows, with the vertex in stats.error.row.
- *  Cost     that of sl_pins_add_rows.
+ *  Returns  SL_OK; as sl_pins_add, with the vertex in stats.error.row.
+ *  Cost     that of sl_pins_add.
  */
 sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count);
 
 /** Moves a held vertex to a position, which the next solve reaches. */
 void deformer_move(deformer *d, sl_int vertex, const double position[3]);
 
-/** Releases the held ones of some vertices, all or none. Returns as sl_pins_release_rows. */
+/** Releases the held ones of some vertices, all or none. Returns as sl_pins_release. */
 sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count);
 
 /** Computes the best rotations for the present positions; returns the energy. 0 and no effect for

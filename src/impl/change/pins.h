@@ -160,7 +160,7 @@ static sl_status sli_pins_add_by_elimination(sl_pins *P, const sl_int *rows, sl_
     return status;
 }
 
-SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
+SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     double seconds = 0.0, threshold;
     sl_pins_reason reason;
@@ -203,12 +203,7 @@ SL_API sl_status sl_pins_add_rows(sl_pins *P, const sl_int *rows, sl_int count, 
     return status;
 }
 
-SL_API sl_status sl_pins_add(sl_pins *P, sl_int row, sl_stats *stats) {
-    return sl_pins_add_rows(P, &row, 1, stats);
-}
-
-SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int count,
-                                      sl_stats *stats) {
+SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sli_pins_target t;
     sli_block b = {NULL, 0, 0}, targets = {NULL, 0, 0};
@@ -219,6 +214,10 @@ SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int 
     sli_stats_clear_error(stats);
     if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
         return SL_ERR_ARGUMENT;
+    }
+    if (count == 0) {
+        sli_pins_report(P, started, stats);
+        return SL_OK;
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         gone = SLI_TAKE(&b, unsigned char, P->count);
@@ -258,14 +257,6 @@ SL_API sl_status sl_pins_release_rows(sl_pins *P, const sl_int *indices, sl_int 
         sli_pins_report(P, started, stats);
     }
     return status;
-}
-
-SL_API sl_status sl_pins_release(sl_pins *P, sl_int index) {
-    return sl_pins_release_rows(P, &index, 1, NULL);
-}
-
-SL_API sl_int sl_pins_count(const sl_pins *P) {
-    return P == NULL ? 0 : P->count;
 }
 
 #endif

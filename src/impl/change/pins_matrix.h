@@ -1,4 +1,4 @@
-/* pins_matrix.h: sl_pins_set_matrix: the matrix of the factor, whose rows can then be eliminated */
+/* pins_matrix.h: sl_pins_refactor: new numbers, and the matrix, whose rows can be eliminated */
 #ifndef SLI_CHANGE_PINS_MATRIX_H
 #define SLI_CHANGE_PINS_MATRIX_H
 
@@ -104,21 +104,14 @@ static sl_status sli_pins_renew(sl_pins *P, double *values, sl_stats *stats) {
     return status;
 }
 
-SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats) {
-    const double started = sli_seconds(), one = 1.0;
+/* Takes a matrix that fits F and, after F has changed, the present numbers of F. */
+static sl_status sli_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats) {
+    const double one = 1.0;
     sli_source from;
     double *values, error;
     sl_status status;
     sl_int row;
     sl_off m, entries;
-    sli_stats_clear_error(stats);
-    if (P == NULL) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = sli_factor_fits(P->F, A);
-    if (status != SL_OK) {
-        return status;
-    }
     entries = P->F->S->scatter_begin[P->F->S->n_supers];
     values = (double *)sli_alloc(&P->allocator, ((size_t)entries + 1) * sizeof *values);
     if (values == NULL) {
@@ -151,14 +144,26 @@ SL_API sl_status sl_pins_set_matrix(sl_pins *P, const sl_csc *A, sl_stats *stats
             sli_free(&P->allocator, values);
         }
     }
+    return status;
+}
+
+SL_API sl_status sl_pins_refactor(sl_pins *P, const sl_csc *A, sl_stats *stats) {
+    const double started = sli_seconds();
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (P == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (A == NULL) {
+        status = sli_pins_renew(P, NULL, stats);
+    } else {
+        status = sli_factor_fits(P->F, A);
+        status = status == SL_OK ? sli_pins_set_matrix(P, A, stats) : status;
+    }
     if (status == SL_OK) {
         sli_pins_report(P, started, stats);
     }
     return status;
-}
-
-SL_API sl_status sl_pins_refactor(sl_pins *P) {
-    return P == NULL ? SL_ERR_ARGUMENT : sli_pins_renew(P, NULL, NULL);
 }
 
 #endif
