@@ -239,7 +239,6 @@ extern "C" {
 #if defined(SL_WITH_BATCH)
 #include "impl/batch/matrix_sum.h"
 #include "impl/batch/scatter.h"
-#include "impl/batch/combination.h"
 #include "impl/batch/batch_solve.h"
 #include "impl/batch/batch_factor.h"
 #endif

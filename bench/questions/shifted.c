@@ -119,7 +119,7 @@ static void workload_create(workload *q, const bench_system *system, const bench
     uint64_t rng = 31;
     memset(q, 0, sizeof *q);
     shifted_systems_make(&q->f, system);
-    q->scatter = bench_alloc((size_t)sl_symbolic_entries(system->S), sizeof(double));
+    q->scatter = bench_alloc((size_t)system->stats.symbolic.nnz_a, sizeof(double));
     bench_must(sl_plan_create(&q->plan, system->S, patch->boundary, patch->n_boundary,
                               patch->vertices, patch->size, NULL, NULL),
                "plan");

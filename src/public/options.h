@@ -37,8 +37,8 @@ typedef struct sl_allocator {
  *  | every call with an sl_options argument     | size, allocator                          |
  *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
- *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
- *  |   sl_batch_factor                          | null_vector .. storage                   |
+ *  | sl_factor_create, sl_batch_factor          | threads, isa .. signs,                   |
+ *  |                                            | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create, sl_work_create         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |

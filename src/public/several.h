@@ -11,8 +11,8 @@
  *
  *     sl_csc terms[2] = {M, K};                                  any triangles, any two patterns
  *     sl_matrix_sum(&U, NULL, terms, 2, NULL, NULL);             their union
- *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, NULL);
- *     v[0] = malloc(sl_symbolic_entries(S) * sizeof(double));    v[1] likewise
+ *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, &stats);
+ *     v[0] = malloc(stats.symbolic.nnz_a * sizeof(double));      v[1] likewise
  *     sl_symbolic_scatter(S, v[0], &M, NULL);  sl_symbolic_scatter(S, v[1], &K, NULL);
  *     for k < m: c[2 k] = 1, c[2 k + 1] = t[k];
  *     sl_batch_factor(F, m, S, c, v, 2, &opt, NULL, NULL);       F: m factors, of M + t[k] K
@@ -48,13 +48,10 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
                                               const sl_csc *terms, sl_int count,
                                               const sl_options *opt, sl_stats *stats);
 
-/** Length of an array of values in the order of the analysis: stats.symbolic.nnz_a. NULL has 0. */
-SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
-
 /** Scatters the values of a matrix into an array in the order of the analysis.
  *
- *  values  [out]  sl_symbolic_entries(S) doubles, valid for S only, 0 where K has no entry; those
- *                 of a supernode are contiguous. On error untouched.
+ *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_stats), valid for S only, 0 where
+ *                 K has no entry; those of a supernode are contiguous. On error untouched.
  *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any
  *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
  *                 be anything.
@@ -70,64 +67,34 @@ SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values,
                                                     const sl_csc *K, sl_stats *stats);
 
-/** Factors A = coefficients[0] values[0] + .. + coefficients[terms-1] values[terms-1].
+/** Factors weighted sums of the same terms, one or many, distributed over threads:
+ *  A_k = coefficients(0, k) values[0] + .. + coefficients(terms-1, k) values[terms-1].
  *
  *  The same bits as sl_factor_create for a matrix without duplicates whose entries are these sums;
  *  each product is rounded, then added in this order, starting from 0. A compiler that contracts
  *  a * b + c (gcc without -std=c99, for processors with FMA) does not round the products.
  *
- *  out           [out]  the factor, or NULL on error; release with sl_factor_free.
- *  S             [in]   the analysis; borrowed, must outlive the factor.
- *  coefficients  [in]   terms finite numbers.
+ *  Each thread computes whole factors. If their number is not a multiple of the number of threads,
+ *  all threads together compute the remaining ones, one after the other; so also a single one.
+ *
+ *  out           [out]  count factors; release with sl_factor_free. If one fails, it is NULL and
+ *                       the others are computed nevertheless: release them. After SL_ERR_ARGUMENT
+ *                       with failed = -1 all are NULL.
+ *  S             [in]   the analysis; borrowed, must outlive the factors.
+ *  coefficients  [in]   terms x count finite numbers, column-major, leading dimension terms: one
+ *                       column per factor.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
  *  terms         [in]   0 or more; the sum of no terms is the zero matrix.
- *  opt, stats           as in sl_factor_create.
- *  Returns  as sl_factor_create, but never SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient
- *           (error.value, no row) or a sum, at error.row >= error.column.
- *  Cost     as sl_factor_create; the terms are read once, in order.
- *  Threads  as sl_factor_create.
- *  Example  tests/core/test_combination.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
-                                                             const double *coefficients,
-                                                             const double *const *values,
-                                                             sl_int terms, const sl_options *opt,
-                                                             sl_stats *stats);
-
-/** Refactors with other coefficients or values over the factor's analysis. Allocates nothing.
- *
- *  F        [in,out]  any factor, also one of sl_factor_create. After errors as in
- *                     sl_factor_refactor.
- *  Returns, Cost      as sl_factor_create_combination, but never SL_ERR_UNSUPPORTED; mapped and
- *                     loaded factors as in sl_factor_refactor.
- *  Threads            exclusive use of F.
- *  Example            tests/core/test_combination.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_combination(sl_factor *F,
-                                                               const double *coefficients,
-                                                               const double *const *values,
-                                                               sl_int terms, sl_stats *stats);
-
-/** Factors several combinations of the same terms, distributed over threads; the bits of
- *  sl_factor_create_combination.
- *
- *  Each thread computes whole factors. If their number is not a multiple of the number of threads,
- *  all threads together compute the remaining ones, one after the other.
- *
- *  out           [out]  count factors. If one fails, it is NULL and the others are computed
- *                       nevertheless: release them. After SL_ERR_ARGUMENT with failed = -1 all are
- *                       NULL.
- *  coefficients  [in]   terms x count, column-major, leading dimension terms: one column per
- *                       factor.
- *  values, terms [in]   as in sl_factor_create_combination.
  *  opt           [in]   as in sl_factor_create; may be NULL.
  *  failed        [out]  the first factor that failed, or -1; may be NULL.
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
  *                       and bytes are sums over all factors. May be NULL.
- *  Returns  SL_OK, or the status of the first factor that failed, as sl_factor_create_combination.
- *  Cost     that of the factors, distributed; each keeps what a factor keeps.
+ *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
+ *           SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value, no row) or a sum, at
+ *           error.row >= error.column.
+ *  Cost     that of the factors, distributed; the terms are read once for each, in order.
  *  Threads  as sl_factor_create; only the calling thread allocates.
- *  Example  tests/core/test_batch_factor.c
+ *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
                                                 const double *coefficients,
@@ -135,10 +102,11 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
                                                 const sl_options *opt, sl_int *failed,
                                                 sl_stats *stats);
 
-/** Refactors several factors of one analysis. Allocates nothing.
+/** Refactors one or several factors of one analysis with other coefficients or values. Allocates
+ *  nothing.
  *
- *  factors   [in,out]  count different factors. One that fails has no numbers afterwards; the
- *                      others are computed nevertheless.
+ *  factors   [in,out]  count different factors, also of sl_factor_create. One that fails has no
+ *                      numbers afterwards; the others are computed nevertheless.
  *  opt       [in]      threads; NULL: the calling thread only. Factors that have threads of their
  *                      own use these, one after the other.
  *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
@@ -147,7 +115,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *           the first refactorization of a loaded factor. After these no factor has changed. Else
  *           the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
- *  Example  tests/core/test_batch_factor.c
+ *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
                                                   const double *coefficients,

@@ -7,8 +7,8 @@ static void assert_factors(const matrix_pair_t *y, sl_factor *const *F, const do
     opt.threads.count = 0;
     for (int k = 0; k < count; k++) {
         sl_factor *single = NULL;
-        SL_CHECK(sl_factor_create_combination(&single, y->S, c + TERMS * k, matrix_pair_values(y),
-                                              TERMS, &opt, NULL));
+        SL_CHECK(sl_batch_factor(&single, 1, y->S, c + TERMS * k, matrix_pair_values(y), TERMS,
+                                 &opt, NULL, NULL));
         assert_same_bits(F[k], single);
         sl_factor_free(single);
     }
@@ -284,8 +284,7 @@ static void loaded_factors_allocate_when_they_are_refactored(void **state) {
         memcpy(twice, c, sizeof c);
         memcpy(twice + TERMS, c, sizeof c);
         SL_CHECK(pair_load_memory(&S, &F[0], memory, size, SL_LOAD_CHECKED, &opt));
-        SL_CHECK(sl_factor_create_combination(&F[1], S, c, matrix_pair_values(&y), TERMS, NULL,
-                                              NULL));
+        SL_CHECK(sl_batch_factor(&F[1], 1, S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
         for (int k = 0; status != SL_OK; k++) {
             counter.fail_at = turn == 0 ? -1 : (int64_t)counter.calls + k;
             status = sl_batch_refactor(F, 2, twice, matrix_pair_values(&y), TERMS, NULL, &failed,

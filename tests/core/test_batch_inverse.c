@@ -77,11 +77,11 @@ static void requests_with_invalid_factors_are_refused(void **state) {
     sl_factor *F = NULL, *G = NULL, *bad = NULL;
     sl_plan *P = NULL;
     sl_int failed = 9;
-    SL_CHECK(sl_factor_create_combination(&F, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL));
-    SL_CHECK(sl_factor_create_combination(&bad, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL));
-    SL_CHECK(sl_factor_create_combination(&G, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&F, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&bad, 1, y.S, c, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&G, 1, z.S, c, matrix_pair_values(&z), TERMS, NULL, NULL, NULL));
     SL_EXPECT(SL_ERR_PIVOT,
-              sl_factor_refactor_combination(bad, none, matrix_pair_values(&y), TERMS, NULL));
+              sl_batch_refactor(&bad, 1, none, matrix_pair_values(&y), TERMS, NULL, NULL, NULL));
     SL_CHECK(sl_plan_create(&P, y.S, &row, 1, &row, 1, NULL, NULL));
     sl_request r[3];
     memset(r, 0, sizeof r);
@@ -207,7 +207,7 @@ static void heat_kernel_signatures_conserve_heat(void **state) {
     const sl_csc A = sl_matrix_view(U);
     SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
     for (int k = 0; k < TERMS; k++) {
-        v[k] = test_reals((size_t)sl_symbolic_entries(S));
+        v[k] = test_reals((size_t)scatter_length(S));
         SL_CHECK(sl_symbolic_scatter(S, v[k], &terms[k], NULL));
     }
     for (int k = 0; k < TIMES; k++) {
@@ -278,7 +278,7 @@ static void factors_of_several_instruction_sets_share_a_call(void **state) {
     for (int k = 0; k < isas.count; k++) {
         opt.isa = isas.isa[k];
         SL_CHECK(
-            sl_factor_create_combination(&F[k], y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL));
+            sl_batch_factor(&F[k], 1, y.S, c, matrix_pair_values(&y), TERMS, &opt, NULL, NULL));
     }
     SL_CHECK(sl_batch_diagonal(read_only(F), isas.count, out, (size_t)y.n, NULL, 0,
                                THREADS(threads), NULL, NULL, NULL));

@@ -50,11 +50,11 @@ static void what_is_not_complex_is_refused(void **state) {
     const sl_csc V = {y.n, 1, p, &row, &one};
     assert_int_equal(sl_factor_update(y.F[1], &V, &one, NULL, NULL), SL_ERR_UNSUPPORTED);
     opt = options_complex(SL_ISA_AUTO);
-    double *terms = test_reals((size_t)sl_symbolic_entries(y.S));
+    double *terms = test_reals((size_t)scatter_length(y.S));
     const double *const term[1] = {terms};
     sl_factor *G = NULL;
     SL_CHECK(sl_symbolic_scatter(y.S, terms, &y.A, NULL));
-    assert_int_equal(sl_factor_create_combination(&G, y.S, &one, term, 1, &opt, NULL),
+    assert_int_equal(sl_batch_factor(&G, 1, y.S, &one, term, 1, &opt, NULL, NULL),
                      SL_ERR_UNSUPPORTED);
     assert_int_equal(create_pivoted(&y.A), SL_ERR_UNSUPPORTED);
     free(terms);

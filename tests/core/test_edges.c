@@ -52,7 +52,7 @@ static void a_matrix_without_rows_needs_no_arrays(void **state) {
     memset(&stats, 0, sizeof stats);
     opt.ordering = SL_ORDERING_GIVEN;
     SL_CHECK(sl_symbolic_create(&S, &A, &opt, NULL));
-    SL_CHECK(sl_factor_create_combination(&F, S, &one, values, 1, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&F, 1, S, &one, values, 1, NULL, NULL, NULL));
     SL_CHECK(sl_factor_solve(F, NULL, 1, NULL, 1, 1, NULL));
     SL_CHECK(sl_factor_refine(F, &A, NULL, 1, NULL, 1, 1, 2, NULL, &stats));
     SL_CHECK(sl_csc_residual(&A, NULL, 1, eta, NULL, 1, NULL, 1, 2));

@@ -51,7 +51,7 @@ static void every_way_gives_the_same_bits(void **state) {
         for (int k = 0; k < isas.count; k++) {
             sl_options opt = options_float(isas.isa[k]);
             factored_t y = factored_make((gen_kind_t)kind, 900, 1, 0, &opt);
-            double *values = test_reals((size_t)sl_symbolic_entries(y.S));
+            double *values = test_reals((size_t)scatter_length(y.S));
             const double *const arrays[1] = {values}, one = 1.0;
             sl_factor *G = NULL;
             opt.threads.count = 3;
@@ -62,7 +62,7 @@ static void every_way_gives_the_same_bits(void **state) {
             SL_CHECK(sl_factor_refactor(G, &y.M.view, NULL));
             assert_same_bits(y.F, G);
             SL_CHECK(sl_symbolic_scatter(y.S, values, &y.M.view, NULL));
-            SL_CHECK(sl_factor_refactor_combination(G, &one, arrays, 1, NULL));
+            SL_CHECK(sl_batch_refactor(&G, 1, &one, arrays, 1, NULL, NULL, NULL));
             assert_same_bits(y.F, G);
             sl_factor_free(G);
             free(values);

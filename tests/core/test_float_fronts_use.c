@@ -184,8 +184,8 @@ static void batches_have_the_bits_of_single_calls(void **state) {
         for (int k = 0; k < COUNT; k++) {
             const sl_options alone = options_float(SL_ISA_AUTO);
             sl_factor *G = NULL;
-            SL_CHECK(sl_factor_create_combination(&G, y.S, c + TERMS * k, matrix_pair_values(&y),
-                                                  TERMS, &alone, NULL));
+            SL_CHECK(sl_batch_factor(&G, 1, y.S, c + TERMS * k, matrix_pair_values(&y), TERMS,
+                                     &alone, NULL, NULL));
             assert_same_bits(F[k], G);
             sl_factor_free(G);
             memset(requests, 0, sizeof requests);

@@ -279,14 +279,14 @@ static void sums_and_changed_columns(void **state) {
         sl_region *R = NULL;
         sl_csc B = M.view;
         SL_CHECK(sl_symbolic_create(&S, &M.view, &opt, NULL));
-        double *v = test_reals((size_t)sl_symbolic_entries(S));
+        double *v = test_reals((size_t)scatter_length(S));
         const double *const values[1] = {v};
         SL_CHECK(sl_symbolic_scatter(S, v, &M.view, NULL));
         for (int turn = 0; turn < 2; turn++) {
             const double c = 1.0 + turn * DBL_EPSILON;
             const sl_int column = 7;
             if (way == 0) {
-                SL_CHECK(sl_factor_create_combination(&F, S, &c, values, 1, &opt, NULL));
+                SL_CHECK(sl_batch_factor(&F, 1, S, &c, values, 1, &opt, NULL, NULL));
             } else {
                 SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
                 memcpy(x, M.x, (size_t)M.p[N] * sizeof *x);

@@ -146,7 +146,7 @@ static void a_region_stays_valid(void **state) {
     SL_CHECK(sl_plan_create(&P, y.S, set, 4, set, 4, &opt, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, first, 4, b, 4, 1, NULL));
     SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &other.view, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(y.F, NULL, NULL, 1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&y.F, 1, NULL, NULL, 1, NULL, NULL, NULL));
     SL_CHECK(sl_plan_solve(P, y.F, second, 4, b, 4, 1, NULL));
     SAME_VALUES(first, second, 4);
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL)); /* new numbers, even if they are equal */
@@ -233,7 +233,7 @@ static void a_wrong_combination_changes_nothing(void **state) {
         sl_options opt = options_none();
         options_set_variant(&opt, &variants, k);
         factored_t y = factored_make(GEN_GRID2, N, 1, 0, &opt);
-        size_t entries = (size_t)sl_symbolic_entries(y.S);
+        size_t entries = (size_t)scatter_length(y.S);
         double *values = test_reals(entries), c[2 * TERMS] = {1, 2, 1, 3}, x[N];
         const double *good[TERMS] = {values, values}, *missing[TERMS] = {values, NULL};
         double poison[2 * TERMS] = {1, 2, 1, NAN};
@@ -241,13 +241,15 @@ static void a_wrong_combination_changes_nothing(void **state) {
         sl_int failed = 5;
         SL_CHECK(sl_symbolic_scatter(y.S, values, &y.M.view, NULL));
         for (int m = 0; m < 2; m++) {
-            SL_CHECK(sl_factor_create_combination(&F[m], y.S, c, good, TERMS, &opt, NULL));
+            SL_CHECK(sl_batch_factor(&F[m], 1, y.S, c, good, TERMS, &opt, NULL, NULL));
         }
         snapshot_t before = snapshot(F[0]), other = snapshot(F[1]);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(F[0], c, missing, TERMS, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(F[0], NULL, good, TERMS, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(F[0], c, NULL, TERMS, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_refactor_combination(F[0], c, good, -1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_batch_refactor(&F[0], 1, c, missing, TERMS, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_batch_refactor(&F[0], 1, NULL, good, TERMS, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&F[0], 1, c, NULL, TERMS, NULL, NULL, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(&F[0], 1, c, good, -1, NULL, NULL, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 2, c, missing, TERMS, NULL, &failed, NULL));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_batch_refactor(F, 2, NULL, good, TERMS, NULL, NULL, NULL));
         assert_int_equal(failed, -1);
@@ -259,7 +261,7 @@ static void a_wrong_combination_changes_nothing(void **state) {
         solve(F[0], SL_OK, x);
         solve(F[1], SL_ERR_STATE, x);
         SL_EXPECT(SL_ERR_NOT_FINITE,
-                  sl_factor_refactor_combination(F[0], poison + TERMS, good, TERMS, NULL));
+                  sl_batch_refactor(&F[0], 1, poison + TERMS, good, TERMS, NULL, NULL, NULL));
         solve(F[0], SL_ERR_STATE, x);
         free(values);
         snapshot_free(&before);

@@ -114,7 +114,9 @@ static void combine(input_t *in) {
     }
     take_values(in, s, DOMINANT, &v);
     const sl_csc A = view(s, v.x);
-    PROMISE(sl_symbolic_entries(s->S) == s->p[s->n]);
+    sl_stats stats;
+    sl_symbolic_stats(s->S, &stats);
+    PROMISE(stats.symbolic.nnz_a == s->p[s->n]);
     if (no_memory(sl_symbolic_scatter(s->S, scattered, &A, NULL))) {
         return;
     }
@@ -123,7 +125,7 @@ static void combine(input_t *in) {
     }
     set_dense(s, &v);
     if (form % 2) {
-        note_numbers(f, sl_factor_refactor_combination(f->F, c, terms, 2, NULL), &v);
+        note_numbers(f, sl_batch_refactor(&f->F, 1, c, terms, 2, NULL, NULL, NULL), &v);
         return;
     }
     free_factor(which);
@@ -144,7 +146,7 @@ static void combine(input_t *in) {
         PROMISE(f->F != NULL || no_memory(status));
         status = f->F ? SL_OK : status;
     } else {
-        status = sl_factor_create_combination(&f->F, s->S, c, terms, 2, &opt, NULL);
+        status = sl_batch_factor(&f->F, 1, s->S, c, terms, 2, &opt, NULL, NULL);
     }
     PROMISE((f->F != NULL) == (status == SL_OK));
     note_numbers(f, status, &v);

@@ -45,7 +45,7 @@ static inline matrix_pair_t matrix_pair_make(gen_kind_t kind, sl_int size, int s
     assert_null(U.x);
     SL_CHECK(sl_symbolic_create(&y.S, &U, opt, NULL));
     for (int t = 0; t < TERMS; t++) {
-        y.values[t] = test_reals((size_t)sl_symbolic_entries(y.S));
+        y.values[t] = test_reals((size_t)scatter_length(y.S));
         SL_CHECK(sl_symbolic_scatter(y.S, y.values[t], &y.terms[t], NULL));
     }
     gen_list_free(&k);

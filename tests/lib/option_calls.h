@@ -30,8 +30,8 @@ static inline option_fixture_t *option_fixture_make(void) {
     f->pair = matrix_pair_make(GEN_GRID2, 25, 0, 0, NULL);
     f->U = sl_matrix_view(f->pair.U);
     f->coefficients[0] = f->coefficients[1] = 1;
-    SL_CHECK(sl_factor_create_combination(&f->F, f->pair.S, f->coefficients,
-                                          matrix_pair_values(&f->pair), TERMS, NULL, NULL));
+    SL_CHECK(sl_batch_factor(&f->F, 1, f->pair.S, f->coefficients, matrix_pair_values(&f->pair),
+                             TERMS, NULL, NULL, NULL));
     f->perm = test_ints((size_t)f->pair.n);
     for (sl_int k = 0; k < f->pair.n; k++) {
         f->perm[k] = k;
@@ -89,9 +89,6 @@ OPTION_CALL(option_factor, sl_factor,
             sl_factor_create(&out, f->pair.S, &f->pair.terms[1], opt, NULL))
 OPTION_CALL(option_edit_factor, sl_factor,
             sl_factor_edit(&out, f->F, f->pair.S, &f->pair.terms[1], f->perm, opt, NULL))
-OPTION_CALL(option_combination, sl_factor,
-            sl_factor_create_combination(&out, f->pair.S, f->coefficients,
-                                         matrix_pair_values(&f->pair), TERMS, opt, NULL))
 OPTION_CALL(option_work, sl_work, sl_work_create(&out, opt))
 OPTION_CALL(option_plan, sl_plan,
             sl_plan_create(&out, f->pair.S, f->perm, 1, f->perm, 1, opt, NULL))
@@ -217,7 +214,6 @@ static const struct {
     {"sl_symbolic_edit", option_edit, READS_ANALYSIS | READS_TRIANGLE},
     {"sl_factor_create", option_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_edit", option_edit_factor, READS_FACTOR | READS_ISA},
-    {"sl_factor_create_combination", option_combination, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
     {"sl_factor_restrict", option_restrict, READS_NOTHING},
     {"sl_work_create", option_work, READS_NOTHING},

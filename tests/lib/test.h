@@ -40,6 +40,13 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 #define NOWHERE "/dev/null"
 #endif
 
+/* Doubles of an array of values in the order of an analysis. */
+static inline sl_int scatter_length(const sl_symbolic *S) {
+    sl_stats stats;
+    sl_symbolic_stats(S, &stats);
+    return (sl_int)stats.symbolic.nnz_a;
+}
+
 /* ---- memory: an allocator that counts, fails on demand and detects writes outside a block ---- */
 
 typedef struct counter_t {

@@ -63,7 +63,7 @@ void heat_system_analyze(heat_system *h, const mesh *m, const char *name, const 
     app_must(sl_symbolic_create(&h->S, &L, opt, &h->stats), "analysis", &h->stats);
     begin = app_now();
     for (int k = 0; k < 2; k++) {
-        h->terms[k] = app_alloc((size_t)sl_symbolic_entries(h->S), sizeof *h->terms[k]);
+        h->terms[k] = app_alloc((size_t)h->stats.symbolic.nnz_a, sizeof *h->terms[k]);
     }
     app_must(sl_symbolic_scatter(h->S, h->terms[0], &M, NULL), "masses", NULL);
     app_must(sl_symbolic_scatter(h->S, h->terms[1], &L, NULL), "Laplacian", NULL);
@@ -79,7 +79,7 @@ void heat_system_create(heat_system *h, const mesh *m, double t, const char *lap
     const double one_and_t[2] = {1, t};
     const double *const terms[2] = {h->terms[0], h->terms[1]};
     app_stage_factor(h->stats.symbolic.flops);
-    app_must(sl_factor_create_combination(&h->F, h->S, one_and_t, terms, 2, opt, &h->stats),
+    app_must(sl_batch_factor(&h->F, 1, h->S, one_and_t, terms, 2, opt, NULL, &h->stats),
              "factorization", &h->stats);
     h->t = t;
     app_progress_end();

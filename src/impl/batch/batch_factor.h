@@ -1,8 +1,28 @@
-/* batch_factor.h: factors several matrices of one analysis; a worker takes whole factors */
+/* batch_factor.h: factors weighted sums of value arrays; a worker takes whole factors */
 #ifndef SLI_BATCH_BATCH_FACTOR_H
 #define SLI_BATCH_BATCH_FACTOR_H
 
-#include "combination.h"
+#include "../../public/several.h"
+#include "../factor/factor.h"
+
+/* Describes a sum as the source of a factorization; checks its arguments. */
+static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
+                                   const double *const *values, sl_int terms, sli_source *from) {
+    sl_int t;
+    if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    for (t = 0; t < terms; t++) {
+        if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
+            return SL_ERR_ARGUMENT;
+        }
+    }
+    from->A = NULL;
+    from->values = values;
+    from->coefficients = coefficients;
+    from->terms = terms;
+    return SL_OK;
+}
 
 /* One call. Factor k has the coefficients from k * source.terms on. */
 typedef struct sli_factor_batch {

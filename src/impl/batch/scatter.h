@@ -127,9 +127,9 @@ static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
     return missing;
 }
 
-SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
-    /* fits: the map has no more entries than A */
-    return S == NULL ? 0 : (sl_int)S->scatter_begin[S->n_supers];
+/* Length of an array of values in the order of S. It fits: the map has no more entries than A. */
+SLI_INLINE sl_int sli_symbolic_entries(const sl_symbolic *S) {
+    return (sl_int)S->scatter_begin[S->n_supers];
 }
 
 SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const sl_csc *K,
@@ -145,7 +145,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
         return S == NULL ? SL_ERR_ARGUMENT : status;
     }
     if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
-        (sl_symbolic_entries(S) > 0 && values == NULL)) {
+        (sli_symbolic_entries(S) > 0 && values == NULL)) {
         return SL_ERR_ARGUMENT;
     }
     if (K->n_cols != S->n) {
@@ -164,7 +164,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     sli_scatter_sort(S, &w, K, triangle);
     missing = sli_scatter_find_all(S, &w);
     if (missing == INT32_MAX) {
-        for (q = 0; q < sl_symbolic_entries(S); q++) {
+        for (q = 0; q < sli_symbolic_entries(S); q++) {
             values[q] = 0.0;
         }
         for (q = 0; q < w.begin[S->n]; q++) {
