@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c43eb338e8ec6cf5
+ * FNV-1a of the lines after this comment, without the license: 81410e89554039fa
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -21,33 +21,33 @@
  *   1771 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
  *   1878 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
  *   1917 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2107 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2295 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2377 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2504 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2547 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2634 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2784 impl/ base: the compiler, status, memory, sorting, threads
- *   3754 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4589 impl/ matrix: sparse matrices of the caller and of the library
- *   5115 impl/ ordering: fill-reducing orderings of a graph
- *   9451 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11296 impl/ factor: the numbers of L and D
- *  14075 impl/ solve: full and local solves
- *  15550 impl/ accuracy: refinement, condition, defects, half solves
- *  16381 impl/ pivots: the order of the pivots by the values of a matrix
- *  16799 impl/ float: L and fronts in single precision
- *  17250 impl/ inverse: entries of the inverse, regions
- *  19775 impl/ change: a factor that follows changes of its matrix
- *  26277 impl/ io: files that are written and mapped
- *  26587 impl/ files: Matrix Market files, 64-bit indices
- *  27109 impl/ save: factors in files
- *  28932 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29630 impl/ batch: diagonals of many inverses
- *  29772 impl/ complex: complex Hermitian systems over real factors
- *  30336 impl/ packs: the tables through which the core calls packs
- *  30363 impl/ last: undefine every internal macro
- *  30661 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2072 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2260 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2342 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2469 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2512 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2599 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2749 impl/ base: the compiler, status, memory, sorting, threads
+ *   3719 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4554 impl/ matrix: sparse matrices of the caller and of the library
+ *   5080 impl/ ordering: fill-reducing orderings of a graph
+ *   9416 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11261 impl/ factor: the numbers of L and D
+ *  14040 impl/ solve: full and local solves
+ *  15515 impl/ accuracy: refinement, condition, defects, half solves
+ *  16346 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16764 impl/ float: L and fronts in single precision
+ *  17215 impl/ inverse: entries of the inverse, regions
+ *  19740 impl/ change: a factor that follows changes of its matrix
+ *  26242 impl/ io: files that are written and mapped
+ *  26552 impl/ files: Matrix Market files, 64-bit indices
+ *  27074 impl/ save: factors in files
+ *  28897 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29553 impl/ batch: diagonals of many inverses
+ *  29695 impl/ complex: complex Hermitian systems over real factors
+ *  30259 impl/ packs: the tables through which the core calls packs
+ *  30286 impl/ last: undefine every internal macro
+ *  30584 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -471,8 +471,8 @@ typedef struct sl_allocator {
  *  | every call with an sl_options argument     | size, allocator                          |
  *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
- *  | sl_factor_create and _create_combination,  | threads, isa .. signs,                   |
- *  |   sl_batch_factor                          | null_vector .. storage                   |
+ *  | sl_factor_create, sl_batch_factor          | threads, isa .. signs,                   |
+ *  |                                            | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create, sl_work_create         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |
@@ -1922,8 +1922,8 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_solve(const sl_factor *F, const sl_requ
  *
  *     sl_csc terms[2] = {M, K};                                  any triangles, any two patterns
  *     sl_matrix_sum(&U, NULL, terms, 2, NULL, NULL);             their union
- *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, NULL);
- *     v[0] = malloc(sl_symbolic_entries(S) * sizeof(double));    v[1] likewise
+ *     A = sl_matrix_view(U);  sl_symbolic_create(&S, &A, NULL, &stats);
+ *     v[0] = malloc(stats.symbolic.nnz_a * sizeof(double));      v[1] likewise
  *     sl_symbolic_scatter(S, v[0], &M, NULL);  sl_symbolic_scatter(S, v[1], &K, NULL);
  *     for k < m: c[2 k] = 1, c[2 k + 1] = t[k];
  *     sl_batch_factor(F, m, S, c, v, 2, &opt, NULL, NULL);       F: m factors, of M + t[k] K
@@ -1959,13 +1959,10 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_sum(sl_matrix **out, const double *coe
                                               const sl_csc *terms, sl_int count,
                                               const sl_options *opt, sl_stats *stats);
 
-/** Length of an array of values in the order of the analysis: stats.symbolic.nnz_a. NULL has 0. */
-SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
-
 /** Scatters the values of a matrix into an array in the order of the analysis.
  *
- *  values  [out]  sl_symbolic_entries(S) doubles, valid for S only, 0 where K has no entry; those
- *                 of a supernode are contiguous. On error untouched.
+ *  values  [out]  stats.symbolic.nnz_a doubles of S (sl_symbolic_stats), valid for S only, 0 where
+ *                 K has no entry; those of a supernode are contiguous. On error untouched.
  *  K       [in]   n x n with values, any triangle, read as a factorization reads it: rows in any
  *                 order, duplicates summed. Its pattern is a subset of the analyzed one; values may
  *                 be anything.
@@ -1981,64 +1978,34 @@ SL_API sl_int sl_symbolic_entries(const sl_symbolic *S);
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values,
                                                     const sl_csc *K, sl_stats *stats);
 
-/** Factors A = coefficients[0] values[0] + .. + coefficients[terms-1] values[terms-1].
+/** Factors weighted sums of the same terms, one or many, distributed over threads:
+ *  A_k = coefficients(0, k) values[0] + .. + coefficients(terms-1, k) values[terms-1].
  *
  *  The same bits as sl_factor_create for a matrix without duplicates whose entries are these sums;
  *  each product is rounded, then added in this order, starting from 0. A compiler that contracts
  *  a * b + c (gcc without -std=c99, for processors with FMA) does not round the products.
  *
- *  out           [out]  the factor, or NULL on error; release with sl_factor_free.
- *  S             [in]   the analysis; borrowed, must outlive the factor.
- *  coefficients  [in]   terms finite numbers.
+ *  Each thread computes whole factors. If their number is not a multiple of the number of threads,
+ *  all threads together compute the remaining ones, one after the other; so also a single one.
+ *
+ *  out           [out]  count factors; release with sl_factor_free. If one fails, it is NULL and
+ *                       the others are computed nevertheless: release them. After SL_ERR_ARGUMENT
+ *                       with failed = -1 all are NULL.
+ *  S             [in]   the analysis; borrowed, must outlive the factors.
+ *  coefficients  [in]   terms x count finite numbers, column-major, leading dimension terms: one
+ *                       column per factor.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
  *  terms         [in]   0 or more; the sum of no terms is the zero matrix.
- *  opt, stats           as in sl_factor_create.
- *  Returns  as sl_factor_create, but never SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient
- *           (error.value, no row) or a sum, at error.row >= error.column.
- *  Cost     as sl_factor_create; the terms are read once, in order.
- *  Threads  as sl_factor_create.
- *  Example  tests/core/test_combination.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
-                                                             const double *coefficients,
-                                                             const double *const *values,
-                                                             sl_int terms, const sl_options *opt,
-                                                             sl_stats *stats);
-
-/** Refactors with other coefficients or values over the factor's analysis. Allocates nothing.
- *
- *  F        [in,out]  any factor, also one of sl_factor_create. After errors as in
- *                     sl_factor_refactor.
- *  Returns, Cost      as sl_factor_create_combination, but never SL_ERR_UNSUPPORTED; mapped and
- *                     loaded factors as in sl_factor_refactor.
- *  Threads            exclusive use of F.
- *  Example            tests/core/test_combination.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_combination(sl_factor *F,
-                                                               const double *coefficients,
-                                                               const double *const *values,
-                                                               sl_int terms, sl_stats *stats);
-
-/** Factors several combinations of the same terms, distributed over threads; the bits of
- *  sl_factor_create_combination.
- *
- *  Each thread computes whole factors. If their number is not a multiple of the number of threads,
- *  all threads together compute the remaining ones, one after the other.
- *
- *  out           [out]  count factors. If one fails, it is NULL and the others are computed
- *                       nevertheless: release them. After SL_ERR_ARGUMENT with failed = -1 all are
- *                       NULL.
- *  coefficients  [in]   terms x count, column-major, leading dimension terms: one column per
- *                       factor.
- *  values, terms [in]   as in sl_factor_create_combination.
  *  opt           [in]   as in sl_factor_create; may be NULL.
  *  failed        [out]  the first factor that failed, or -1; may be NULL.
  *  stats         [out]  error and factor: those of the failed factor, else of the last one; seconds
  *                       and bytes are sums over all factors. May be NULL.
- *  Returns  SL_OK, or the status of the first factor that failed, as sl_factor_create_combination.
- *  Cost     that of the factors, distributed; each keeps what a factor keeps.
+ *  Returns  SL_OK, or the status of the first factor that failed: as sl_factor_create, but never
+ *           SL_ERR_PATTERN. SL_ERR_NOT_FINITE: a coefficient (error.value, no row) or a sum, at
+ *           error.row >= error.column.
+ *  Cost     that of the factors, distributed; the terms are read once for each, in order.
  *  Threads  as sl_factor_create; only the calling thread allocates.
- *  Example  tests/core/test_batch_factor.c
+ *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, const sl_symbolic *S,
                                                 const double *coefficients,
@@ -2046,10 +2013,11 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
                                                 const sl_options *opt, sl_int *failed,
                                                 sl_stats *stats);
 
-/** Refactors several factors of one analysis. Allocates nothing.
+/** Refactors one or several factors of one analysis with other coefficients or values. Allocates
+ *  nothing.
  *
- *  factors   [in,out]  count different factors. One that fails has no numbers afterwards; the
- *                      others are computed nevertheless.
+ *  factors   [in,out]  count different factors, also of sl_factor_create. One that fails has no
+ *                      numbers afterwards; the others are computed nevertheless.
  *  opt       [in]      threads; NULL: the calling thread only. Factors that have threads of their
  *                      own use these, one after the other.
  *  coefficients, values, terms, failed, stats  as in sl_batch_factor.
@@ -2058,7 +2026,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
  *           the first refactorization of a loaded factor. After these no factor has changed. Else
  *           the status of the first factor that failed.
  *  Threads  exclusive use of the factors.
- *  Example  tests/core/test_batch_factor.c
+ *  Example  tests/core/test_combination.c, test_batch_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_int count,
                                                   const double *coefficients,
@@ -2095,10 +2063,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
 #else
 #define sl_batch_solve(...) sl_batch_solve_needs_SL_WITH_BATCH
 #define sl_matrix_sum(...) sl_matrix_sum_needs_SL_WITH_BATCH
-#define sl_symbolic_entries(...) sl_symbolic_entries_needs_SL_WITH_BATCH
 #define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
-#define sl_factor_create_combination(...) sl_factor_create_combination_needs_SL_WITH_BATCH
-#define sl_factor_refactor_combination(...) sl_factor_refactor_combination_needs_SL_WITH_BATCH
 #define sl_batch_factor(...) sl_batch_factor_needs_SL_WITH_BATCH
 #define sl_batch_refactor(...) sl_batch_refactor_needs_SL_WITH_BATCH
 #define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH
@@ -29119,8 +29084,8 @@ static sl_int sli_scatter_find_all(const sl_symbolic *S, sli_scatter_work *w) {
   return missing;
 }
 
-SL_API sl_int sl_symbolic_entries(const sl_symbolic *S) {
-  return S == NULL ? 0 : (sl_int)S->scatter_begin[S->n_supers];
+SLI_INLINE sl_int sli_symbolic_entries(const sl_symbolic *S) {
+  return (sl_int)S->scatter_begin[S->n_supers];
 }
 
 SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const sl_csc *K,
@@ -29136,7 +29101,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     return S == NULL ? SL_ERR_ARGUMENT : status;
   }
   if (K->n_rows != K->n_cols || (sli_nnz(K) > 0 && K->x == NULL) ||
-    (sl_symbolic_entries(S) > 0 && values == NULL)) {
+    (sli_symbolic_entries(S) > 0 && values == NULL)) {
     return SL_ERR_ARGUMENT;
   }
   if (K->n_cols != S->n) {
@@ -29155,7 +29120,7 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   sli_scatter_sort(S, &w, K, triangle);
   missing = sli_scatter_find_all(S, &w);
   if (missing == INT32_MAX) {
-    for (q = 0; q < sl_symbolic_entries(S); q++) {
+    for (q = 0; q < sli_symbolic_entries(S); q++) {
       values[q] = 0.0;
     }
     for (q = 0; q < w.begin[S->n]; q++) {
@@ -29167,66 +29132,6 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   }
   sli_free(&S->allocator, b.base);
   return status;
-}
-
-/* src/impl/batch/combination.h: factorization of a weighted sum of value arrays in the order of the scatter map */
-
-static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
-                   const double *const *values, sl_int terms, sli_source *from) {
-  sl_int t;
-  if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
-    return SL_ERR_ARGUMENT;
-  }
-  for (t = 0; t < terms; t++) {
-    if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
-      return SL_ERR_ARGUMENT;
-    }
-  }
-  from->A = NULL;
-  from->values = values;
-  from->coefficients = coefficients;
-  from->terms = terms;
-  return SL_OK;
-}
-
-SL_API sl_status sl_factor_create_combination(sl_factor **out, const sl_symbolic *S,
-                        const double *coefficients,
-                        const double *const *values, sl_int terms,
-                        const sl_options *opt, sl_stats *stats) {
-  sli_source from;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  if (out == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  *out = NULL;
-  if (S == NULL || !sli_factor_options_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = sli_source_of_sum(S, coefficients, values, terms, &from);
-  return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
-}
-
-SL_API sl_status sl_factor_refactor_combination(sl_factor *F, const double *coefficients,
-                        const double *const *values, sl_int terms,
-                        sl_stats *stats) {
-  const double started = sli_seconds();
-  sli_source from;
-  sl_status status;
-  sli_stats_clear_error(stats);
-  if (F == NULL) {
-    return SL_ERR_ARGUMENT;
-  }
-  if (!sli_factor_may_change(F)) {
-    return SL_ERR_STATE;
-  }
-  status = sli_source_of_sum(F->S, coefficients, values, terms, &from);
-  status = status == SL_OK ? sli_factor_prepare(F) : status;
-  if (status != SL_OK) {
-    return status;
-  }
-  sli_factor_begin(F);
-  return sli_factor_numbers(F, &from, started, stats);
 }
 
 /* src/impl/batch/batch_solve.h: many independent solves, shared among workers by the entries of L they read */
@@ -29423,7 +29328,25 @@ SL_API sl_status sl_batch_solve(const sl_factor *F, const sl_request *requests, 
   return status;
 }
 
-/* src/impl/batch/batch_factor.h: factors several matrices of one analysis; a worker takes whole factors */
+/* src/impl/batch/batch_factor.h: factors weighted sums of value arrays; a worker takes whole factors */
+
+static sl_status sli_source_of_sum(const sl_symbolic *S, const double *coefficients,
+                   const double *const *values, sl_int terms, sli_source *from) {
+  sl_int t;
+  if (terms < 0 || (terms > 0 && (coefficients == NULL || values == NULL))) {
+    return SL_ERR_ARGUMENT;
+  }
+  for (t = 0; t < terms; t++) {
+    if (values[t] == NULL && S->scatter_begin[S->n_supers] > 0) {
+      return SL_ERR_ARGUMENT;
+    }
+  }
+  from->A = NULL;
+  from->values = values;
+  from->coefficients = coefficients;
+  from->terms = terms;
+  return SL_OK;
+}
 
 typedef struct sli_factor_batch {
   sl_factor *const *factors;

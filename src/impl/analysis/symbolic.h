@@ -114,16 +114,24 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
 
 /* Finds tree and counts. Returns whether the columns need no postorder. */
 static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
-    const sl_int n = w->n;
     sl_int *sequence = (sl_int *)(void *)w->list;
-    int found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
-                                    keeps_order, NULL);
-    if (found == -1) {
-        sli_tree_sequence(n, &w->columns, w->parent, sequence, w->list + n, w->spare, w->scratch);
-        found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
-                                    keeps_order, sequence);
+    sli_tree_result result;
+    sli_tree_job job;
+    job.n = w->n;
+    job.columns = &w->columns;
+    job.parent = w->parent;
+    job.counts = w->counts;
+    job.list = w->spare;
+    job.scratch = w->scratch;
+    job.sequence = NULL;
+    job.keeps_order = keeps_order;
+    result = sli_tree_and_counts(&job);
+    if (result == SLI_TREE_TOO_LONG) {
+        sli_tree_sequence(&job, sequence, w->list + w->n);
+        job.sequence = sequence;
+        result = sli_tree_and_counts(&job);
     }
-    return found;
+    return result == SLI_TREE_IN_ORDER;
 }
 
 /* Finds tree, counts and supernodes, and renumbers the columns to their final order. */
@@ -337,39 +345,57 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     return SL_OK;
 }
 
-static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                                   sli_analysis *w, sli_team *team, const sl_allocator *a,
-                                   const sl_allocator *for_order, sl_stats *stats) {
-    sl_symbolic draft;
-    sli_order_job job;
+/* An analysis under way. */
+typedef struct sli_symbolic_job {
+    sl_symbolic **out;
+    const sl_options *opt;
+    sl_allocator a, for_order; /* of the object; of what the ordering needs for a time */
+    sli_analysis w;
+    sl_stats found;
     sl_status status;
-    memset(&job, 0, sizeof job);
-    job.A = A;
-    job.column = w->column;
-    job.triangle = stats->symbolic.triangle;
-    job.opt = opt;
-    job.perm = w->perm;
-    job.scratch = w->scratch;
-    job.septree = &w->septree;
-    job.choice = &w->choice;
-    job.team = team;
-    job.a = for_order;
-    job.stats = stats;
-    status = sli_order(&job);
-    stats->symbolic.seconds_order = sli_analysis_lap(w);
-    if (status != SL_OK) {
-        return status;
+} sli_symbolic_job;
+
+/* Orders the rows in the memory that the analysis needs later only. */
+static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
+    sli_analysis *w = &j->w;
+    sli_order_job order;
+    sl_status status;
+    memset(&order, 0, sizeof order);
+    order.A = w->A;
+    order.column = w->column;
+    order.triangle = j->found.symbolic.triangle;
+    order.opt = j->opt;
+    order.perm = w->perm;
+    order.scratch = w->scratch;
+    order.septree = &w->septree;
+    order.choice = &w->choice;
+    order.team = team;
+    order.a = &j->for_order;
+    order.stats = &j->found;
+    status = sli_order(&order);
+    j->found.symbolic.seconds_order = sli_analysis_lap(w);
+    return status;
+}
+
+/* The steps of an analysis, by the leader of a team: order, tree, object. */
+static void sli_symbolic_run(sli_team *team, void *data) {
+    sli_symbolic_job *j = (sli_symbolic_job *)data;
+    sli_analysis *w = &j->w;
+    sl_symbolic draft;
+    j->status = sli_symbolic_order(j, team);
+    if (j->status != SL_OK) {
+        return;
     }
     if (w->choice.is_there) {
-        sli_analyze_both(w, opt, team, stats);
+        sli_analyze_both(w, j->opt, team, &j->found);
     } else {
-        sli_analyze_order(w, opt, team, stats);
+        sli_analyze_order(w, j->opt, team, &j->found);
     }
     memset(&draft, 0, sizeof draft);
-    draft.allocator = *a;
-    draft.nnz_input = sli_nnz(A);
+    draft.allocator = j->a;
+    draft.nnz_input = sli_nnz(w->A);
     draft.pattern = w->pattern;
-    return sli_symbolic_build(out, &draft, w, stats);
+    j->status = sli_symbolic_build(j->out, &draft, w, &j->found);
 }
 
 /* What several workers share of the analysis takes as long as so many operations of a factorization
@@ -385,27 +411,6 @@ static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
                          SLI_TEAM_MAX);
 }
 
-/* The arguments of an analysis by a team. */
-typedef struct sli_symbolic_job {
-    sl_symbolic **out;
-    const sl_csc *A;
-    const sl_options *opt;
-    sli_analysis *w;
-    const sl_allocator *a, *for_order;
-    sl_stats *stats;
-    sl_status status;
-} sli_symbolic_job;
-
-static void sli_symbolic_lead(sli_team *team, void *data) {
-    sli_symbolic_job *j = (sli_symbolic_job *)data;
-    j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
-}
-
-/* Copies the symbolic group. */
-static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
-    to->symbolic = from->symbolic;
-}
-
 /* Checks the options of an analysis. */
 static int sli_symbolic_options_are_valid(const sl_options *opt) {
     return sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) &&
@@ -413,62 +418,68 @@ static int sli_symbolic_options_are_valid(const sl_options *opt) {
             opt->relaxation == SL_RELAXATION_NONE);
 }
 
+/* Checks the arguments of an analysis, and hashes the pattern of A. */
+static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_hash *pattern,
+                                    sl_stats *stats) {
+    sl_status status = SL_OK;
+    if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, pattern)) { /* the hash checks, too */
+        status = sl_csc_check(A, stats);
+    }
+    if (status == SL_OK && (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt))) {
+        status = SL_ERR_ARGUMENT;
+    }
+    return status;
+}
+
 /* sl_symbolic_create of a matrix for which 2x2 pivots are given, or pairs NULL. opt then gives the
  * order, and pairs[k] = 1 if its rows k and k + 1 are a 2x2 pivot. */
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                                      const sl_options *opt, sl_stats *stats) {
-    const sl_allocator a = sli_allocator(opt);
-    sli_analysis w;
+    static const sl_threads sli_no_threads = {0, NULL, NULL};
+    sli_symbolic_job j;
     sli_block b = {NULL, 0, 0};
     sli_lender lender;
-    sl_allocator lent;
-    sl_stats found;
-    sl_status status = SL_OK;
+    sl_status status;
     int pass;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
     *out = NULL;
-    memset(&w, 0, sizeof w);
-    w.clock = sli_seconds();
-    if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, &w.pattern)) { /* the hash checks, too */
-        status = sl_csc_check(A, stats);
-    }
+    memset(&j, 0, sizeof j);
+    sli_stats_clear_error(&j.found);
+    j.w.clock = sli_seconds();
+    status = sli_symbolic_check(A, opt, &j.w.pattern, stats);
     if (status != SL_OK) {
         return status;
     }
-    if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
-        return SL_ERR_ARGUMENT;
-    }
-    w.A = A;
-    w.pairs = pairs;
-    w.workers = sli_analysis_workers(A, opt);
-    memset(&found, 0, sizeof found);
-    sli_stats_clear_error(&found);
+    j.out = out;
+    j.opt = opt;
+    j.a = sli_allocator(opt);
+    j.w.A = A;
+    j.w.pairs = pairs;
+    j.w.workers = sli_analysis_workers(A, opt);
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        sli_analysis_layout(&w, &b, A->n_cols, sli_nnz(A));
-        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+        sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
+        status = pass == 0 ? sli_block_alloc(&b, &j.a) : SL_OK;
     }
     if (status == SL_OK) {
-        status =
-            sli_csc_triangle(A, sli_csc_columns(A, w.column), &found.symbolic.triangle, opt, stats);
+        status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
+                                  opt, stats);
     }
     if (status == SL_OK) {
-        lent = sli_lender_start(&lender, &b, w.ordered, &a);
-        found.symbolic.seconds_analyze = sli_analysis_lap(&w);
-        sli_symbolic_job job = {out, A, opt, &w, &a, &lent, &found, SL_OK};
-        const sl_options none = sli_options_with(&a);
-        sli_team_run(opt != NULL ? &opt->threads : &none.threads,
-                     sli_max(sli_order_workers(A, opt), w.workers), sli_symbolic_lead, &job);
-        status = job.status;
+        j.for_order = sli_lender_start(&lender, &b, j.w.ordered, &j.a);
+        j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
+        sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
+                     sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
+        status = j.status;
         if (stats != NULL && status == SL_OK) {
-            sli_symbolic_stats_copy(&found, stats);
+            stats->symbolic = j.found.symbolic;
         } else if (stats != NULL) {
-            stats->error.row = found.error.row;
+            stats->error.row = j.found.error.row;
         }
     }
-    sli_free(&a, b.base);
+    sli_free(&j.a, b.base);
     return status;
 }
 
@@ -490,7 +501,7 @@ SL_API void sl_symbolic_free(sl_symbolic *S) {
 SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
     sli_stats_clear_error(stats);
     if (S != NULL && stats != NULL) {
-        sli_symbolic_stats_copy(&S->stats, stats);
+        stats->symbolic = S->stats.symbolic;
     }
 }
 

@@ -21,8 +21,8 @@ enum {
     SLI_TRIED_LEVELS = 1 << 8,
     SLI_IS_NARROW = 1 << 9, /* by levels, L has few entries */
     SLI_TRIED_MINDEG = 1 << 10,
-    SLI_IS_CHEAP = 1 << 11,   /* dissection takes longer than it could save once */
-    SLI_HAS_CORE = 1 << 12,   /* most operations are in one front */
+    SLI_IS_CHEAP = 1 << 11, /* dissection takes longer than it could save once */
+    SLI_HAS_CORE = 1 << 12, /* most operations are in one front */
     SLI_HAS_NO_FILL = 1 << 13,
     SLI_HAS_SHORT_PATHS = 1 << 14,
     SLI_HAS_LONG_PATHS = 1 << 15
@@ -177,8 +177,8 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
     if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
         return f;
     }
-    f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR
-                                                                                  : 0;
+    f.bits |=
+        sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR : 0;
     /* with n < mean^2, two edges may lead from most rows to most others */
     if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
         f.bits |= sli_graph_shape(job, &f.levels);

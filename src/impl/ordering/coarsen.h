@@ -216,36 +216,43 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
     return count;
 }
 
+/* How a level is made coarser. */
+typedef struct sli_coarsening {
+    sl_int heaviest;       /* the largest weight of a pair */
+    int has_balls;         /* of the finest level */
+    sl_int *mate;          /* n of scratch */
+    sli_clusters clusters; /* scratch */
+    sli_shares *ranges;
+    const sl_allocator *a;
+} sli_coarsening;
+
 /* Makes the next coarser level: of the finest, of balls, or of neighborhoods, as heavy as the
  * heaviest pair, which replace two levels of pairs, or in a wide graph three or four, each of which
  * reads and contracts most of the edges again; of others, or where clusters are small, of pairs.
- * heaviest: a pair's largest weight; mate: g->n of scratch. *shrunk := whether the level is
- * small enough to be used; c is empty if not. */
-static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, int has_balls, sli_level *c,
-                             sl_int *mate, sli_clusters *clusters, sli_shares *ranges, int *shrunk,
-                             const sl_allocator *a) {
+ * *shrunk := whether the level is small enough to be used; c is empty if not. */
+static sl_status sli_coarsen(sli_coarsening *t, const sli_level *g, sli_level *c, int *shrunk) {
     sl_int pairs, count = g->n;
     memset(c, 0, sizeof *c);
     *shrunk = 1;
     if (g->edge == NULL) {
         const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
-                             : has_balls          ? SLI_BALL_PAIRS
+                             : t->has_balls       ? SLI_BALL_PAIRS
                                                   : 1;
-        const sl_int most = times * sli_min(heaviest, INT32_MAX / times);
-        count = sli_cluster_neighborhoods(g, most, has_balls, clusters, mate);
+        const sl_int most = times * sli_min(t->heaviest, INT32_MAX / times);
+        count = sli_cluster_neighborhoods(g, most, t->has_balls, &t->clusters, t->mate);
     }
     if (count > g->n / 2) {
-        pairs = sli_match(g, heaviest, mate);
+        pairs = sli_match(g, t->heaviest, t->mate);
         if (pairs < g->n / 4) {
-            pairs += sli_match_two_hop(g, heaviest, mate);
+            pairs += sli_match_two_hop(g, t->heaviest, t->mate);
         }
         *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
         if (!*shrunk) {
             return SL_OK;
         }
-        count = sli_number_pairs(g, mate, clusters);
+        count = sli_number_pairs(g, t->mate, &t->clusters);
     }
-    return sli_coarsen_clusters(g, count, clusters, c, ranges, a);
+    return sli_coarsen_clusters(g, count, &t->clusters, c, t->ranges, t->a);
 }
 
 #endif

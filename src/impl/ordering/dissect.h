@@ -42,12 +42,12 @@ static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
 
 /* Refines the border of a node on this level. */
 static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
-    const sli_level *g = &d->levels[d->level];
+    const sli_labelling in = sli_dissect_labelling(d);
     sli_fm m;
-    sli_subgraph_band(&w->subgraph, g, &d->tree, node, d->label, &w->borders, SLI_DISSECT_LAYERS);
+    sli_subgraph_band(&w->subgraph, &in, node, &w->borders, SLI_DISSECT_LAYERS);
     m = sli_fm_of(&w->subgraph);
     sli_fm_refine(&m, 2);
-    sli_subgraph_apply(&w->subgraph, g, &d->tree, node, d->label, &w->borders);
+    sli_subgraph_apply(&w->subgraph, &in, node, &w->borders);
     sli_subgraph_clear(&w->subgraph);
 }
 
@@ -91,18 +91,18 @@ static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
  * band: the first separators decide most of the fill, and there are few of them. If a separator is
  * unbalanced, narrower bands are tried, finally only the border. */
 static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
-    const sli_level *g = &d->levels[0];
+    const sli_labelling in = sli_dissect_labelling(d); /* of the finest level */
     sli_subgraph *sub = &w->subgraph;
     int layers = sli_dissect_layers(d, d->tree.weight[node]);
     for (;; layers /= 2) {
-        sli_subgraph_band(sub, g, &d->tree, node, d->label, &w->borders, layers);
+        sli_subgraph_band(sub, &in, node, &w->borders, layers);
         sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
         if (layers == 0 || sli_dissect_is_balanced(sub)) {
             break;
         }
         sli_subgraph_clear(sub);
     }
-    sli_subgraph_apply(sub, g, &d->tree, node, d->label, &w->borders);
+    sli_subgraph_apply(sub, &in, node, &w->borders);
     sli_subgraph_clear(sub);
 }
 
@@ -198,34 +198,40 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
     return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
 }
 
+/* Reads from the first coarser level whether the graph is a volume. */
+static void sli_dissect_recognize(sli_dissection *d) {
+    d->is_volume = sli_level_exceeds(&d->levels[1], SLI_VOLUME_DEGREE);
+    d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
+                            sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE_COARSE);
+}
+
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on
  * which leaves are bisected: its edges become what a separator costs. The first level is made of
  * balls; a level that shows a volume is made again of smaller clusters. */
 static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     const sl_int n = d->levels[0].n;
-    int shrunk = 1, has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
+    int shrunk = 1;
     sl_status status = SL_OK;
-    sli_clusters clusters;
-    clusters.member = d->other;
-    clusters.start = d->begin;
+    sli_coarsening t;
+    t.has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
+    t.mate = d->order;
+    t.clusters.member = d->other;
+    t.clusters.start = d->begin;
+    t.ranges = &d->ranges;
+    t.a = d->a;
     *working = -1;
     for (;;) {
         const int last = d->n_levels - 1;
         const sli_level *g = &d->levels[last];
-        /* Three times the mean weight keeps the weights of a level even enough for balanced
-         * bisection. */
-        const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
         sl_int most;
-        if (last == 1 && has_balls && sli_level_exceeds(g, SLI_VOLUME_DEGREE)) {
-            has_balls = 0;
+        if (last == 1 && t.has_balls && sli_level_exceeds(g, SLI_VOLUME_DEGREE)) {
+            t.has_balls = 0;
             sli_free(d->a, g->block);
             d->n_levels = 1;
             continue;
         }
         if (last == 1) {
-            d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
-            d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-                                    sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
+            sli_dissect_recognize(d);
         }
         most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
         if (*working == -1 && last > 0 && g->n <= most) {
@@ -235,8 +241,10 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
         if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
             break;
         }
-        status = sli_coarsen(g, heaviest, has_balls, &d->levels[d->n_levels], d->order, &clusters,
-                             &d->ranges, &shrunk, d->a);
+        /* Three times the mean weight keeps the weights of a level even enough for balanced
+         * bisection. */
+        t.heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
+        status = sli_coarsen(&t, g, &d->levels[d->n_levels], &shrunk);
         if (status != SL_OK || !shrunk) {
             break;
         }

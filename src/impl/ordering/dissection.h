@@ -77,6 +77,14 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
     }
 }
 
+SLI_INLINE sli_labelling sli_dissect_labelling(sli_dissection *d) {
+    sli_labelling in;
+    in.g = &d->levels[d->level];
+    in.tree = &d->tree;
+    in.label = d->label;
+    return in;
+}
+
 /* A number for each label: of several ranges, each has two such arrays, one after the other. */
 static sl_int *sli_dissect_by_label(const sli_dissection *d, sl_int item) {
     return (sl_int *)(void *)d->ranges.scratch + 2 * (size_t)item * (size_t)d->n_labels;
@@ -131,11 +139,12 @@ static void sli_dissect_start(sli_dissection *d) {
 /* Gives the two sides of the subgraph of a former leaf to the new leaves below it. */
 static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
     sli_dissection *d = (sli_dissection *)data;
+    const sli_labelling in = sli_dissect_labelling(d);
     sli_subgraph *sub = &d->workers[worker].subgraph;
     const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
     sl_int k, weight[2] = {0, 0};
-    sli_subgraph_leaf(sub, &d->levels[d->level], &d->tree, node, d->label,
-                      d->order + d->begin[node], d->begin[node + 1] - d->begin[node]);
+    sli_subgraph_leaf(sub, &in, node, d->order + d->begin[node],
+                      d->begin[node + 1] - d->begin[node]);
     d->bisect(sub, leaf[0]);
     for (k = 0; k < sub->n; k++) {
         const int side = sub->side[k];
@@ -189,13 +198,14 @@ static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
 /* Lists the border vertices of a range: of the only one, or into lists of its own. */
 static void sli_dissect_borders(void *data, const sli_range *r) {
     sli_dissection *d = (sli_dissection *)data;
+    const sli_labelling in = sli_dissect_labelling(d);
     sli_borders *l = &d->workers[r->worker].borders;
     sl_int *head = l->head;
     if (d->n_ranges > 1) {
         l->head = sli_dissect_by_label(d, r->item);
         l->tail = l->head + d->tree.count;
     }
-    sli_borders_fill(l, &d->tree, &d->levels[d->level], d->label, r);
+    sli_borders_fill(l, &in, r);
     l->head = head;
     l->tail = NULL;
 }

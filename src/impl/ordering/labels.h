@@ -225,10 +225,19 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
     l->head[node] = l->at++;
 }
 
+/* A level, and the labels of its vertices. */
+typedef struct sli_labelling {
+    const sli_level *g;
+    sli_label_tree *tree;
+    sl_int *label;
+} sli_labelling;
+
 /* Enters a range of the vertices of a level into the lists of the nodes that separate them from a
  * neighbor. */
-static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
-                             const sl_int *label, const sli_range *r) {
+static void sli_borders_fill(sli_borders *l, const sli_labelling *in, const sli_range *r) {
+    const sli_level *g = in->g;
+    const sli_label_tree *t = in->tree;
+    const sl_int *label = in->label;
     sl_int v, k;
     sl_off e;
     for (k = 0; k < t->count; k++) {

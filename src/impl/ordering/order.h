@@ -143,8 +143,8 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     status = sli_graph_make_canonical(&G, job->a);
     job->G = &G;
     if (status == SL_OK) {
-        status = may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job)
-                                                        : sli_order_reduced(job);
+        status =
+            may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_reduced(job);
     }
     if (status == SL_OK && job->block > 1) {
         sli_order_expand(job);

@@ -113,6 +113,13 @@ static int sli_order_forest(const sli_order_job *job) {
     if (edges >= n || sli_forest_leaves(n, degree, only, more) < n) {
         return 0;
     }
+    for (k = 0; k < n && (only[more[k]] == -1 || only[more[k]] == more[k + 1]); k++) {
+        perm[k] = more[k];
+        parent[k] = only[more[k]] == -1 ? -1 : k + 1;
+    }
+    if (k == n) { /* tridiagonal matrices: 11 percent of a first factor */
+        return 1;
+    }
     sli_postorder(only, more, n, perm, degree, more + n);
     for (k = 0; k < n; k++) {
         degree[perm[k]] = k;

@@ -60,8 +60,10 @@ static void sli_subgraph_clear(sli_subgraph *sub) {
 }
 
 /* Builds the edges between the vertices that were added, all of them below node. */
-static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
-                               sl_int node, const sl_int *label) {
+static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
+    const sli_level *g = in->g;
+    const sli_label_tree *t = in->tree;
+    const sl_int *label = in->label;
     sl_int k;
     sl_off e, count = 0;
     for (k = 0; k < sub->n; k++) {
@@ -84,16 +86,15 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_
 }
 
 /* Makes the subgraph of a leaf's vertices. */
-static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
-                              sl_int node, const sl_int *label, const sl_int *vertices,
-                              sl_int count) {
+static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                              const sl_int *vertices, sl_int count) {
     sl_int k;
     sub->n = 0;
     for (k = 0; k < count; k++) {
         sli_subgraph_add(sub, vertices[k], 0);
     }
-    sli_subgraph_edges(sub, g, t, node, label);
-    sub->total[0] = t->weight[node];
+    sli_subgraph_edges(sub, in, node);
+    sub->total[0] = in->tree->weight[node];
     sub->total[1] = 0;
 }
 
@@ -105,8 +106,11 @@ static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_l
 /* Makes the band of a node, which has no vertices of its own yet: the vertices at its border, and
  * up to `layers` layers on each side of them. The first layer is added regardless of
  * SLI_BAND_SHARE. */
-static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
-                              sl_int node, const sl_int *label, const sli_borders *l, int layers) {
+static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                              const sli_borders *l, int layers) {
+    const sli_level *g = in->g;
+    const sli_label_tree *t = in->tree;
+    const sl_int *label = in->label;
     const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
     sl_int entry, head = 0;
     sl_off e;
@@ -139,14 +143,17 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
             }
         }
     }
-    sli_subgraph_edges(sub, g, t, node, label);
+    sli_subgraph_edges(sub, in, node);
     sub->total[0] = t->weight[t->left[node]];
     sub->total[1] = t->weight[t->right[node]];
 }
 
 /* Moves a vertex to another leaf below node, or into the separator if to == node. */
-static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
-                               sli_label_tree *t, sl_int *label, sli_borders *l) {
+static void sli_relabel_vertex(const sli_labelling *in, sl_int v, sl_int to, sl_int node,
+                               sli_borders *l) {
+    const sli_level *g = in->g;
+    const sli_label_tree *t = in->tree;
+    sl_int *label = in->label;
     const sl_int from = sli_shared_read(label + v), weight = sli_level_weight(g, v);
     sl_int up;
     sl_off e;
@@ -172,8 +179,10 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
 }
 
 /* The leaf on v's new side with the heaviest edges to v, or -1. */
-static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tree *t, sl_int node,
-                                         sl_int v, int side, const sl_int *label) {
+static sl_int sli_subgraph_adjacent_leaf(const sli_labelling *in, sl_int node, sl_int v, int side) {
+    const sli_level *g = in->g;
+    const sli_label_tree *t = in->tree;
+    const sl_int *label = in->label;
     sl_int best = -1, most = 0;
     sl_off e;
     for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
@@ -189,12 +198,12 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tre
 
 /* Writes the sides of a band to the labels. A vertex without a neighbor on its new side keeps its
  * leaf: all its neighbors are in the separator. */
-static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_tree *t,
-                               sl_int node, sl_int *label, sli_borders *l) {
+static void sli_subgraph_apply(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                               sli_borders *l) {
     sl_int *moved = sub->scratch, count = 0, k, left;
     for (k = 0; k < sub->n; k++) {
         if (sub->side[k] == 2) {
-            sli_relabel_vertex(sub->vertex[k], node, node, g, t, label, l);
+            sli_relabel_vertex(in, sub->vertex[k], node, node, l);
         } else if (sub->side[k] != sub->home[k]) {
             moved[count++] = k;
         }
@@ -203,9 +212,9 @@ static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_
         left = 0;
         for (k = 0; k < count; k++) {
             const sl_int m = moved[k], v = sub->vertex[m];
-            const sl_int leaf = sli_subgraph_adjacent_leaf(g, t, node, v, sub->side[m], label);
+            const sl_int leaf = sli_subgraph_adjacent_leaf(in, node, v, sub->side[m]);
             if (leaf != -1) {
-                sli_relabel_vertex(v, leaf, node, g, t, label, l);
+                sli_relabel_vertex(in, v, leaf, node, l);
             } else {
                 moved[left++] = m;
             }
