@@ -1,53 +1,58 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 81410e89554039fa
+ * FNV-1a of the lines after this comment, without the license: 1e0ac92ac3ac52a7
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     55 intro.h      what the library does, a quick start, which call for which question, references
- *    158 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    191 config.h     macros that a user may define before the include, the version, and the integer types
- *    269 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    439 options.h    options of all calls, threads, and the allocator
- *    578 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    775 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    947 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *   1046 factor.h     the numerical factorization P A P' = L D L'
- *   1197 solve.h      full solves, and the workspace of all solves
- *   1290 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1368 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1467 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1584 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1663 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1771 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1878 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1917 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2072 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2260 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2342 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2469 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2512 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2599 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2749 impl/ base: the compiler, status, memory, sorting, threads
- *   3719 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4554 impl/ matrix: sparse matrices of the caller and of the library
- *   5080 impl/ ordering: fill-reducing orderings of a graph
- *   9416 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11261 impl/ factor: the numbers of L and D
- *  14040 impl/ solve: full and local solves
- *  15515 impl/ accuracy: refinement, condition, defects, half solves
- *  16346 impl/ pivots: the order of the pivots by the values of a matrix
- *  16764 impl/ float: L and fronts in single precision
- *  17215 impl/ inverse: entries of the inverse, regions
- *  19740 impl/ change: a factor that follows changes of its matrix
- *  26242 impl/ io: files that are written and mapped
- *  26552 impl/ files: Matrix Market files, 64-bit indices
- *  27074 impl/ save: factors in files
- *  28897 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29553 impl/ batch: diagonals of many inverses
- *  29695 impl/ complex: complex Hermitian systems over real factors
- *  30259 impl/ packs: the tables through which the core calls packs
- *  30286 impl/ last: undefine every internal macro
- *  30584 impl/ templates: the header includes them from itself, once for each instruction set
+ *     60 intro.h      what the library does, a quick start, which call for which question, references
+ *    163 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    196 config.h     macros that a user may define before the include, the version, and the integer types
+ *    274 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    444 options.h    options of all calls, threads, and the allocator
+ *    583 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    780 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    878 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    952 factor.h     the numerical factorization P A P' = L D L'
+ *   1075 solve.h      full solves, and the workspace of all solves
+ *   1168 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1246 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1345 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1462 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1541 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1649 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1756 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1795 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   1923 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   1955 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2143 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2253 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2380 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2423 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2511 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2620 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2657 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2740 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2780 impl/ base: the compiler, status, memory, sorting, threads
+ *   3750 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4585 impl/ matrix: sparse matrices of the caller and of the library
+ *   5111 impl/ ordering: fill-reducing orderings of a graph
+ *   9496 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11416 impl/ factor: the numbers of L and D
+ *  14195 impl/ solve: full and local solves
+ *  15670 impl/ accuracy: refinement, condition, defects, half solves
+ *  16501 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16919 impl/ float: L and fronts in single precision
+ *  17370 impl/ inverse: entries of the inverse, regions
+ *  19895 impl/ change: a factor that follows changes of its matrix
+ *  26397 impl/ io: files that are written and mapped
+ *  26707 impl/ files: Matrix Market files, 64-bit indices
+ *  27229 impl/ save: factors in files
+ *  29052 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29708 impl/ batch: diagonals of many inverses
+ *  29850 impl/ complex: complex Hermitian systems over real factors
+ *  30361 impl/ complex: entries of the inverse
+ *  30419 impl/ packs: the tables through which the core calls packs
+ *  30446 impl/ last: undefine every internal macro
+ *  30744 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -793,57 +798,6 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
                                                         const double *x, const sl_options *opt,
                                                         sl_stats *stats);
 
-/** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
- *
- *  A symmetric file gives the lower triangle; entries above the diagonal are mirrored into it. A
- *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
- *  with x = NULL.
- *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  path   [in]   name of the file.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.line; may be NULL.
- *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
- *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array, skew-symmetric
- *           or hermitian; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and infinity are accepted here.
- *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
- *           without an end does not fill it.
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path,
-                                               const sl_options *opt, sl_stats *stats);
-
-/** sl_matrix_read from memory: length bytes of text, which need no terminating zero. */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
-                                                const sl_options *opt, sl_stats *stats);
-
-/** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
- *  SuiteSparse's long interface and SciPy's int64. */
-typedef struct sl_csc64 {
-    int64_t n_rows, n_cols;
-    const int64_t *p; /* n_cols + 1 */
-    const int64_t *i; /* p[n_cols] */
-    const double *x;  /* p[n_cols]; NULL: pattern only */
-} sl_csc64;
-
-/** Copies a matrix with 64-bit indices into one with 32-bit indices, entry by entry.
- *
- *  Convert once for each pattern. Entries keep their order, so new values need no conversion: set x
- *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
- *  copied.
- *
- *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
- *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
- *                type, an index out of range; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
- *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
- *  Cost     O(n_cols + nnz).
- *  Threads  any number with different outputs.
- *  Example  tests/core/test_csc64.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,
-                                                     const sl_options *opt, sl_stats *stats);
-
 /** The transpose of a general matrix (as SL_AS_STORED). Rows are ascending; duplicates stay.
  *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
@@ -921,29 +875,6 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
                                                 double *backward_error, const double *X, size_t ldx,
                                                 const double *B, size_t ldb, sl_int nrhs);
 
-/** Writes a Matrix Market file that reads back to the same bits (%.17g).
- *
- *  An existing file is replaced only once the new one is complete. The lines go to a new file in
- *  the same folder, path.tmp00 to path.tmp99, which is renamed to path at the end. On error the old
- *  file is as it was and no temporary file is left; a kill may leave the temporary one. The new
- *  file has the permissions, owner and group of the old one. Written in place: what is not a
- *  regular file (a device, a pipe, a symbolic link); a mount point; a file in a folder where no
- *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
- *  the system may lose both files.
- *
- *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
- *  processes must not write one path at the same time.
- *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
- *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
- *  its temporary name.
- *
- *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
- *                 one triangle.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
- *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
- */
-SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
-
 /* src/public/analyze.h: the analysis of a pattern: ordering, elimination tree, supernodes, storage of L */
 
 /** Analyzes the pattern of a symmetric matrix, for any number of factorizations with that pattern.
@@ -977,31 +908,6 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading
  */
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
-
-/** Analyzes a symmetric indefinite matrix, with 1x1 and 2x2 pivots that are chosen by its values.
- *
- *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
- *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
- *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
- *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
- *
- *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
- *                tree.
- *  A      [in]   n x n, symmetric, with values; not kept.
- *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
- *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
- *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
- *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
- *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which
- *           keeps its update matrices in memory of their own.
- *  Threads  as sl_symbolic_create.
- *  Source   [DR83] multifrontal with 1x1 and 2x2 pivots.
- *  Manual   tools/docs/indefinite.md
- *  Example  tests/core/test_pivots.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
-                                                           const sl_options *opt, sl_stats *stats);
 
 /** Releases an analysis; NULL is allowed. Objects made from it must not be used afterwards. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
@@ -1100,34 +1006,6 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  Example  tests/core/test_factor.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *stats);
-
-/** Refactors after local changes: recomputes only the columns of L that the changes reach.
- *
- *  Results agree with sl_factor_refactor up to rounding; the other columns of L keep their bits. An
- *  up-looking factor is recomputed completely.
- *
- *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
- *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
- *                     numbers after other errors.
- *  A        [in]      the analyzed pattern, new values.
- *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
- *                     allowed.
- *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
- *                     rounding; may be NULL.
- *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
- *           F has no numbers, or is mapped.
- *  Cost     the update matrices of all descendants of the supernodes reached: about 30 % of a
- *           factorization for one vertex of a 2D mesh. Temporary memory: 16 bytes per entry of the
- *           columns, 4 per row of A, of which only those reached are touched, and 4 per row of the
- *           largest front. With null pivots and mass, one complete sweep over L.
- *  Threads  exclusive use of F.
- *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
- *  Manual   tools/docs/changes.md
- *  Example  tests/core/test_refactor_changed.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
-                                                           const sl_int *columns, sl_int count,
-                                                           sl_stats *stats);
 
 /** Releases a factor; NULL is allowed. */
 SL_API void sl_factor_free(sl_factor *F);
@@ -2034,6 +1912,16 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_refactor(sl_factor *const *factors, sl_
                                                   const sl_options *opt, sl_int *failed,
                                                   sl_stats *stats);
 
+#else
+#define sl_batch_solve(...) sl_batch_solve_needs_SL_WITH_BATCH
+#define sl_matrix_sum(...) sl_matrix_sum_needs_SL_WITH_BATCH
+#define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
+#define sl_batch_factor(...) sl_batch_factor_needs_SL_WITH_BATCH
+#define sl_batch_refactor(...) sl_batch_refactor_needs_SL_WITH_BATCH
+#endif
+#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
+/* src/public/batch_diagonal.h: diagonals of the inverses of many factors by one call */
+
 /** Diagonals of several inverses: out(i, k) = (A_k^-1)(rows[i], rows[i]); the bits of
  *  sl_inverse_diagonal.
  *
@@ -2061,12 +1949,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_diagonal(const sl_factor *const *factor
                                                   sl_stats *stats);
 
 #else
-#define sl_batch_solve(...) sl_batch_solve_needs_SL_WITH_BATCH
-#define sl_matrix_sum(...) sl_matrix_sum_needs_SL_WITH_BATCH
-#define sl_symbolic_scatter(...) sl_symbolic_scatter_needs_SL_WITH_BATCH
-#define sl_batch_factor(...) sl_batch_factor_needs_SL_WITH_BATCH
-#define sl_batch_refactor(...) sl_batch_refactor_needs_SL_WITH_BATCH
-#define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH
+#define sl_batch_diagonal(...) sl_batch_diagonal_needs_SL_WITH_BATCH_and_SL_WITH_INVERSE
 #endif
 #if defined(SL_WITH_SAVE)
 /* src/public/save.h: a factor and what belongs to it in a file or in memory: saved, loaded, mapped */
@@ -2339,6 +2222,34 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
                                                  const sl_int *columns, const double *deltas,
                                                  sl_int count, sl_work *W, sl_stats *stats);
 
+/** Refactors after local changes: recomputes only the columns of L that the changes reach.
+ *
+ *  Results agree with sl_factor_refactor up to rounding; the other columns of L keep their bits. An
+ *  up-looking factor is recomputed completely.
+ *
+ *  F        [in,out]  the factor of a matrix that differs from A in the given columns only.
+ *                     Unchanged after SL_ERR_ARGUMENT, _PATTERN, _STATE and _MEMORY; without
+ *                     numbers after other errors.
+ *  A        [in]      the analyzed pattern, new values.
+ *  columns  [in]      count columns of A, in which A stores changed entries; any order, repetitions
+ *                     allowed.
+ *  stats    [out]     factor, of all of L and A: the growth is that of sl_factor_refactor, to
+ *                     rounding; may be NULL.
+ *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
+ *           F has no numbers, or is mapped.
+ *  Cost     the update matrices of all descendants of the supernodes reached: about 30 % of a
+ *           factorization for one vertex of a 2D mesh. Temporary memory: 16 bytes per entry of the
+ *           columns, 4 per row of A, of which only those reached are touched, and 4 per row of the
+ *           largest front. With null pivots and mass, one complete sweep over L.
+ *  Threads  exclusive use of F.
+ *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
+ *  Manual   tools/docs/changes.md
+ *  Example  tests/core/test_refactor_changed.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A,
+                                                           const sl_int *columns, sl_int count,
+                                                           sl_stats *stats);
+
 /* src/public/pins.h: rows held at given values, on top of a factor that stays as it is */
 
 /** Creates an empty set of pins: rows, or linear combinations of rows, that solves hold at given
@@ -2584,6 +2495,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
 #define sl_factor_update(...) sl_factor_update_needs_SL_WITH_CHANGE
 #define sl_factor_update_entries(...) sl_factor_update_entries_needs_SL_WITH_CHANGE
 #define sl_factor_change(...) sl_factor_change_needs_SL_WITH_CHANGE
+#define sl_factor_refactor_changed(...) sl_factor_refactor_changed_needs_SL_WITH_CHANGE
 #define sl_pins_create(...) sl_pins_create_needs_SL_WITH_CHANGE
 #define sl_pins_free(...) sl_pins_free_needs_SL_WITH_CHANGE
 #define sl_pins_add(...) sl_pins_add_needs_SL_WITH_CHANGE
@@ -2689,6 +2601,24 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_plan_create(sl_plan **out, const sl_s
                                                        const sl_int *xset, sl_int nx,
                                                        const sl_options *opt, sl_stats *stats);
 
+/** log |det H| and the sign of det H, which is real: half the logarithm of the real determinant,
+ *  and the parity of half the negative pivots.
+ *
+ *  Returns  as sl_factor_logdet.  Cost  O(n).
+ */
+SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
+                                                  double *sign);
+
+#else
+#define sl_matrix_from_hermitian(...) sl_matrix_from_hermitian_needs_SL_WITH_COMPLEX
+#define sl_matrix_refill_hermitian(...) sl_matrix_refill_hermitian_needs_SL_WITH_COMPLEX
+#define sl_complex_rows(...) sl_complex_rows_needs_SL_WITH_COMPLEX
+#define sl_complex_plan_create(...) sl_complex_plan_create_needs_SL_WITH_COMPLEX
+#define sl_complex_logdet(...) sl_complex_logdet_needs_SL_WITH_COMPLEX
+#endif
+#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
+/* src/public/complex_inverse.h: entries of the inverse of complex matrices */
+
 /** A dense block of the complex inverse: Z(i, j) = (H^-1)(rows[i], columns[j]).
  *
  *  Z        [out]  n_rows x n_columns complex numbers, real and imaginary parts in turn,
@@ -2719,22 +2649,123 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
                                                          const sl_int *rows, const sl_int *columns,
                                                          sl_int count, sl_work *W, sl_stats *stats);
 
-/** log |det H| and the sign of det H, which is real: half the logarithm of the real determinant,
- *  and the parity of half the negative pivots.
+#else
+#define sl_complex_inverse_block(...) sl_complex_inverse_block_needs_SL_WITH_COMPLEX_and_SL_WITH_INVERSE
+#define sl_complex_inverse_pairs(...) sl_complex_inverse_pairs_needs_SL_WITH_COMPLEX_and_SL_WITH_INVERSE
+#endif
+#if defined(SL_WITH_FILES)
+/* src/public/files.h: matrices in Matrix Market files, and with 64-bit indices */
+
+/** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
  *
- *  Returns  as sl_factor_logdet.  Cost  O(n).
+ *  A symmetric file gives the lower triangle; entries above the diagonal are mirrored into it. A
+ *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
+ *  with x = NULL.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  path   [in]   name of the file.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.line; may be NULL.
+ *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
+ *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array, skew-symmetric
+ *           or hermitian; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
+ *           without an end does not fill it.
  */
-SL_API SL_WARN_UNUSED sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det,
-                                                  double *sign);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path,
+                                               const sl_options *opt, sl_stats *stats);
+
+/** sl_matrix_read from memory: length bytes of text, which need no terminating zero. */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                                                const sl_options *opt, sl_stats *stats);
+
+/** Writes a Matrix Market file that reads back to the same bits (%.17g).
+ *
+ *  An existing file is replaced only once the new one is complete. The lines go to a new file in
+ *  the same folder, path.tmp00 to path.tmp99, which is renamed to path at the end. On error the old
+ *  file is as it was and no temporary file is left; a kill may leave the temporary one. The new
+ *  file has the permissions, owner and group of the old one. Written in place: what is not a
+ *  regular file (a device, a pipe, a symbolic link); a mount point; a file in a folder where no
+ *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
+ *  the system may lose both files.
+ *
+ *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
+ *  processes must not write one path at the same time.
+ *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
+ *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
+ *  its temporary name.
+ *
+ *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
+ *                 one triangle.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
+ *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
+
+/** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
+ *  SuiteSparse's long interface and SciPy's int64. */
+typedef struct sl_csc64 {
+    int64_t n_rows, n_cols;
+    const int64_t *p; /* n_cols + 1 */
+    const int64_t *i; /* p[n_cols] */
+    const double *x;  /* p[n_cols]; NULL: pattern only */
+} sl_csc64;
+
+/** Copies a matrix with 64-bit indices into one with 32-bit indices, entry by entry.
+ *
+ *  Convert once for each pattern. Entries keep their order, so new values need no conversion: set x
+ *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
+ *  copied.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
+ *                type, an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
+ *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
+ *  Cost     O(n_cols + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_csc64.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,
+                                                     const sl_options *opt, sl_stats *stats);
 
 #else
-#define sl_matrix_from_hermitian(...) sl_matrix_from_hermitian_needs_SL_WITH_COMPLEX
-#define sl_matrix_refill_hermitian(...) sl_matrix_refill_hermitian_needs_SL_WITH_COMPLEX
-#define sl_complex_rows(...) sl_complex_rows_needs_SL_WITH_COMPLEX
-#define sl_complex_plan_create(...) sl_complex_plan_create_needs_SL_WITH_COMPLEX
-#define sl_complex_inverse_block(...) sl_complex_inverse_block_needs_SL_WITH_COMPLEX
-#define sl_complex_inverse_pairs(...) sl_complex_inverse_pairs_needs_SL_WITH_COMPLEX
-#define sl_complex_logdet(...) sl_complex_logdet_needs_SL_WITH_COMPLEX
+#define sl_matrix_read(...) sl_matrix_read_needs_SL_WITH_FILES
+#define sl_matrix_parse(...) sl_matrix_parse_needs_SL_WITH_FILES
+#define sl_csc_write(...) sl_csc_write_needs_SL_WITH_FILES
+#define sl_matrix_from_csc64(...) sl_matrix_from_csc64_needs_SL_WITH_FILES
+#endif
+#if defined(SL_WITH_PIVOTS)
+/* src/public/pivots.h: analyses with 2x2 pivots, chosen by the values of an indefinite matrix */
+
+/** Analyzes a symmetric indefinite matrix, with 1x1 and 2x2 pivots that are chosen by its values.
+ *
+ *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
+ *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
+ *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
+ *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
+ *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
+ *
+ *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
+ *                tree.
+ *  A      [in]   n x n, symmetric, with values; not kept.
+ *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
+ *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
+ *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
+ *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
+ *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which
+ *           keeps its update matrices in memory of their own.
+ *  Threads  as sl_symbolic_create.
+ *  Source   [DR83] multifrontal with 1x1 and 2x2 pivots.
+ *  Manual   tools/docs/indefinite.md
+ *  Example  tests/core/test_pivots.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
+                                                           const sl_options *opt, sl_stats *stats);
+
+#else
+#define sl_symbolic_create_pivoted(...) sl_symbolic_create_pivoted_needs_SL_WITH_PIVOTS
 #endif
 #ifdef __cplusplus
 }
@@ -5281,7 +5312,8 @@ typedef struct sli_order_job {
   sl_int block;
   const sli_graph *G;
   int is_peeled;
-  const sl_int *weight;
+  const sl_int
+    *weight;
 } sli_order_job;
 
 /* src/impl/ordering/reduce.h: rows ordered apart: those with few neighbors first, constraints last */
@@ -5380,6 +5412,13 @@ static int sli_order_forest(const sli_order_job *job) {
   }
   if (edges >= n || sli_forest_leaves(n, degree, only, more) < n) {
     return 0;
+  }
+  for (k = 0; k < n && (only[more[k]] == -1 || only[more[k]] == more[k + 1]); k++) {
+    perm[k] = more[k];
+    parent[k] = only[more[k]] == -1 ? -1 : k + 1;
+  }
+  if (k == n) {
+    return 1;
   }
   sli_postorder(only, more, n, perm, degree, more + n);
   for (k = 0; k < n; k++) {
@@ -5957,31 +5996,38 @@ static sl_int sli_cluster_neighborhoods(const sli_level *g, sl_int heaviest, int
   return count;
 }
 
-static sl_status sli_coarsen(const sli_level *g, sl_int heaviest, int has_balls, sli_level *c,
-               sl_int *mate, sli_clusters *clusters, sli_shares *ranges, int *shrunk,
-               const sl_allocator *a) {
+typedef struct sli_coarsening {
+  sl_int heaviest;
+  int has_balls;
+  sl_int *mate;
+  sli_clusters clusters;
+  sli_shares *ranges;
+  const sl_allocator *a;
+} sli_coarsening;
+
+static sl_status sli_coarsen(sli_coarsening *t, const sli_level *g, sli_level *c, int *shrunk) {
   sl_int pairs, count = g->n;
   memset(c, 0, sizeof *c);
   *shrunk = 1;
   if (g->edge == NULL) {
     const sl_int times = sli_level_is_wide(g) ? SLI_NEIGHBORHOOD_PAIRS
-               : has_balls          ? SLI_BALL_PAIRS
+               : t->has_balls       ? SLI_BALL_PAIRS
                           : 1;
-    const sl_int most = times * sli_min(heaviest, INT32_MAX / times);
-    count = sli_cluster_neighborhoods(g, most, has_balls, clusters, mate);
+    const sl_int most = times * sli_min(t->heaviest, INT32_MAX / times);
+    count = sli_cluster_neighborhoods(g, most, t->has_balls, &t->clusters, t->mate);
   }
   if (count > g->n / 2) {
-    pairs = sli_match(g, heaviest, mate);
+    pairs = sli_match(g, t->heaviest, t->mate);
     if (pairs < g->n / 4) {
-      pairs += sli_match_two_hop(g, heaviest, mate);
+      pairs += sli_match_two_hop(g, t->heaviest, t->mate);
     }
     *shrunk = (double)(g->n - pairs) < SLI_COARSEN_STALL * (double)g->n;
     if (!*shrunk) {
       return SL_OK;
     }
-    count = sli_number_pairs(g, mate, clusters);
+    count = sli_number_pairs(g, t->mate, &t->clusters);
   }
-  return sli_coarsen_clusters(g, count, clusters, c, ranges, a);
+  return sli_coarsen_clusters(g, count, &t->clusters, c, t->ranges, t->a);
 }
 
 /* src/impl/ordering/labels.h: the separator tree during dissection: a label for each vertex, and border lists */
@@ -6186,8 +6232,16 @@ static void sli_borders_add(sli_borders *l, sl_int node, sl_int v) {
   l->head[node] = l->at++;
 }
 
-static void sli_borders_fill(sli_borders *l, const sli_label_tree *t, const sli_level *g,
-               const sl_int *label, const sli_range *r) {
+typedef struct sli_labelling {
+  const sli_level *g;
+  sli_label_tree *tree;
+  sl_int *label;
+} sli_labelling;
+
+static void sli_borders_fill(sli_borders *l, const sli_labelling *in, const sli_range *r) {
+  const sli_level *g = in->g;
+  const sli_label_tree *t = in->tree;
+  const sl_int *label = in->label;
   sl_int v, k;
   sl_off e;
   for (k = 0; k < t->count; k++) {
@@ -6258,8 +6312,10 @@ static void sli_subgraph_clear(sli_subgraph *sub) {
   sub->n = 0;
 }
 
-static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
-                 sl_int node, const sl_int *label) {
+static void sli_subgraph_edges(sli_subgraph *sub, const sli_labelling *in, sl_int node) {
+  const sli_level *g = in->g;
+  const sli_label_tree *t = in->tree;
+  const sl_int *label = in->label;
   sl_int k;
   sl_off e, count = 0;
   for (k = 0; k < sub->n; k++) {
@@ -6281,23 +6337,25 @@ static void sli_subgraph_edges(sli_subgraph *sub, const sli_level *g, const sli_
   sub->begin[sub->n] = count;
 }
 
-static void sli_subgraph_leaf(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
-                sl_int node, const sl_int *label, const sl_int *vertices,
-                sl_int count) {
+static void sli_subgraph_leaf(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                const sl_int *vertices, sl_int count) {
   sl_int k;
   sub->n = 0;
   for (k = 0; k < count; k++) {
     sli_subgraph_add(sub, vertices[k], 0);
   }
-  sli_subgraph_edges(sub, g, t, node, label);
-  sub->total[0] = t->weight[node];
+  sli_subgraph_edges(sub, in, node);
+  sub->total[0] = in->tree->weight[node];
   sub->total[1] = 0;
 }
 
 #define SLI_BAND_SHARE 30
 
-static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_label_tree *t,
-                sl_int node, const sl_int *label, const sli_borders *l, int layers) {
+static void sli_subgraph_band(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                const sli_borders *l, int layers) {
+  const sli_level *g = in->g;
+  const sli_label_tree *t = in->tree;
+  const sl_int *label = in->label;
   const sl_int most = (sl_int)((int64_t)t->weight[node] * SLI_BAND_SHARE / 100);
   sl_int entry, head = 0;
   sl_off e;
@@ -6330,13 +6388,16 @@ static void sli_subgraph_band(sli_subgraph *sub, const sli_level *g, const sli_l
       }
     }
   }
-  sli_subgraph_edges(sub, g, t, node, label);
+  sli_subgraph_edges(sub, in, node);
   sub->total[0] = t->weight[t->left[node]];
   sub->total[1] = t->weight[t->right[node]];
 }
 
-static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level *g,
-                 sli_label_tree *t, sl_int *label, sli_borders *l) {
+static void sli_relabel_vertex(const sli_labelling *in, sl_int v, sl_int to, sl_int node,
+                 sli_borders *l) {
+  const sli_level *g = in->g;
+  const sli_label_tree *t = in->tree;
+  sl_int *label = in->label;
   const sl_int from = sli_shared_read(label + v), weight = sli_level_weight(g, v);
   sl_int up;
   sl_off e;
@@ -6361,8 +6422,10 @@ static void sli_relabel_vertex(sl_int v, sl_int to, sl_int node, const sli_level
   }
 }
 
-static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tree *t, sl_int node,
-                     sl_int v, int side, const sl_int *label) {
+static sl_int sli_subgraph_adjacent_leaf(const sli_labelling *in, sl_int node, sl_int v, int side) {
+  const sli_level *g = in->g;
+  const sli_label_tree *t = in->tree;
+  const sl_int *label = in->label;
   sl_int best = -1, most = 0;
   sl_off e;
   for (e = g->begin[v]; e < g->begin[v + 1]; e++) {
@@ -6376,12 +6439,12 @@ static sl_int sli_subgraph_adjacent_leaf(const sli_level *g, const sli_label_tre
   return best;
 }
 
-static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_tree *t,
-                 sl_int node, sl_int *label, sli_borders *l) {
+static void sli_subgraph_apply(sli_subgraph *sub, const sli_labelling *in, sl_int node,
+                 sli_borders *l) {
   sl_int *moved = sub->scratch, count = 0, k, left;
   for (k = 0; k < sub->n; k++) {
     if (sub->side[k] == 2) {
-      sli_relabel_vertex(sub->vertex[k], node, node, g, t, label, l);
+      sli_relabel_vertex(in, sub->vertex[k], node, node, l);
     } else if (sub->side[k] != sub->home[k]) {
       moved[count++] = k;
     }
@@ -6390,9 +6453,9 @@ static void sli_subgraph_apply(sli_subgraph *sub, const sli_level *g, sli_label_
     left = 0;
     for (k = 0; k < count; k++) {
       const sl_int m = moved[k], v = sub->vertex[m];
-      const sl_int leaf = sli_subgraph_adjacent_leaf(g, t, node, v, sub->side[m], label);
+      const sl_int leaf = sli_subgraph_adjacent_leaf(in, node, v, sub->side[m]);
       if (leaf != -1) {
-        sli_relabel_vertex(v, leaf, node, g, t, label, l);
+        sli_relabel_vertex(in, v, leaf, node, l);
       } else {
         moved[left++] = m;
       }
@@ -7183,6 +7246,14 @@ static void sli_dissection_layout(sli_dissection *d, sli_block *b, sl_int n, sl_
   }
 }
 
+SLI_INLINE sli_labelling sli_dissect_labelling(sli_dissection *d) {
+  sli_labelling in;
+  in.g = &d->levels[d->level];
+  in.tree = &d->tree;
+  in.label = d->label;
+  return in;
+}
+
 static sl_int *sli_dissect_by_label(const sli_dissection *d, sl_int item) {
   return (sl_int *)(void *)d->ranges.scratch + 2 * (size_t)item * (size_t)d->n_labels;
 }
@@ -7230,11 +7301,12 @@ static void sli_dissect_start(sli_dissection *d) {
 
 static void sli_dissect_split_item(void *data, sl_int node, sl_int worker) {
   sli_dissection *d = (sli_dissection *)data;
+  const sli_labelling in = sli_dissect_labelling(d);
   sli_subgraph *sub = &d->workers[worker].subgraph;
   const sl_int leaf[2] = {d->tree.left[node], d->tree.right[node]};
   sl_int k, weight[2] = {0, 0};
-  sli_subgraph_leaf(sub, &d->levels[d->level], &d->tree, node, d->label,
-            d->order + d->begin[node], d->begin[node + 1] - d->begin[node]);
+  sli_subgraph_leaf(sub, &in, node, d->order + d->begin[node],
+            d->begin[node + 1] - d->begin[node]);
   d->bisect(sub, leaf[0]);
   for (k = 0; k < sub->n; k++) {
     const int side = sub->side[k];
@@ -7284,13 +7356,14 @@ static void sli_dissect_visit_item(void *data, sl_int top, sl_int worker) {
 
 static void sli_dissect_borders(void *data, const sli_range *r) {
   sli_dissection *d = (sli_dissection *)data;
+  const sli_labelling in = sli_dissect_labelling(d);
   sli_borders *l = &d->workers[r->worker].borders;
   sl_int *head = l->head;
   if (d->n_ranges > 1) {
     l->head = sli_dissect_by_label(d, r->item);
     l->tail = l->head + d->tree.count;
   }
-  sli_borders_fill(l, &d->tree, &d->levels[d->level], d->label, r);
+  sli_borders_fill(l, &in, r);
   l->head = head;
   l->tail = NULL;
 }
@@ -7351,12 +7424,12 @@ static void sli_dissect_bisect(sli_subgraph *sub, sl_int nodes) {
 }
 
 static void sli_dissect_refine(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
-  const sli_level *g = &d->levels[d->level];
+  const sli_labelling in = sli_dissect_labelling(d);
   sli_fm m;
-  sli_subgraph_band(&w->subgraph, g, &d->tree, node, d->label, &w->borders, SLI_DISSECT_LAYERS);
+  sli_subgraph_band(&w->subgraph, &in, node, &w->borders, SLI_DISSECT_LAYERS);
   m = sli_fm_of(&w->subgraph);
   sli_fm_refine(&m, 2);
-  sli_subgraph_apply(&w->subgraph, g, &d->tree, node, d->label, &w->borders);
+  sli_subgraph_apply(&w->subgraph, &in, node, &w->borders);
   sli_subgraph_clear(&w->subgraph);
 }
 
@@ -7391,18 +7464,18 @@ static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
 }
 
 static void sli_dissect_separate(sli_dissection *d, sli_dissect_worker *w, sl_int node) {
-  const sli_level *g = &d->levels[0];
+  const sli_labelling in = sli_dissect_labelling(d);
   sli_subgraph *sub = &w->subgraph;
   int layers = sli_dissect_layers(d, d->tree.weight[node]);
   for (;; layers /= 2) {
-    sli_subgraph_band(sub, g, &d->tree, node, d->label, &w->borders, layers);
+    sli_subgraph_band(sub, &in, node, &w->borders, layers);
     sli_subgraph_separate(sub, sub->locked, sub->scratch, w->next);
     if (layers == 0 || sli_dissect_is_balanced(sub)) {
       break;
     }
     sli_subgraph_clear(sub);
   }
-  sli_subgraph_apply(sub, g, &d->tree, node, d->label, &w->borders);
+  sli_subgraph_apply(sub, &in, node, &w->borders);
   sli_subgraph_clear(sub);
 }
 
@@ -7489,29 +7562,36 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
   return d->is_volume ? SLI_DISSECT_BISECT_MIN_VOLUME : SLI_DISSECT_BISECT_MIN;
 }
 
+static void sli_dissect_recognize(sli_dissection *d) {
+  d->is_volume = sli_level_exceeds(&d->levels[1], SLI_VOLUME_DEGREE);
+  d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
+              sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE_COARSE);
+}
+
 static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
   const sl_int n = d->levels[0].n;
-  int shrunk = 1, has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
+  int shrunk = 1;
   sl_status status = SL_OK;
-  sli_clusters clusters;
-  clusters.member = d->other;
-  clusters.start = d->begin;
+  sli_coarsening t;
+  t.has_balls = d->n_levels == 1 && !sli_level_is_wide(&d->levels[0]);
+  t.mate = d->order;
+  t.clusters.member = d->other;
+  t.clusters.start = d->begin;
+  t.ranges = &d->ranges;
+  t.a = d->a;
   *working = -1;
   for (;;) {
     const int last = d->n_levels - 1;
     const sli_level *g = &d->levels[last];
-    const sl_int heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
     sl_int most;
-    if (last == 1 && has_balls && sli_level_exceeds(g, SLI_VOLUME_DEGREE)) {
-      has_balls = 0;
+    if (last == 1 && t.has_balls && sli_level_exceeds(g, SLI_VOLUME_DEGREE)) {
+      t.has_balls = 0;
       sli_free(d->a, g->block);
       d->n_levels = 1;
       continue;
     }
     if (last == 1) {
-      d->is_volume = sli_level_exceeds(g, SLI_VOLUME_DEGREE);
-      d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-                  sli_level_exceeds(g, SLI_SEVEN_POINT_DEGREE_COARSE);
+      sli_dissect_recognize(d);
     }
     most = n / (d->is_volume ? SLI_DISSECT_SHRINK_VOLUME : SLI_DISSECT_SHRINK);
     if (*working == -1 && last > 0 && g->n <= most) {
@@ -7521,8 +7601,8 @@ static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
     if (g->n <= sli_min(sli_dissect_bisect_min(d), most) || d->n_levels == SLI_LEVELS_MAX) {
       break;
     }
-    status = sli_coarsen(g, heaviest, has_balls, &d->levels[d->n_levels], d->order, &clusters,
-               &d->ranges, &shrunk, d->a);
+    t.heaviest = (sl_int)(3 * (int64_t)d->total / g->n) + 1;
+    status = sli_coarsen(&t, g, &d->levels[d->n_levels], &shrunk);
     if (status != SL_OK || !shrunk) {
       break;
     }
@@ -9181,8 +9261,8 @@ static sli_graph_facts sli_graph_describe(const sli_order_job *job) {
   if ((f.bits & (SLI_WANTS_ONE_FACTOR | SLI_WANTS_MANY_SOLVES)) == 0) {
     return f;
   }
-  f.bits |= sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR
-                                          : 0;
+  f.bits |=
+    sli_graph_is_irregular(G, job->is_peeled || is_for_one, &f.squares) ? SLI_IS_IRREGULAR : 0;
   if (!is_for_one && (job->is_peeled || mean * mean > n || (f.bits & SLI_IS_IRREGULAR) != 0)) {
     f.bits |= sli_graph_shape(job, &f.levels);
   }
@@ -9339,8 +9419,8 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   status = sli_graph_make_canonical(&G, job->a);
   job->G = &G;
   if (status == SL_OK) {
-    status = may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job)
-                            : sli_order_reduced(job);
+    status =
+      may_peel && sli_peel_is_worthwhile(&G) ? sli_order_peeled(job) : sli_order_reduced(job);
   }
   if (status == SL_OK && job->block > 1) {
     sli_order_expand(job);
@@ -9466,138 +9546,214 @@ struct sl_symbolic {
 #define SLI_MERGE_MOST 8
 #endif
 
-typedef struct sli_merge {
+typedef struct sli_tree_job {
+  sl_int n;
+  const sli_pattern *columns;
+  sl_int *parent;
+  sl_int *counts;
   sl_int *list;
-  size_t end;
+  sl_int *scratch;
+  const sl_int *sequence;
+  int keeps_order;
+} sli_tree_job;
+
+typedef enum sli_tree_result {
+  SLI_TREE_OUT_OF_ORDER,
+  SLI_TREE_IN_ORDER,
+  SLI_TREE_TOO_LONG
+} sli_tree_result;
+
+typedef struct sli_merge {
+  sl_int n, *parent, *counts, keeps_order;
+  const sl_int *begin, *entry;
+  sl_int *list;
+  size_t kept_end;
+  size_t start, end;
   uint32_t *from;
   sl_int *waiting;
   sl_int count;
   sl_int gaps;
+  sl_int *mark;
+  sl_int *child, *sibling;
+  sl_int id, size;
+  int is_in_order;
+  uint64_t moved;
 } sli_merge;
 
-static void sli_merge_compact(sli_merge *m, const sl_int *counts) {
-  sl_int q, kept = 0;
-  m->end = 0;
-  for (q = 0; q < m->count; q++) {
-    const sl_int c = m->waiting[q];
-    if (m->from[c] != SLI_MERGED) {
-      const size_t length = (size_t)counts[c] - 1;
-      memmove(m->list + m->end, m->list + m->from[c], length * sizeof(sl_int));
-      m->from[c] = (uint32_t)m->end;
-      m->waiting[kept++] = c;
-      m->end += length;
-    }
-  }
-  m->count = kept;
-  m->gaps = 0;
+static sli_merge sli_merge_start(const sli_tree_job *job) {
+  sli_merge m;
+  memset(&m, 0, sizeof m);
+  m.n = job->n;
+  m.parent = job->parent;
+  m.counts = job->counts;
+  m.keeps_order = job->keeps_order;
+  m.begin = job->columns->begin;
+  m.entry = job->columns->entry;
+  m.list = job->list;
+  m.mark = job->scratch;
+  m.child = job->scratch + job->n;
+  m.sibling = job->scratch + 2 * (size_t)job->n;
+  m.from = (uint32_t *)(void *)(job->scratch + 3 * (size_t)job->n);
+  m.waiting = job->scratch + 4 * (size_t)job->n;
+  m.is_in_order = job->sequence == NULL;
+  memset(m.mark, 0xff, 2 * (size_t)job->n * sizeof(sl_int));
+  return m;
 }
 
-SLI_ALWAYS_INLINE size_t sli_merge_rows(sl_int *list, size_t end, sl_int id, sl_int *mark,
-                    const sl_int *rows, sl_int count, size_t stride) {
+static sli_merge sli_merge_compact(sli_merge m) {
+  const sl_int *counts = m.counts;
+  const size_t rows = m.end - m.start;
+  sl_int q, kept = 0;
+  m.kept_end = 0;
+  for (q = 0; q < m.count; q++) {
+    const sl_int c = m.waiting[q];
+    if (m.from[c] != SLI_MERGED) {
+      const size_t length = (size_t)counts[c] - 1;
+      memmove(m.list + m.kept_end, m.list + m.from[c], length * sizeof(sl_int));
+      m.from[c] = (uint32_t)m.kept_end;
+      m.waiting[kept++] = c;
+      m.kept_end += length;
+    }
+  }
+  m.count = kept;
+  m.gaps = 0;
+  memmove(m.list + m.kept_end, m.list + m.start, rows * sizeof(sl_int));
+  m.start = m.kept_end;
+  m.end = m.start + rows;
+  return m;
+}
+
+SLI_ALWAYS_INLINE void sli_merge_rows(sli_merge *m, const sl_int *rows, sl_int count,
+                    size_t stride) {
   const sl_int *last = rows + (size_t)count * stride;
+  sl_int *list = m->list, *mark = m->mark;
+  const sl_int id = m->id;
+  size_t end = m->end;
   for (; rows < last; rows += stride) {
     const sl_int r = *rows;
     list[end] = r;
     end += (size_t)(mark[r] != id);
     mark[r] = id;
   }
-  return end;
+  m->end = end;
 }
 
-static int sli_tree_and_counts(sl_int n, const sli_pattern *columns, sl_int *parent, sl_int *counts,
-                 sl_int *list, sl_int *scratch, int keeps_order,
-                 const sl_int *sequence) {
-  sl_int *mark = scratch, *child = scratch + n, *sibling = scratch + 2 * (size_t)n;
-  const size_t entries = (size_t)columns->begin[n];
+SLI_ALWAYS_INLINE void sli_merge_column(sli_merge *m, sl_int k) {
+  sl_int *counts = m->counts, c;
+  const size_t before = m->end;
+  sli_merge_rows(m, m->entry + SLI_ENTRY * (size_t)m->begin[k], m->begin[k + 1] - m->begin[k],
+           SLI_ENTRY);
+  for (c = m->child[k]; c != -1; c = m->sibling[c]) {
+    sli_merge_rows(m, m->list + m->from[c], counts[c] - 1, 1);
+    m->moved += (uint64_t)counts[c];
+    m->from[c] = SLI_MERGED;
+    m->gaps++;
+  }
+  m->size += (sl_int)(m->end - before);
+  counts[k] = m->size + 1;
+}
+
+SLI_ALWAYS_INLINE void sli_merge_close_gap(sli_merge *m, sl_int k, int continues) {
+  const sl_int *counts = m->counts, keeps_order = m->keeps_order;
+  sl_int c = m->child[k];
+  m->is_in_order &= !keeps_order || continues || m->sibling[c] != -1 || counts[c] != m->size + 2;
+  while (m->count > 0 && m->from[m->waiting[m->count - 1]] == SLI_MERGED) {
+    m->count--;
+    m->gaps--;
+  }
+  c = m->count == 0 ? -1 : m->waiting[m->count - 1];
+  m->kept_end = c == -1 ? 0 : m->from[c] + (size_t)counts[c] - 1;
+  m->is_in_order &= keeps_order || m->gaps == 0;
+  if (m->start - m->kept_end >= m->end - m->start) {
+    memmove(m->list + m->kept_end, m->list + m->start, (m->end - m->start) * sizeof(sl_int));
+    m->end -= m->start - m->kept_end;
+    m->start = m->kept_end;
+  }
+}
+
+SLI_ALWAYS_INLINE void sli_merge_keep(sli_merge *m, sl_int k) {
+  const sl_int n = m->n;
+  const size_t from = m->kept_end;
+  size_t at = m->start, to = from;
+  uint32_t least = UINT32_MAX;
+  sl_int up;
+  m->moved += m->end - m->start;
+  for (; at < m->end; at++) {
+    const sl_int r = m->list[at];
+    const uint32_t beyond = (uint32_t)r - (uint32_t)k - 1;
+    m->list[to] = r;
+    to += r > k;
+    least = beyond < least ? beyond : least;
+  }
+  m->start = m->end = m->kept_end = to;
+  up = m->size > 0 ? k + 1 + (sl_int)least : n;
+  m->parent[k] = up == n ? -1 : up;
+  m->is_in_order &= m->keeps_order || up < n || m->count == 0;
+  if (up < n) {
+    m->from[k] = (uint32_t)from;
+    m->waiting[m->count++] = k;
+    m->sibling[k] = m->child[up];
+    m->child[up] = k;
+  }
+}
+
+static sli_tree_result sli_tree_and_counts(const sli_tree_job *job) {
+  const sl_int n = job->n, *sequence = job->sequence;
+  const size_t entries = (size_t)job->columns->begin[n];
   const uint64_t most =
     sequence == NULL ? SLI_MERGE_MOST * ((uint64_t)entries + (uint64_t)n) : UINT64_MAX;
-  uint64_t moved = 0;
-  size_t start = 0, end = 0;
-  sl_int t, id = -1, size = 0;
-  int is_in_order = sequence == NULL, continues = 0;
-  sli_merge m = {list, 0, NULL, NULL, 0, 0};
-  m.from = (uint32_t *)(void *)(scratch + 3 * (size_t)n);
-  m.waiting = scratch + 4 * (size_t)n;
-  memset(mark, 0xff, 2 * (size_t)n * sizeof(sl_int));
+  sl_int t;
+  int continues = 0;
+  sli_merge m = sli_merge_start(job);
   for (t = 0; t < n; t++) {
     const sl_int k = sequence == NULL ? t : sequence[t];
     const sl_int next = sequence == NULL || t + 1 == n ? t + 1 : sequence[t + 1];
-    sl_int c;
-    size_t before = end;
-    if (before > 2 * entries) {
-      sli_merge_compact(&m, counts);
-      memmove(list + m.end, list + start, (before - start) * sizeof(sl_int));
-      before += m.end - start;
-      start = m.end;
+    if (m.end > 2 * entries) {
+      m = sli_merge_compact(m);
     }
     if (!continues) {
-      id = k;
-      mark[k] = id;
+      m.id = k;
+      m.mark[k] = k;
     }
-    size -= continues;
-    end = sli_merge_rows(list, before, id, mark,
-               columns->entry + SLI_ENTRY * (size_t)columns->begin[k],
-               columns->begin[k + 1] - columns->begin[k], SLI_ENTRY);
-    for (c = child[k]; c != -1; c = sibling[c]) {
-      end = sli_merge_rows(list, end, id, mark, list + m.from[c], counts[c] - 1, 1);
-      moved += (uint64_t)counts[c];
-      m.from[c] = SLI_MERGED;
-      m.gaps++;
+    m.size -= continues;
+    sli_merge_column(&m, k);
+    if (m.child[k] != -1) {
+      sli_merge_close_gap(&m, k, continues);
     }
-    size += (sl_int)(end - before);
-    counts[k] = size + 1;
-    c = child[k];
-    if (c != -1) {
-      is_in_order &= !keeps_order || continues || sibling[c] != -1 || counts[c] != size + 2;
-      while (m.count > 0 && m.from[m.waiting[m.count - 1]] == SLI_MERGED) {
-        m.count--;
-        m.gaps--;
-      }
-      c = m.count == 0 ? -1 : m.waiting[m.count - 1];
-      m.end = c == -1 ? 0 : m.from[c] + (size_t)counts[c] - 1;
-      is_in_order &= keeps_order || m.gaps == 0;
-      if (start - m.end >= end - start) {
-        memmove(list + m.end, list + start, (end - start) * sizeof(sl_int));
-        end -= start - m.end;
-        start = m.end;
-      }
-    }
-    continues = size > 0 && mark[next] == id;
-    parent[k] = next;
+    continues = m.size > 0 && m.mark[next] == m.id;
+    m.parent[k] = next;
     if (!continues) {
-      const size_t from = m.end;
-      uint32_t least = UINT32_MAX;
-      sl_int up;
-      moved += end - start;
-      for (; start < end; start++) {
-        const sl_int r = list[start];
-        const uint32_t beyond = (uint32_t)r - (uint32_t)k - 1;
-        list[m.end] = r;
-        m.end += r > k;
-        least = beyond < least ? beyond : least;
+      sli_merge_keep(&m, k);
+      m.size = 0;
+      if (m.moved > most) {
+        return SLI_TREE_TOO_LONG;
       }
-      start = end = m.end;
-      up = size > 0 ? k + 1 + (sl_int)least : n;
-      parent[k] = up == n ? -1 : up;
-      is_in_order &= keeps_order || up < n || m.count == 0;
-      if (up < n) {
-        m.from[k] = (uint32_t)from;
-        m.waiting[m.count++] = k;
-        sibling[k] = child[up];
-        child[up] = k;
-      }
-      if (moved > most) {
-        return -1;
-      }
-      size = 0;
     }
   }
-  return is_in_order;
+  return m.is_in_order ? SLI_TREE_IN_ORDER : SLI_TREE_OUT_OF_ORDER;
 }
 
-static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *parent,
-                sl_int *sequence, uint64_t *keys, sl_int *rows, sl_int *scratch) {
-  sl_int *at = scratch, *ancestor = scratch + n, *weight = ancestor, j, k, p = 0;
+static void sli_tree_of_rows(sl_int n, const sl_int *at, const sl_int *rows, sl_int *parent,
+               sl_int *ancestor) {
+  sl_int j, k, p = 0;
+  for (k = 0; k < n; k++) {
+    parent[k] = ancestor[k] = -1;
+    for (; p < at[k]; p++) {
+      for (j = rows[p]; j != -1 && j < k;) {
+        const sl_int up = ancestor[j];
+        parent[j] = up == -1 ? k : parent[j];
+        ancestor[j] = k;
+        j = up;
+      }
+    }
+  }
+}
+
+static void sli_tree_sequence(const sli_tree_job *job, sl_int *sequence, uint64_t *keys) {
+  const sli_pattern *columns = job->columns;
+  const sl_int n = job->n;
+  sl_int *rows = job->list, *parent = job->parent;
+  sl_int *at = job->scratch, *ancestor = job->scratch + n, *weight = ancestor, j, k, p = 0;
   memset(at, 0, (size_t)n * sizeof(sl_int));
   for (k = 0; k < columns->begin[n]; k++) {
     at[columns->entry[SLI_ENTRY * (size_t)k]]++;
@@ -9611,17 +9767,7 @@ static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *pare
       rows[at[columns->entry[SLI_ENTRY * (size_t)p]]++] = j;
     }
   }
-  for (k = 0, p = 0; k < n; k++) {
-    parent[k] = ancestor[k] = -1;
-    for (; p < at[k]; p++) {
-      for (j = rows[p]; j != -1 && j < k;) {
-        const sl_int up = ancestor[j];
-        parent[j] = up == -1 ? k : parent[j];
-        ancestor[j] = k;
-        j = up;
-      }
-    }
-  }
+  sli_tree_of_rows(n, at, rows, parent, ancestor);
   memset(weight, 0, (size_t)n * sizeof(sl_int));
   for (k = 0; k < n; k++) {
     weight[k] += columns->begin[k + 1] - columns->begin[k];
@@ -9634,7 +9780,7 @@ static void sli_tree_sequence(sl_int n, const sli_pattern *columns, sl_int *pare
   for (k = 0; k < n; k++) {
     sequence[k] = sli_value(keys[k]);
   }
-  sli_postorder(parent, sequence, n, sequence, scratch, scratch + n);
+  sli_postorder(parent, sequence, n, sequence, job->scratch, job->scratch + n);
 }
 
 static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *new_of,
@@ -10598,16 +10744,24 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
 }
 
 static int sli_analyze_columns(sli_analysis *w, int keeps_order) {
-  const sl_int n = w->n;
   sl_int *sequence = (sl_int *)(void *)w->list;
-  int found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
-                  keeps_order, NULL);
-  if (found == -1) {
-    sli_tree_sequence(n, &w->columns, w->parent, sequence, w->list + n, w->spare, w->scratch);
-    found = sli_tree_and_counts(n, &w->columns, w->parent, w->counts, w->spare, w->scratch,
-                  keeps_order, sequence);
+  sli_tree_result result;
+  sli_tree_job job;
+  job.n = w->n;
+  job.columns = &w->columns;
+  job.parent = w->parent;
+  job.counts = w->counts;
+  job.list = w->spare;
+  job.scratch = w->scratch;
+  job.sequence = NULL;
+  job.keeps_order = keeps_order;
+  result = sli_tree_and_counts(&job);
+  if (result == SLI_TREE_TOO_LONG) {
+    sli_tree_sequence(&job, sequence, w->list + w->n);
+    job.sequence = sequence;
+    result = sli_tree_and_counts(&job);
   }
-  return found;
+  return result == SLI_TREE_IN_ORDER;
 }
 
 static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *stats) {
@@ -10809,39 +10963,54 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   return SL_OK;
 }
 
-static sl_status sli_symbolic_make(sl_symbolic **out, const sl_csc *A, const sl_options *opt,
-                   sli_analysis *w, sli_team *team, const sl_allocator *a,
-                   const sl_allocator *for_order, sl_stats *stats) {
-  sl_symbolic draft;
-  sli_order_job job;
+typedef struct sli_symbolic_job {
+  sl_symbolic **out;
+  const sl_options *opt;
+  sl_allocator a, for_order;
+  sli_analysis w;
+  sl_stats found;
   sl_status status;
-  memset(&job, 0, sizeof job);
-  job.A = A;
-  job.column = w->column;
-  job.triangle = stats->symbolic.triangle;
-  job.opt = opt;
-  job.perm = w->perm;
-  job.scratch = w->scratch;
-  job.septree = &w->septree;
-  job.choice = &w->choice;
-  job.team = team;
-  job.a = for_order;
-  job.stats = stats;
-  status = sli_order(&job);
-  stats->symbolic.seconds_order = sli_analysis_lap(w);
-  if (status != SL_OK) {
-    return status;
+} sli_symbolic_job;
+
+static sl_status sli_symbolic_order(sli_symbolic_job *j, sli_team *team) {
+  sli_analysis *w = &j->w;
+  sli_order_job order;
+  sl_status status;
+  memset(&order, 0, sizeof order);
+  order.A = w->A;
+  order.column = w->column;
+  order.triangle = j->found.symbolic.triangle;
+  order.opt = j->opt;
+  order.perm = w->perm;
+  order.scratch = w->scratch;
+  order.septree = &w->septree;
+  order.choice = &w->choice;
+  order.team = team;
+  order.a = &j->for_order;
+  order.stats = &j->found;
+  status = sli_order(&order);
+  j->found.symbolic.seconds_order = sli_analysis_lap(w);
+  return status;
+}
+
+static void sli_symbolic_run(sli_team *team, void *data) {
+  sli_symbolic_job *j = (sli_symbolic_job *)data;
+  sli_analysis *w = &j->w;
+  sl_symbolic draft;
+  j->status = sli_symbolic_order(j, team);
+  if (j->status != SL_OK) {
+    return;
   }
   if (w->choice.is_there) {
-    sli_analyze_both(w, opt, team, stats);
+    sli_analyze_both(w, j->opt, team, &j->found);
   } else {
-    sli_analyze_order(w, opt, team, stats);
+    sli_analyze_order(w, j->opt, team, &j->found);
   }
   memset(&draft, 0, sizeof draft);
-  draft.allocator = *a;
-  draft.nnz_input = sli_nnz(A);
+  draft.allocator = j->a;
+  draft.nnz_input = sli_nnz(w->A);
   draft.pattern = w->pattern;
-  return sli_symbolic_build(out, &draft, w, stats);
+  j->status = sli_symbolic_build(j->out, &draft, w, &j->found);
 }
 
 #define SLI_ANALYSIS_FLOPS 100.0
@@ -10853,85 +11022,71 @@ static sl_int sli_analysis_workers(const sl_csc *A, const sl_options *opt) {
              SLI_TEAM_MAX);
 }
 
-typedef struct sli_symbolic_job {
-  sl_symbolic **out;
-  const sl_csc *A;
-  const sl_options *opt;
-  sli_analysis *w;
-  const sl_allocator *a, *for_order;
-  sl_stats *stats;
-  sl_status status;
-} sli_symbolic_job;
-
-static void sli_symbolic_lead(sli_team *team, void *data) {
-  sli_symbolic_job *j = (sli_symbolic_job *)data;
-  j->status = sli_symbolic_make(j->out, j->A, j->opt, j->w, team, j->a, j->for_order, j->stats);
-}
-
-static void sli_symbolic_stats_copy(const sl_stats *from, sl_stats *to) {
-  to->symbolic = from->symbolic;
-}
-
 static int sli_symbolic_options_are_valid(const sl_options *opt) {
   return sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE) &&
        (opt == NULL || opt->relaxation == SL_RELAXATION_DEFAULT ||
       opt->relaxation == SL_RELAXATION_NONE);
 }
 
+static sl_status sli_symbolic_check(const sl_csc *A, const sl_options *opt, sli_hash *pattern,
+                  sl_stats *stats) {
+  sl_status status = SL_OK;
+  if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, pattern)) {
+    status = sl_csc_check(A, stats);
+  }
+  if (status == SL_OK && (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt))) {
+    status = SL_ERR_ARGUMENT;
+  }
+  return status;
+}
+
 static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const unsigned char *pairs,
                    const sl_options *opt, sl_stats *stats) {
-  const sl_allocator a = sli_allocator(opt);
-  sli_analysis w;
+  static const sl_threads sli_no_threads = {0, NULL, NULL};
+  sli_symbolic_job j;
   sli_block b = {NULL, 0, 0};
   sli_lender lender;
-  sl_allocator lent;
-  sl_stats found;
-  sl_status status = SL_OK;
+  sl_status status;
   int pass;
   sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
   }
   *out = NULL;
-  memset(&w, 0, sizeof w);
-  w.clock = sli_seconds();
-  if (!sli_csc_has_pattern(A) || !sli_pattern_hash(A, &w.pattern)) {
-    status = sl_csc_check(A, stats);
-  }
+  memset(&j, 0, sizeof j);
+  sli_stats_clear_error(&j.found);
+  j.w.clock = sli_seconds();
+  status = sli_symbolic_check(A, opt, &j.w.pattern, stats);
   if (status != SL_OK) {
     return status;
   }
-  if (A->n_rows != A->n_cols || !sli_symbolic_options_are_valid(opt)) {
-    return SL_ERR_ARGUMENT;
-  }
-  w.A = A;
-  w.pairs = pairs;
-  w.workers = sli_analysis_workers(A, opt);
-  memset(&found, 0, sizeof found);
-  sli_stats_clear_error(&found);
+  j.out = out;
+  j.opt = opt;
+  j.a = sli_allocator(opt);
+  j.w.A = A;
+  j.w.pairs = pairs;
+  j.w.workers = sli_analysis_workers(A, opt);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_analysis_layout(&w, &b, A->n_cols, sli_nnz(A));
-    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
+    sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
+    status = pass == 0 ? sli_block_alloc(&b, &j.a) : SL_OK;
   }
   if (status == SL_OK) {
-    status =
-      sli_csc_triangle(A, sli_csc_columns(A, w.column), &found.symbolic.triangle, opt, stats);
+    status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
+                  opt, stats);
   }
   if (status == SL_OK) {
-    lent = sli_lender_start(&lender, &b, w.ordered, &a);
-    found.symbolic.seconds_analyze = sli_analysis_lap(&w);
-    sli_symbolic_job job = {out, A, opt, &w, &a, &lent, &found, SL_OK};
-    const sl_options none = sli_options_with(&a);
-    sli_team_run(opt != NULL ? &opt->threads : &none.threads,
-           sli_max(sli_order_workers(A, opt), w.workers), sli_symbolic_lead, &job);
-    status = job.status;
+    j.for_order = sli_lender_start(&lender, &b, j.w.ordered, &j.a);
+    j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
+    sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
+           sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
+    status = j.status;
     if (stats != NULL && status == SL_OK) {
-      sli_symbolic_stats_copy(&found, stats);
+      stats->symbolic = j.found.symbolic;
     } else if (stats != NULL) {
-      stats->error.row = found.error.row;
+      stats->error.row = j.found.error.row;
     }
   }
-  sli_free(&a, b.base);
+  sli_free(&j.a, b.base);
   return status;
 }
 
@@ -10953,7 +11108,7 @@ SL_API void sl_symbolic_free(sl_symbolic *S) {
 SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
   sli_stats_clear_error(stats);
   if (S != NULL && stats != NULL) {
-    sli_symbolic_stats_copy(&S->stats, stats);
+    stats->symbolic = S->stats.symbolic;
   }
 }
 
@@ -27485,7 +27640,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->analysis = S->identity;
   F->method = (sl_method)g->method;
   F->type = sli_storage_type_of((sl_storage)g->storage);
-  if (F->type == NULL) { /* untested: SL_WITH_FLOAT is there */
+  if (F->type == NULL) { /* untested: all storages are there */
     return 1;
   }
   F->null.mode = (sl_null_pivots)g->null_pivots;
@@ -28279,7 +28434,7 @@ static sl_status sli_read_front(sli_reading *r) {
     if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
       return status != SL_OK ? status : SL_ERR_IO;
     }
-    if (r->F.type == NULL) { /* untested: SL_WITH_FLOAT is there */
+    if (r->F.type == NULL) { /* untested: all storages are there */
       return SL_ERR_UNSUPPORTED;
     }
   }
@@ -30190,6 +30345,21 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   return status;
 }
 
+SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
+  sl_status status =
+    F != NULL && F->S->n % 2 != 0 ? SL_ERR_ARGUMENT : sl_factor_logdet(F, log_abs_det, sign);
+  if (status == SL_OK) {
+    *log_abs_det *= 0.5;
+    *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;
+  }
+  return status;
+}
+
+#endif
+/* complex: entries of the inverse */
+#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
+/* src/impl/complex/complex_inverse.h: entries of the inverse of complex matrices */
+
 SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
                       const sl_int *rows, sl_int n_rows, const sl_int *columns,
                       sl_int n_columns, sl_work *W, sl_stats *stats) {
@@ -30240,16 +30410,6 @@ SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const
     }
     status = sl_inverse_pairs(F, out, r.real, c.real, 2 * count, W, stats);
     sli_free(&F->allocator, block.base);
-  }
-  return status;
-}
-
-SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, double *sign) {
-  sl_status status =
-    F != NULL && F->S->n % 2 != 0 ? SL_ERR_ARGUMENT : sl_factor_logdet(F, log_abs_det, sign);
-  if (status == SL_OK) {
-    *log_abs_det *= 0.5;
-    *sign = F->stats.factor.negative / 2 % 2 == 0 ? 1.0 : -1.0;
   }
   return status;
 }

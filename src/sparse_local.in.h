@@ -29,6 +29,9 @@ extern "C" {
 #include "public/batch.h"
 #include "public/several.h"
 #endif
+#if defined(SL_WITH_BATCH) && defined(SL_WITH_INVERSE)
+#include "public/batch_diagonal.h"
+#endif
 #if defined(SL_WITH_SAVE)
 #include "public/save.h"
 #endif
@@ -40,6 +43,15 @@ extern "C" {
 #endif
 #if defined(SL_WITH_COMPLEX)
 #include "public/complex.h"
+#endif
+#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
+#include "public/complex_inverse.h"
+#endif
+#if defined(SL_WITH_FILES)
+#include "public/files.h"
+#endif
+#if defined(SL_WITH_PIVOTS)
+#include "public/pivots.h"
 #endif
 #ifdef __cplusplus
 }
@@ -252,6 +264,10 @@ extern "C" {
 #include "impl/complex/complex_storage.h"
 #include "impl/complex/hermitian.h"
 #include "impl/complex/complex_rows.h"
+#endif
+/* complex: entries of the inverse */
+#if defined(SL_WITH_COMPLEX) && defined(SL_WITH_INVERSE)
+#include "impl/complex/complex_inverse.h"
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"

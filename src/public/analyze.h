@@ -37,31 +37,6 @@
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Analyzes a symmetric indefinite matrix, with 1x1 and 2x2 pivots that are chosen by its values.
- *
- *  For matrices without a stable factorization in the order of the pattern, such as KKT systems
- *  with zeros on the diagonal. With these values no entry of L exceeds 100. Factors of other values
- *  keep the pivots: check stats.factor.growth, and analyze again if it is large. SL_NULL_PIVOT_SKIP
- *  gives SL_ERR_UNSUPPORTED. Factors with 2x2 pivots are supernodal; entries of the inverse,
- *  selected inverses and regions refuse them with SL_ERR_UNSUPPORTED.
- *
- *  out    [out]  the analysis, or NULL on error; release with sl_symbolic_free. It has no separator
- *                tree.
- *  A      [in]   n x n, symmetric, with values; not kept.
- *  opt    [in]   as sl_symbolic_create; the ordering is the one to start from.
- *  stats  [out]  symbolic, pairs and delayed included; may be NULL.
- *  Returns  as sl_symbolic_create; SL_ERR_ARGUMENT: A has no values; SL_ERR_NOT_FINITE: an entry at
- *           error.row, error.column. A singular matrix is analyzed; its factorization is refused.
- *  Cost     two analyses, of which one orders, and a factorization in plain C on one thread, which
- *           keeps its update matrices in memory of their own.
- *  Threads  as sl_symbolic_create.
- *  Source   [DR83] multifrontal with 1x1 and 2x2 pivots.
- *  Manual   tools/docs/indefinite.md
- *  Example  tests/core/test_pivots.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
-                                                           const sl_options *opt, sl_stats *stats);
-
 /** Releases an analysis; NULL is allowed. Objects made from it must not be used afterwards. */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 

@@ -1,4 +1,4 @@
-/* test_combination.c: sl_batch_factor of one sum: the bits of a factor of the summed matrix, errors */
+/* test_combination.c: sl_batch_factor of one sum: bits of a factor of the summed matrix, errors */
 #include "tests/lib/matrix_pair.h"
 
 /* With every method and instruction set: without duplicates the bits of the factor of the summed

@@ -2,6 +2,7 @@
 #ifndef SLI_BATCH_BATCH_DIAGONAL_H
 #define SLI_BATCH_BATCH_DIAGONAL_H
 
+#include "../../public/batch_diagonal.h"
 #include "../../public/several.h"
 #include "batch_solve.h"
 #include "../inverse/entries.h"

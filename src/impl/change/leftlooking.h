@@ -2,6 +2,7 @@
 #ifndef SLI_CHANGE_LEFTLOOKING_H
 #define SLI_CHANGE_LEFTLOOKING_H
 
+#include "../../public/change.h"
 #include "../analysis/reach.h"
 #include "../factor/factor.h"
 #include "gather.h"

@@ -2,6 +2,7 @@
 #ifndef SLI_FILES_CSC64_H
 #define SLI_FILES_CSC64_H
 
+#include "../../public/files.h"
 #include "../matrix/csc.h"
 
 /* Checks sizes and positions; the indices are checked while they are copied. */

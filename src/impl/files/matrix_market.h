@@ -2,6 +2,7 @@
 #ifndef SLI_FILES_MATRIX_MARKET_H
 #define SLI_FILES_MATRIX_MARKET_H
 
+#include "../../public/files.h"
 #include "../matrix/csc_triangle.h"
 #include "../io/output_file.h"
 #include "text_reader.h"

@@ -2,6 +2,7 @@
 #ifndef SLI_PIVOTS_PIVOTED_H
 #define SLI_PIVOTS_PIVOTED_H
 
+#include "../../public/pivots.h"
 #include "../analysis/symbolic.h"
 #include "pivot_search.h"
 

@@ -164,7 +164,7 @@ static sl_status sli_read_front(sli_reading *r) {
         if (status != SL_OK || !sli_decode_factor(&f->factor, &r->S, &r->F)) {
             return status != SL_OK ? status : SL_ERR_IO;
         }
-        if (r->F.type == NULL) { /* untested: SL_WITH_FLOAT is there */
+        if (r->F.type == NULL) { /* untested: all storages are there */
             return SL_ERR_UNSUPPORTED;
         }
     }

@@ -1,0 +1,64 @@
+/* complex_inverse.h: entries of the inverse of complex matrices */
+#ifndef SLI_COMPLEX_COMPLEX_INVERSE_H
+#define SLI_COMPLEX_COMPLEX_INVERSE_H
+
+#include "../../public/complex_inverse.h"
+#include "../inverse/block.h"
+#include "../inverse/entries.h"
+#include "complex_rows.h"
+
+SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
+                                          const sl_int *rows, sl_int n_rows, const sl_int *columns,
+                                          sl_int n_columns, sl_work *W, sl_stats *stats) {
+    sli_complex_set r, c;
+    sli_block block = {NULL, 0, 0};
+    sl_status status;
+    sl_int k;
+    sli_stats_clear_error(stats);
+    if (F == NULL || ldz > SIZE_MAX / 2 || (rows == NULL && n_rows != 0) ||
+        (columns == NULL && n_columns != 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.rows = rows;
+    r.count = n_rows;
+    c.rows = columns;
+    c.count = n_columns;
+    status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+    if (status == SL_OK) {
+        for (k = 0; k < n_columns;
+             k++) { /* the column of the real part has both parts of entries */
+            c.real[k] = 2 * columns[k];
+        }
+        status = sl_inverse_block(F, Z, 2 * ldz, r.real, 2 * n_rows, c.real, n_columns, W, stats);
+        sli_free(&F->allocator, block.base);
+    }
+    return status;
+}
+
+SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
+                                          const sl_int *columns, sl_int count, sl_work *W,
+                                          sl_stats *stats) {
+    sli_complex_set r, c;
+    sli_block block = {NULL, 0, 0};
+    sl_status status;
+    sl_int k;
+    sli_stats_clear_error(stats);
+    if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
+        return SL_ERR_ARGUMENT;
+    }
+    r.rows = rows;
+    c.rows = columns;
+    r.count = c.count = count;
+    status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+    if (status == SL_OK) {
+        for (k = 0; k < count;
+             k++) { /* both parts of an entry are in the column of the real part */
+            c.real[2 * (size_t)k + 1] = c.real[2 * (size_t)k];
+        }
+        status = sl_inverse_pairs(F, out, r.real, c.real, 2 * count, W, stats);
+        sli_free(&F->allocator, block.base);
+    }
+    return status;
+}
+
+#endif

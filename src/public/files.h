@@ -1,0 +1,81 @@
+/* files.h: matrices in Matrix Market files, and with 64-bit indices */
+#ifndef SL_PUBLIC_FILES_H
+#define SL_PUBLIC_FILES_H
+
+#include "csc.h"
+
+/** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
+ *
+ *  A symmetric file gives the lower triangle; entries above the diagonal are mirrored into it. A
+ *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
+ *  with x = NULL.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  path   [in]   name of the file.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.line; may be NULL.
+ *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
+ *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array, skew-symmetric
+ *           or hermitian; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
+ *           without an end does not fill it.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_read(sl_matrix **out, const char *path,
+                                               const sl_options *opt, sl_stats *stats);
+
+/** sl_matrix_read from memory: length bytes of text, which need no terminating zero. */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *text, size_t length,
+                                                const sl_options *opt, sl_stats *stats);
+
+/** Writes a Matrix Market file that reads back to the same bits (%.17g).
+ *
+ *  An existing file is replaced only once the new one is complete. The lines go to a new file in
+ *  the same folder, path.tmp00 to path.tmp99, which is renamed to path at the end. On error the old
+ *  file is as it was and no temporary file is left; a kill may leave the temporary one. The new
+ *  file has the permissions, owner and group of the old one. Written in place: what is not a
+ *  regular file (a device, a pipe, a symbolic link); a mount point; a file in a folder where no
+ *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
+ *  the system may lose both files.
+ *
+ *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
+ *  processes must not write one path at the same time.
+ *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
+ *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
+ *  its temporary name.
+ *
+ *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
+ *                 one triangle.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
+ *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
+
+/** View of a sparse matrix with 64-bit indices, otherwise as sl_csc: the arrays of MATLAB, Julia,
+ *  SuiteSparse's long interface and SciPy's int64. */
+typedef struct sl_csc64 {
+    int64_t n_rows, n_cols;
+    const int64_t *p; /* n_cols + 1 */
+    const int64_t *i; /* p[n_cols] */
+    const double *x;  /* p[n_cols]; NULL: pattern only */
+} sl_csc64;
+
+/** Copies a matrix with 64-bit indices into one with 32-bit indices, entry by entry.
+ *
+ *  Convert once for each pattern. Entries keep their order, so new values need no conversion: set x
+ *  of the view (sl_matrix_view) to the caller's values. With A->x = NULL only the indices are
+ *  copied.
+ *
+ *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
+ *  opt    [in]   allocator; may be NULL.
+ *  stats  [out]  error.column: positions that are not ascending; with error.row, if it fits its
+ *                type, an index out of range; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN; SL_ERR_TOO_LARGE: more than 2^31 - 8 rows or
+ *           columns, or more than 2^31 - 1 entries; SL_ERR_MEMORY.
+ *  Cost     O(n_cols + nnz).
+ *  Threads  any number with different outputs.
+ *  Example  tests/core/test_csc64.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_matrix_from_csc64(sl_matrix **out, const sl_csc64 *A,
+                                                     const sl_options *opt, sl_stats *stats);
+
+#endif
