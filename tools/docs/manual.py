@@ -163,8 +163,9 @@ def picture(path, text):
 
 def page_of(target):
     """A link between Markdown files of the repository as one between pages."""
+    target = re.sub(r"^tools/docs/([a-z]+)\.md$", r"\1.html", target)
     return {"FORMAT.md": "format.html", "../src/FORMAT.md": "format.html",
-            "tests/README.md": "tests.html"}.get(target, target)
+            "src/FORMAT.md": "format.html", "tests/README.md": "tests.html"}.get(target, target)
 
 
 def anchor(title):
