@@ -1,58 +1,58 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 1e0ac92ac3ac52a7
+ * FNV-1a of the lines after this comment, without the license: 77541f1a7073e506
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     60 intro.h      what the library does, a quick start, which call for which question, references
- *    163 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    196 config.h     macros that a user may define before the include, the version, and the integer types
- *    274 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    444 options.h    options of all calls, threads, and the allocator
- *    583 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    780 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    878 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    952 factor.h     the numerical factorization P A P' = L D L'
- *   1075 solve.h      full solves, and the workspace of all solves
- *   1168 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1246 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1345 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1462 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1541 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1649 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1756 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1795 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   1923 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   1955 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2143 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2253 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2380 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2423 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2511 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2620 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2657 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2740 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2780 impl/ base: the compiler, status, memory, sorting, threads
- *   3750 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4585 impl/ matrix: sparse matrices of the caller and of the library
- *   5111 impl/ ordering: fill-reducing orderings of a graph
- *   9496 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11416 impl/ factor: the numbers of L and D
- *  14195 impl/ solve: full and local solves
- *  15670 impl/ accuracy: refinement, condition, defects, half solves
- *  16501 impl/ pivots: the order of the pivots by the values of a matrix
- *  16919 impl/ float: L and fronts in single precision
- *  17370 impl/ inverse: entries of the inverse, regions
- *  19895 impl/ change: a factor that follows changes of its matrix
- *  26397 impl/ io: files that are written and mapped
- *  26707 impl/ files: Matrix Market files, 64-bit indices
- *  27229 impl/ save: factors in files
- *  29052 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29708 impl/ batch: diagonals of many inverses
- *  29850 impl/ complex: complex Hermitian systems over real factors
- *  30361 impl/ complex: entries of the inverse
- *  30419 impl/ packs: the tables through which the core calls packs
- *  30446 impl/ last: undefine every internal macro
- *  30744 impl/ templates: the header includes them from itself, once for each instruction set
+ *    164 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    197 config.h     macros that a user may define before the include, the version, and the integer types
+ *    275 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    445 options.h    options of all calls, threads, and the allocator
+ *    584 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    781 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    879 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    953 factor.h     the numerical factorization P A P' = L D L'
+ *   1076 solve.h      full solves, and the workspace of all solves
+ *   1169 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1247 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1346 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1463 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1542 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1650 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1757 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1796 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   1924 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   1956 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2144 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2254 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2381 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2424 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2512 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2621 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2658 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2741 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2781 impl/ base: the compiler, status, memory, sorting, threads
+ *   3751 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4586 impl/ matrix: sparse matrices of the caller and of the library
+ *   5112 impl/ ordering: fill-reducing orderings of a graph
+ *   9497 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11417 impl/ factor: the numbers of L and D
+ *  14196 impl/ solve: full and local solves
+ *  15671 impl/ accuracy: refinement, condition, defects, half solves
+ *  16502 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16920 impl/ float: L and fronts in single precision
+ *  17371 impl/ inverse: entries of the inverse, regions
+ *  19896 impl/ change: a factor that follows changes of its matrix
+ *  26398 impl/ io: files that are written and mapped
+ *  26708 impl/ files: Matrix Market files, 64-bit indices
+ *  27230 impl/ save: factors in files
+ *  29053 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29709 impl/ batch: diagonals of many inverses
+ *  29851 impl/ complex: complex Hermitian systems over real factors
+ *  30362 impl/ complex: entries of the inverse
+ *  30420 impl/ packs: the tables through which the core calls packs
+ *  30447 impl/ last: undefine every internal macro
+ *  30745 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -81,7 +81,7 @@
  *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
  *
  * The 1 is the number of right-hand sides; the NULLs are options, workspaces and statistics. These
- * calls are the core.
+ * calls are the core. Many others need the macro of their pack (packs.h).
  */
 
 /* Which call for which question
@@ -92,7 +92,7 @@
  *  the same once                                  sl_local_solve                         plan.h
  *  many such questions in one part of a mesh      sl_region_create                       region.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
- *  an indefinite or KKT system                    sl_symbolic_create_pivoted             analyze.h
+ *  an indefinite or KKT system                    sl_symbolic_create_pivoted             pivots.h
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
  *  rows held at given values                      sl_pins_create                         pins.h
@@ -101,10 +101,11 @@
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
- *  many solves, many factors, M + t K             sl_batch_solve, sl_batch_factor        batch.h
+ *  many solves by one call                        sl_batch_solve                         batch.h
+ *  M + t K for many t                             sl_batch_factor                        several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
- *  matrices from triplets or files                sl_matrix_from_triplets, _read         csc.h
+ *  a matrix from triplets, from a file            sl_matrix_from_triplets, _read  csc.h, files.h
  *  several processors                             options.threads                        options.h
  */
 

@@ -24,7 +24,7 @@
  *     sl_plan_free(P);  sl_factor_free(F);  sl_symbolic_free(S);
  *
  * The 1 is the number of right-hand sides; the NULLs are options, workspaces and statistics. These
- * calls are the core.
+ * calls are the core. Many others need the macro of their pack (packs.h).
  */
 
 /* Which call for which question
@@ -35,7 +35,7 @@
  *  the same once                                  sl_local_solve                         plan.h
  *  many such questions in one part of a mesh      sl_region_create                       region.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
- *  an indefinite or KKT system                    sl_symbolic_create_pivoted             analyze.h
+ *  an indefinite or KKT system                    sl_symbolic_create_pivoted             pivots.h
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
  *  rows held at given values                      sl_pins_create                         pins.h
@@ -44,10 +44,11 @@
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
- *  many solves, many factors, M + t K             sl_batch_solve, sl_batch_factor        batch.h
+ *  many solves by one call                        sl_batch_solve                         batch.h
+ *  M + t K for many t                             sl_batch_factor                        several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
- *  matrices from triplets or files                sl_matrix_from_triplets, _read         csc.h
+ *  a matrix from triplets, from a file            sl_matrix_from_triplets, _read  csc.h, files.h
  *  several processors                             options.threads                        options.h
  */
 
