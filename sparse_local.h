@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 77541f1a7073e506
+ * FNV-1a of the lines after this comment, without the license: 92ab3191bcace067
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,33 +26,33 @@
  *   2144 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
  *   2254 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
  *   2381 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2424 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2512 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2621 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2658 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2741 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2781 impl/ base: the compiler, status, memory, sorting, threads
- *   3751 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4586 impl/ matrix: sparse matrices of the caller and of the library
- *   5112 impl/ ordering: fill-reducing orderings of a graph
- *   9497 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11417 impl/ factor: the numbers of L and D
- *  14196 impl/ solve: full and local solves
- *  15671 impl/ accuracy: refinement, condition, defects, half solves
- *  16502 impl/ pivots: the order of the pivots by the values of a matrix
- *  16920 impl/ float: L and fronts in single precision
- *  17371 impl/ inverse: entries of the inverse, regions
- *  19896 impl/ change: a factor that follows changes of its matrix
- *  26398 impl/ io: files that are written and mapped
- *  26708 impl/ files: Matrix Market files, 64-bit indices
- *  27230 impl/ save: factors in files
- *  29053 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29709 impl/ batch: diagonals of many inverses
- *  29851 impl/ complex: complex Hermitian systems over real factors
- *  30362 impl/ complex: entries of the inverse
- *  30420 impl/ packs: the tables through which the core calls packs
- *  30447 impl/ last: undefine every internal macro
- *  30745 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2421 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2509 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2618 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2655 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2728 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2768 impl/ base: the compiler, status, memory, sorting, threads
+ *   3738 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4573 impl/ matrix: sparse matrices of the caller and of the library
+ *   5099 impl/ ordering: fill-reducing orderings of a graph
+ *   9484 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11404 impl/ factor: the numbers of L and D
+ *  14183 impl/ solve: full and local solves
+ *  15658 impl/ accuracy: refinement, condition, defects, half solves
+ *  16489 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16907 impl/ float: L and fronts in single precision
+ *  17358 impl/ inverse: entries of the inverse, regions
+ *  19883 impl/ change: a factor that follows changes of its matrix
+ *  26385 impl/ io: files that are written and mapped
+ *  26695 impl/ files: Matrix Market files, 64-bit indices
+ *  27217 impl/ save: factors in files
+ *  29040 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29696 impl/ batch: diagonals of many inverses
+ *  29838 impl/ complex: complex Hermitian systems over real factors
+ *  30349 impl/ complex: entries of the inverse
+ *  30407 impl/ packs: the tables through which the core calls packs
+ *  30434 impl/ last: undefine every internal macro
+ *  30732 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2389,12 +2389,8 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  G and S do not depend on F. Their row k is row rows[k] of A. They can be solved with, pinned and
  *  inverted as any factor. Refactorizations, changes and saving give SL_ERR_STATE; what compares a
  *  matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement, sl_factor_rcond, another
- *  factor over S. Where a supernode lost rows, parent and counts of sl_symbolic_view are an
- *  ancestor of the parent and an upper bound.
- *
- *  G has the options and the storage of F (SL_STORAGE_COMPLEX becomes double if rows 2j and 2j+1 of
- *  A do not follow each other in rows), but refuses null pivots by null_tolerance: a component
- *  of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
+ *  factor over S. G has the options and the storage of F, but refuses null pivots by
+ *  null_tolerance: a component of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
  *
  *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
@@ -2411,9 +2407,10 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns: 0.44 to 1.45 of the time of analyzing
- *           and factoring A[R, R] in a given order (tools/docs/changes.md).
+ *           and factoring A[R, R] in a given order.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_restrict.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G,
@@ -2682,24 +2679,14 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
 
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
- *  An existing file is replaced only once the new one is complete. The lines go to a new file in
- *  the same folder, path.tmp00 to path.tmp99, which is renamed to path at the end. On error the old
- *  file is as it was and no temporary file is left; a kill may leave the temporary one. The new
- *  file has the permissions, owner and group of the old one. Written in place: what is not a
- *  regular file (a device, a pipe, a symbolic link); a mount point; a file in a folder where no
- *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
- *  the system may lose both files.
- *
- *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
- *  processes must not write one path at the same time.
- *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
- *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
- *  its temporary name.
+ *  An existing file is replaced only once the new one is complete: on error it is as it was. A
+ *  device, a pipe or a symbolic link is written in place. Nothing waits for the disk.
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
  *                 one triangle.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
  *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 

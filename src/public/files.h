@@ -29,24 +29,14 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_parse(sl_matrix **out, const char *tex
 
 /** Writes a Matrix Market file that reads back to the same bits (%.17g).
  *
- *  An existing file is replaced only once the new one is complete. The lines go to a new file in
- *  the same folder, path.tmp00 to path.tmp99, which is renamed to path at the end. On error the old
- *  file is as it was and no temporary file is left; a kill may leave the temporary one. The new
- *  file has the permissions, owner and group of the old one. Written in place: what is not a
- *  regular file (a device, a pipe, a symbolic link); a mount point; a file in a folder where no
- *  file can be created; a file of another owner or group. Nothing waits for the disk: a crash of
- *  the system may lose both files.
- *
- *  Windows: the same, but the new file gets the permissions that new files in the folder get. Two
- *  processes must not write one path at the same time.
- *  Others without POSIX: where rename refuses an existing name, the old file is removed just before
- *  the renaming. If the renaming then fails, or a kill comes between the two, the complete file has
- *  its temporary name.
+ *  An existing file is replaced only once the new one is complete: on error it is as it was. A
+ *  device, a pipe or a symbolic link is written in place. Nothing waits for the disk.
  *
  *  reading  [in]  SL_AS_STORED: a general file of all entries; SL_AS_SYMMETRIC: a symmetric file of
  *                 one triangle.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_PATTERN: malformed, or not symmetric with
  *           SL_AS_SYMMETRIC; SL_ERR_IO; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
+ *  Manual   tools/docs/files.md: temporary names, permissions, systems without POSIX
  */
 SL_API SL_WARN_UNUSED sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *path);
 

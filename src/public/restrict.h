@@ -14,12 +14,8 @@
  *  G and S do not depend on F. Their row k is row rows[k] of A. They can be solved with, pinned and
  *  inverted as any factor. Refactorizations, changes and saving give SL_ERR_STATE; what compares a
  *  matrix with the analyzed pattern gives SL_ERR_PATTERN: refinement, sl_factor_rcond, another
- *  factor over S. Where a supernode lost rows, parent and counts of sl_symbolic_view are an
- *  ancestor of the parent and an upper bound.
- *
- *  G has the options and the storage of F (SL_STORAGE_COMPLEX becomes double if rows 2j and 2j+1 of
- *  A do not follow each other in rows), but refuses null pivots by null_tolerance: a component
- *  of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
+ *  factor over S. G has the options and the storage of F, but refuses null pivots by
+ *  null_tolerance: a component of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
  *
  *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
@@ -36,9 +32,10 @@
  *           pivots or is a restriction itself; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     linear in the entries of A in R and the rows of supernodes in R, a copy of the kept
  *           entries of L, and the flops of the other columns: 0.44 to 1.45 of the time of analyzing
- *           and factoring A[R, R] in a given order (tools/docs/changes.md).
+ *           and factoring A[R, R] in a given order.
  *  Threads  reads F; one thread.
  *  Source   [HA18]
+ *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_restrict.c
  */
 SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G,

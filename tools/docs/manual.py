@@ -31,7 +31,7 @@ h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("singular", "Singular systems"), ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
-            ("changes", "Changes of a matrix")]
+            ("changes", "Changes of a matrix"), ("files", "Files")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [
     ("format", "Format"), ("tests", "Tests"), ("platforms", "Platforms"),
     ("changelog", "Changelog")]
