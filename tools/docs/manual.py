@@ -294,6 +294,10 @@ def main():
     for page, text in written:
         for name in sorted(set(re.findall(r"\bsl_\w+\b", text)) - set(names)):
             PROBLEMS.append("%s mentions %s, which is not public" % (page, name))
+    rows = re.findall(r"^ \*  .*?\b(sl_\w+).*? (\w+\.h)", read("src/public/intro.h"), re.M)
+    for name, file in rows:
+        if not re.search(r"\b%s\(" % name, read("src/public/" + file)):
+            PROBLEMS.append("intro.h: %s is not in %s" % (name, file))
     nav = "<nav>sparse_local.h: %s</nav>" % " &middot; ".join(
         '<a href="%s.html">%s</a>' % page for page in PAGES)
     for name, title in PAGES:
