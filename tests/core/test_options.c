@@ -143,22 +143,18 @@ static void unknown_enum_values_are_refused(void **state) {
         opt = options_none();
         opt.method = (sl_method)unknown(k, SL_METHOD_SUPERNODAL);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
-        SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
         opt.storage = (sl_storage)unknown(k, SL_STORAGE_COMPLEX);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
-        SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
         opt.null_pivots = (sl_null_pivots)unknown(k, SL_NULL_PIVOT_SKIP);
         SL_EXPECT(SL_ERR_ARGUMENT, option_factor(f, &opt));
-        SL_EXPECT(SL_ERR_ARGUMENT, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, option_batch_factor(f, &opt));
         opt = options_none();
         opt.isa = (sl_isa)unknown(k, SL_ISA_NEON); /* like one that this processor does not have */
         SL_EXPECT(SL_ERR_UNSUPPORTED, option_factor(f, &opt));
-        SL_EXPECT(SL_ERR_UNSUPPORTED, option_combination(f, &opt));
         SL_EXPECT(SL_ERR_UNSUPPORTED, option_batch_factor(f, &opt));
         SL_EXPECT(SL_ERR_ARGUMENT, sl_csc_multiply(&f->U, reading, Y, 25, X, 25, 1));
         assert_true(Y[0] == 7);

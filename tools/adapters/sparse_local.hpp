@@ -9,8 +9,8 @@
  *     sl::Plan P(S, {17}, {4, 2});                    b in row 17, x wanted in rows 4 and 2
  *     P.solve(x, F, {1.0});                           any number of times
  *
- * One source file of the program also defines SPARSE_LOCAL_IMPLEMENTATION and includes
- * sparse_local.h, or the program is linked with the compiled library. sparse_local.h has the
+ * One source file of the program also defines SL_WITH_ALL and SPARSE_LOCAL_IMPLEMENTATION and
+ * includes sparse_local.h, or the program is linked with the compiled library. sparse_local.h has the
  * contracts of all calls; this file adds ownership, defaults and sizes.
  *
  * Errors      A failed call throws sl::Error. If SL_NO_EXCEPTIONS is defined, or the compiler has
@@ -29,6 +29,9 @@
 #ifndef SPARSE_LOCAL_HPP
 #define SPARSE_LOCAL_HPP
 
+#ifndef SL_WITH_ALL /* the classes use all packs */
+#define SL_WITH_ALL
+#endif
 #include "sparse_local.h"
 
 #include <cstddef>

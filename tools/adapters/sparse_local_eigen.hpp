@@ -10,8 +10,8 @@
  * sl::SimplicialLDLT takes the place of Eigen::SimplicialLDLT, sl::SimplicialLLT that of
  * Eigen::SimplicialLLT, and sl::CholmodSupernodalLLT that of Eigen::CholmodSupernodalLLT: the same
  * template arguments, analyzePattern, factorize, compute, info and solve. One source file of the
- * program defines SPARSE_LOCAL_IMPLEMENTATION and includes sparse_local.h, or the program is linked
- * with the compiled library.
+ * program defines SL_WITH_ALL and SPARSE_LOCAL_IMPLEMENTATION and includes sparse_local.h, or the
+ * program is linked with the compiled library.
  *
  * Matrices    any Eigen::SparseMatrix of float or double, column- or row-major, with Lower, Upper
  *             or both (Lower | Upper), also unsorted or uncompressed. A compressed matrix of double
@@ -36,6 +36,9 @@
 #ifndef SPARSE_LOCAL_EIGEN_HPP
 #define SPARSE_LOCAL_EIGEN_HPP
 
+#ifndef SL_WITH_ALL /* the classes use all packs */
+#define SL_WITH_ALL
+#endif
 #include "sparse_local.h"
 
 #include <Eigen/SparseCore>
