@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 92ab3191bcace067
+ * FNV-1a of the lines after this comment, without the license: 95ee9c719281283a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -12,47 +12,47 @@
  *    781 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
  *    879 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *    953 factor.h     the numerical factorization P A P' = L D L'
- *   1076 solve.h      full solves, and the workspace of all solves
- *   1169 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1247 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1346 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1463 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1542 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1650 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1757 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1796 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   1924 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   1956 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2144 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2254 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2381 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2421 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2509 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2618 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2655 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2728 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2768 impl/ base: the compiler, status, memory, sorting, threads
- *   3738 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4573 impl/ matrix: sparse matrices of the caller and of the library
- *   5099 impl/ ordering: fill-reducing orderings of a graph
- *   9484 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11404 impl/ factor: the numbers of L and D
- *  14183 impl/ solve: full and local solves
- *  15658 impl/ accuracy: refinement, condition, defects, half solves
- *  16489 impl/ pivots: the order of the pivots by the values of a matrix
- *  16907 impl/ float: L and fronts in single precision
- *  17358 impl/ inverse: entries of the inverse, regions
- *  19883 impl/ change: a factor that follows changes of its matrix
- *  26385 impl/ io: files that are written and mapped
- *  26695 impl/ files: Matrix Market files, 64-bit indices
- *  27217 impl/ save: factors in files
- *  29040 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29696 impl/ batch: diagonals of many inverses
- *  29838 impl/ complex: complex Hermitian systems over real factors
- *  30349 impl/ complex: entries of the inverse
- *  30407 impl/ packs: the tables through which the core calls packs
- *  30434 impl/ last: undefine every internal macro
- *  30732 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1074 solve.h      full solves, and the workspace of all solves
+ *   1167 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1245 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1344 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1461 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1540 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1634 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1740 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1779 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   1907 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   1939 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2127 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2237 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2364 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2404 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2492 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2601 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2638 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2711 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2751 impl/ base: the compiler, status, memory, sorting, threads
+ *   3721 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4556 impl/ matrix: sparse matrices of the caller and of the library
+ *   5082 impl/ ordering: fill-reducing orderings of a graph
+ *   9467 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11387 impl/ factor: the numbers of L and D
+ *  14150 impl/ solve: full and local solves
+ *  15625 impl/ accuracy: refinement, condition, defects, half solves
+ *  16456 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16874 impl/ float: L and fronts in single precision
+ *  17325 impl/ inverse: entries of the inverse, regions
+ *  19841 impl/ change: a factor that follows changes of its matrix
+ *  26343 impl/ io: files that are written and mapped
+ *  26653 impl/ files: Matrix Market files, 64-bit indices
+ *  27175 impl/ save: factors in files
+ *  28998 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29654 impl/ batch: diagonals of many inverses
+ *  29796 impl/ complex: complex Hermitian systems over real factors
+ *  30307 impl/ complex: entries of the inverse
+ *  30365 impl/ packs: the tables through which the core calls packs
+ *  30392 impl/ last: undefine every internal macro
+ *  30690 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1014,27 +1014,25 @@ SL_API void sl_factor_free(sl_factor *F);
 /** Fills the factor group of stats. */
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
-/** The rows whose null pivots were skipped, in elimination order.
- *
- *  rows      [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
- *  capacity  [in]   length of rows.
- *  count     [out]  how many there are; may exceed capacity.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows,
-                                                    sl_int capacity, sl_int *count);
+/** Pivots that a factorization did not take as they came. */
+typedef enum sl_pivot_kind {
+    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_NULL_PIVOT_SKIP */
+    SL_PIVOT_REGULARIZED /* those that options.regularization changed */
+} sl_pivot_kind;
 
-/** The rows whose pivots regularization changed, in elimination order, and the diagonal matrix E.
+/** The rows whose pivots were skipped or changed, in elimination order, and the diagonal matrix E
+ *  of the changes.
  *
+ *  kind      [in]   which pivots.
  *  rows      [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
- *  shifts    [out]  the diagonal entries of E in these rows; may be NULL.
+ *  shifts    [out]  the diagonal entries of E in these rows, 0 for null pivots; may be NULL.
  *  capacity  [in]   length of rows and shifts.
  *  count     [out]  how many there are; may exceed capacity.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows,
-                                                           double *shifts, sl_int capacity,
-                                                           sl_int *count);
+SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind,
+                                                     sl_int *rows, double *shifts, sl_int capacity,
+                                                     sl_int *count);
 
 /** log |det A| and the sign of det A (-1 or 1); the determinant of a 0 x 0 matrix is 1.
  *
@@ -1428,7 +1426,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
 
 /** How inconsistent right-hand sides of a singular A are: Y = Z' B for the null vectors Z of A.
  *
- *  Column k of Z belongs to row k of sl_factor_null_rows; it is 1 there and 0 in the other null
+ *  Column k of Z belongs to row k of sl_factor_pivot_rows; it is 1 there and 0 in the other null
  *  rows. Known null vectors are used as they are, combinations of them where a component has
  *  several, and others are computed from L (tools/docs/singular.md).
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a
@@ -1593,33 +1591,19 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_refactor(sl_selected *Z, const sl_fa
 /** Releases a selected inverse; NULL is allowed. */
 SL_API void sl_selected_free(sl_selected *Z);
 
-/** Diagonal entries of A^-1.
- *
- *  out    [out]  count entries in the order of rows. On error untouched.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
- *  stats  [out]  error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or a row out of range (error.row); SL_ERR_PATTERN: a row
- *           that the set of Z does not reach (error.row).
- *  Cost     O(count), with a logarithmic factor if Z was made for a set.
- *  Threads  any number at once.
- *  Example  tests/core/test_selected.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_selected_diagonal(const sl_selected *Z, double *out,
-                                                     const sl_int *rows, sl_int count,
-                                                     sl_stats *stats);
-
-/** Entries (A^-1)_ij on the pattern of L.
+/** Entries (A^-1)_ij on the pattern of L, or diagonal entries.
  *
  *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
  *                  untouched.
- *  rows     [in]   count rows of A in 0..n-1.
- *  columns  [in]   count columns of A in 0..n-1.
- *  stats    [out]  error.row, error.column; may be NULL.
+ *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
+ *                  ignored): all n, which needs columns = NULL.
+ *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
+ *  stats    [out]  error.row, and error.column if columns are given; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_PATTERN: an entry that
  *           is not in the pattern of L or that the set of Z does not reach. error.row and
  *           error.column name it.
- *  Cost     O(count) binary searches.
+ *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
+ *           made for a set.
  *  Threads  any number at once.
  *  Example  tests/core/test_selected.c
  */
@@ -1743,7 +1727,6 @@ SL_API sl_region_arrays sl_region_view(const sl_region *R);
 #define sl_selected_create(...) sl_selected_create_needs_SL_WITH_INVERSE
 #define sl_selected_refactor(...) sl_selected_refactor_needs_SL_WITH_INVERSE
 #define sl_selected_free(...) sl_selected_free_needs_SL_WITH_INVERSE
-#define sl_selected_diagonal(...) sl_selected_diagonal_needs_SL_WITH_INVERSE
 #define sl_selected_entries(...) sl_selected_entries_needs_SL_WITH_INVERSE
 #define sl_selected_view(...) sl_selected_view_needs_SL_WITH_INVERSE
 #define sl_selected_stats(...) sl_selected_stats_needs_SL_WITH_INVERSE
@@ -14076,39 +14059,23 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
   return SL_OK;
 }
 
-static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int most,
-                const sl_int *count) {
-  if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
+SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl_int *rows,
+                    double *shifts, sl_int capacity, sl_int *count) {
+  const sl_int *pivots;
+  sl_int m;
+  if (F == NULL || count == NULL || capacity < 0 || (capacity > 0 && rows == NULL) ||
+    (kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED)) {
     return SL_ERR_ARGUMENT;
   }
-  return F->is_valid ? SL_OK : SL_ERR_STATE;
-}
-
-SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
-  const sl_status status = sli_check_list(F, rows, most, count);
-  sl_int m;
-  if (status != SL_OK) {
-    return status;
+  if (!F->is_valid) {
+    return SL_ERR_STATE;
   }
-  *count = F->null.count;
-  for (m = 0; m < sli_min(most, *count); m++) {
-    rows[m] = F->S->perm[F->null.pivots[m]];
-  }
-  return SL_OK;
-}
-
-SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, double *shifts,
-                      sl_int most, sl_int *count) {
-  const sl_status status = sli_check_list(F, rows, most, count);
-  sl_int m;
-  if (status != SL_OK) {
-    return status;
-  }
-  *count = F->stats.factor.regularized;
-  for (m = 0; m < sli_min(most, *count); m++) {
-    rows[m] = F->S->perm[F->rule.regularized[m]];
+  pivots = kind == SL_PIVOT_NULL ? F->null.pivots : F->rule.regularized;
+  *count = kind == SL_PIVOT_NULL ? F->null.count : F->stats.factor.regularized;
+  for (m = 0; m < sli_min(capacity, *count); m++) {
+    rows[m] = F->S->perm[pivots[m]];
     if (shifts != NULL) {
-      shifts[m] = F->rule.shifts[F->rule.regularized[m]];
+      shifts[m] = kind == SL_PIVOT_NULL ? 0.0 : F->rule.shifts[pivots[m]];
     }
   }
   return SL_OK;
@@ -19146,10 +19113,10 @@ static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
   }
 }
 
-SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const sl_int *rows,
-                    sl_int count, sl_stats *stats) {
+SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
+                   const sl_int *columns, sl_int count, sl_stats *stats) {
   sli_stats_clear_error(stats);
-  if (Z == NULL || (rows != NULL && count < 0)) {
+  if (Z == NULL || (rows == NULL ? columns != NULL : count < 0)) {
     return SL_ERR_ARGUMENT;
   }
   count = rows == NULL ? Z->traversal.S->n : count;
@@ -19159,15 +19126,6 @@ SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const s
   if (rows == NULL && Z->traversal.forest.count == Z->traversal.S->n_supers) {
     sli_selected_read_diagonal(Z, out);
     return SL_OK;
-  }
-  return sli_selected_read(Z, out, rows, NULL, count, stats);
-}
-
-SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
-                   const sl_int *columns, sl_int count, sl_stats *stats) {
-  sli_stats_clear_error(stats);
-  if (Z == NULL || count < 0 || (count > 0 && (out == NULL || rows == NULL || columns == NULL))) {
-    return SL_ERR_ARGUMENT;
   }
   return sli_selected_read(Z, out, rows, columns, count, stats);
 }

@@ -56,7 +56,7 @@ static void call_threaded_diagonal(void *state) {
 static void call_selected_refactor(void *state) {
     adf *a = state;
     bench_must(sl_selected_refactor(a->Z, a->F, a->W), "selected refactor");
-    bench_must(sl_selected_diagonal(a->Z, a->out, NULL, 0, NULL), "diagonal");
+    bench_must(sl_selected_entries(a->Z, a->out, NULL, NULL, 0, NULL), "diagonal");
 }
 
 /* A set of NEAR nearby vertices, by forward sweeps that they share; for a set this small the

@@ -33,7 +33,7 @@ static void call_refactor(void *state) {
 static void call_selected_refactor(void *state) {
     variant *w = state;
     bench_must(sl_selected_refactor(w->Z, w->F, w->W), "selected refactor");
-    bench_must(sl_selected_diagonal(w->Z, w->diagonal, w->set, w->count, NULL), "diagonal");
+    bench_must(sl_selected_entries(w->Z, w->diagonal, w->set, NULL, w->count, NULL), "diagonal");
 }
 
 static void call_diagonal(void *state) {
@@ -45,7 +45,7 @@ static void call_create(void *state) {
     variant *w = state;
     sl_selected *Z;
     bench_must(sl_selected_create(&Z, w->F, w->set, w->count, NULL, NULL), "selected inverse");
-    bench_must(sl_selected_diagonal(Z, w->diagonal, w->set, w->count, NULL), "diagonal");
+    bench_must(sl_selected_entries(Z, w->diagonal, w->set, NULL, w->count, NULL), "diagonal");
     sl_selected_free(Z);
 }
 

@@ -88,7 +88,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_rcond(const sl_factor *F, const sl_csc
 
 /** How inconsistent right-hand sides of a singular A are: Y = Z' B for the null vectors Z of A.
  *
- *  Column k of Z belongs to row k of sl_factor_null_rows; it is 1 there and 0 in the other null
+ *  Column k of Z belongs to row k of sl_factor_pivot_rows; it is 1 there and 0 in the other null
  *  rows. Known null vectors are used as they are, combinations of them where a component has
  *  several, and others are computed from L (tools/docs/singular.md).
  *  After Y(k, r) is subtracted from B in that row, the system has a solution. For a

@@ -67,27 +67,25 @@ SL_API void sl_factor_free(sl_factor *F);
 /** Fills the factor group of stats. */
 SL_API void sl_factor_stats(const sl_factor *F, sl_stats *stats);
 
-/** The rows whose null pivots were skipped, in elimination order.
- *
- *  rows      [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
- *  capacity  [in]   length of rows.
- *  count     [out]  how many there are; may exceed capacity.
- *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
- */
-SL_API SL_WARN_UNUSED sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows,
-                                                    sl_int capacity, sl_int *count);
+/** Pivots that a factorization did not take as they came. */
+typedef enum sl_pivot_kind {
+    SL_PIVOT_NULL = 0,   /* null ones that were skipped: SL_NULL_PIVOT_SKIP */
+    SL_PIVOT_REGULARIZED /* those that options.regularization changed */
+} sl_pivot_kind;
 
-/** The rows whose pivots regularization changed, in elimination order, and the diagonal matrix E.
+/** The rows whose pivots were skipped or changed, in elimination order, and the diagonal matrix E
+ *  of the changes.
  *
+ *  kind      [in]   which pivots.
  *  rows      [out]  the first min(capacity, *count) of them; may be NULL if capacity = 0.
- *  shifts    [out]  the diagonal entries of E in these rows; may be NULL.
+ *  shifts    [out]  the diagonal entries of E in these rows, 0 for null pivots; may be NULL.
  *  capacity  [in]   length of rows and shifts.
  *  count     [out]  how many there are; may exceed capacity.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor.  Cost  O(count).
  */
-SL_API SL_WARN_UNUSED sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows,
-                                                           double *shifts, sl_int capacity,
-                                                           sl_int *count);
+SL_API SL_WARN_UNUSED sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind,
+                                                     sl_int *rows, double *shifts, sl_int capacity,
+                                                     sl_int *count);
 
 /** log |det A| and the sign of det A (-1 or 1); the determinant of a 0 x 0 matrix is 1.
  *

@@ -57,33 +57,19 @@ SL_API SL_WARN_UNUSED sl_status sl_selected_refactor(sl_selected *Z, const sl_fa
 /** Releases a selected inverse; NULL is allowed. */
 SL_API void sl_selected_free(sl_selected *Z);
 
-/** Diagonal entries of A^-1.
- *
- *  out    [out]  count entries in the order of rows. On error untouched.
- *  rows   [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
- *                ignored): all n.
- *  stats  [out]  error.row; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or a row out of range (error.row); SL_ERR_PATTERN: a row
- *           that the set of Z does not reach (error.row).
- *  Cost     O(count), with a logarithmic factor if Z was made for a set.
- *  Threads  any number at once.
- *  Example  tests/core/test_selected.c
- */
-SL_API SL_WARN_UNUSED sl_status sl_selected_diagonal(const sl_selected *Z, double *out,
-                                                     const sl_int *rows, sl_int count,
-                                                     sl_stats *stats);
-
-/** Entries (A^-1)_ij on the pattern of L.
+/** Entries (A^-1)_ij on the pattern of L, or diagonal entries.
  *
  *  out      [out]  count entries: out[k] is the entry of rows[k] and columns[k]. On error
  *                  untouched.
- *  rows     [in]   count rows of A in 0..n-1.
- *  columns  [in]   count columns of A in 0..n-1.
- *  stats    [out]  error.row, error.column; may be NULL.
+ *  rows     [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
+ *                  ignored): all n, which needs columns = NULL.
+ *  columns  [in]   count columns of A in 0..n-1; NULL: columns = rows, the diagonal.
+ *  stats    [out]  error.row, and error.column if columns are given; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: NULL, or an index out of range; SL_ERR_PATTERN: an entry that
  *           is not in the pattern of L or that the set of Z does not reach. error.row and
  *           error.column name it.
- *  Cost     O(count) binary searches.
+ *  Cost     O(count) binary searches; of the diagonal O(count), with a logarithmic factor if Z was
+ *           made for a set.
  *  Threads  any number at once.
  *  Example  tests/core/test_selected.c
  */

@@ -162,7 +162,7 @@ void selected() {
     double value = 0;
     const sl_int row = 30;
     CHECK(f.made && Z.create(f.F, sl::Rows::all()).ok());
-    CHECK(sl_selected_diagonal(Z.get(), &value, &row, 1, nullptr) == SL_OK);
+    CHECK(sl_selected_entries(Z.get(), &value, &row, NULL, 1, nullptr) == SL_OK);
     CHECK(f.F.inverse_diagonal(one, {30}).ok() && std::fabs(one[0] - value) < 1e-14);
     CHECK(Z.refactor(f.F).ok());
 }

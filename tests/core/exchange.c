@@ -70,7 +70,7 @@ static void ask(const sl_saved_set *set, double *x) {
         b[k] = 1 + k % 5;
     }
     must(sl_factor_solve(set->factor, x, N, b, N, 1, NULL), "solve");
-    must(sl_selected_diagonal(set->selected, x + N, NULL, 0, NULL), "diagonal");
+    must(sl_selected_entries(set->selected, x + N, NULL, NULL, 0, NULL), "diagonal");
     must(sl_plan_create(&P, set->symbolic, rows, 1, rows, 1, &opt, NULL), "plan");
     must(sl_plan_solve(P, set->factor, x + 2 * N, 1, b, 1, 1, NULL), "solve in the region");
     sl_plan_free(P);

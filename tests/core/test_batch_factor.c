@@ -321,7 +321,7 @@ static void batches_of_no_terms_are_zero_matrices(void **state) {
     SL_CHECK(sl_batch_factor(F, 2, y.S, NULL, NULL, 0, &opt, &failed, NULL));
     SL_CHECK(sl_batch_refactor(F, 2, NULL, NULL, 0, NULL, &failed, NULL));
     for (int k = 0; k < 2; k++) {
-        SL_CHECK(sl_factor_null_rows(F[k], NULL, 0, &count));
+        SL_CHECK(sl_factor_pivot_rows(F[k], SL_PIVOT_NULL, NULL, NULL, 0, &count));
         assert_int_equal(count, y.n);
         sl_factor_free(F[k]);
     }

@@ -168,7 +168,7 @@ static void defects_make_any_b_consistent(void **state) {
         sl_factor *F = NULL;
         sl_int rows[N], count = 0;
         SL_CHECK(sl_factor_create(&F, f->S, &f->M.view, &opt, NULL));
-        SL_CHECK(sl_factor_null_rows(F, rows, N, &count));
+        SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, rows, NULL, N, &count));
         assert_int_equal(count, f->components);
         double *B = test_reals(N * R), *Y = test_reals((size_t)(count + 1) * R);
         gen_reals(B, N * R, 11);

@@ -129,7 +129,7 @@ static void check_consistency(const neumann_t *y, const sl_csc *L, const sl_opti
     sl_int count = 0;
     sl_factor *F = NULL;
     SL_CHECK(sl_factor_create(&F, y->S, L, opt, NULL));
-    SL_CHECK(sl_factor_null_rows(F, NULL, 0, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, NULL, NULL, 0, &count));
     double *defects = test_reals((size_t)count);
     for (int smooth = 0; smooth < 2; smooth++) {
         gen_reals(z, n, 6);

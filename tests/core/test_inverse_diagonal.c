@@ -52,7 +52,7 @@ static void the_diagonal_equals_the_dense_inverse(void **state) {
                 SL_CHECK(sl_work_create(&W, NULL));
                 assert_int_equal(diagonal(&y, all, NULL, -3, W), SL_INVERSE_SELECTED);
                 SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-                SL_CHECK(sl_selected_diagonal(Z, kept, NULL, 0, NULL));
+                SL_CHECK(sl_selected_entries(Z, kept, NULL, NULL, 0, NULL));
                 SAME_VALUES(all, kept, (size_t)n);
                 for (sl_int count = 1; count <= 3 * n; count = 2 * count + 1) {
                     random_rows(rows, count, n, &seed);
@@ -296,7 +296,7 @@ static void null_rows_are_zero(void **state) {
         opt.null_pivots = SL_NULL_PIVOT_SKIP;
         SL_CHECK(sl_symbolic_create(&y.S, &M.view, FOR_ANALYSIS(&opt), NULL));
         SL_CHECK(sl_factor_create(&y.F, y.S, &M.view, FOR_FACTOR(&opt), NULL));
-        SL_CHECK(sl_factor_null_rows(y.F, &null_row, 1, &count));
+        SL_CHECK(sl_factor_pivot_rows(y.F, SL_PIVOT_NULL, &null_row, NULL, 1, &count));
         assert_int_equal(count, 1);
         double *G = ref_dense(&M.view);
         for (sl_int i = 0; i < n; i++) {

@@ -9,7 +9,7 @@ static void assert_solves(const sl_csc *A, const sl_factor *F, sl_int nulls) {
     sl_int n = A->n_cols, count = 0, *rows = test_ints((size_t)n + 1);
     double *z = test_reals((size_t)n), *b = test_reals((size_t)n), *x = test_reals((size_t)n);
     double *r = test_reals((size_t)n), eta;
-    SL_CHECK(sl_factor_null_rows(F, rows, n, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, rows, NULL, n, &count));
     assert_int_equal(count, nulls);
     gen_reals(z, (size_t)n, 9);
     SL_CHECK(sl_csc_multiply(A, SL_AS_SYMMETRIC, b, (size_t)n, z, (size_t)n, 1));
@@ -169,7 +169,7 @@ static void inverse_entries_match_solves(void **state) {
         }
         SL_CHECK(sl_inverse_diagonal(F, diagonal, NULL, 0, NULL, NULL));
         SL_CHECK(sl_selected_create(&Z, F, NULL, 0, FOR_OTHERS(&opt), NULL));
-        SL_CHECK(sl_selected_diagonal(Z, selected, NULL, 0, NULL));
+        SL_CHECK(sl_selected_entries(Z, selected, NULL, NULL, 0, NULL));
         for (size_t i = 0; i < n; i++) {
             assert_true(fabs(diagonal[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);
             assert_true(fabs(selected[i] - X[i + n * i]) <= 100.0 * (double)n * DBL_EPSILON * most);
@@ -197,15 +197,18 @@ static void definite_matrices_keep_their_bits_and_nan_fails(void **state) {
         opt = options_skip_null(&variants, k);
         SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));
         assert_same_bits(F, y.F);
-        SL_CHECK(sl_factor_null_rows(F, NULL, 0, &count));
+        SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, NULL, NULL, 0, &count));
         assert_int_equal(count, 0);
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(F, NULL, 1, &count));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(F, one, -1, &count));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(F, one, 1, NULL));
-        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_null_rows(NULL, one, 1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_pivot_rows(F, SL_PIVOT_NULL, NULL, NULL, 1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_pivot_rows(F, SL_PIVOT_NULL, one, NULL, -1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_pivot_rows(F, SL_PIVOT_NULL, one, NULL, 1, NULL));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_pivot_rows(NULL, SL_PIVOT_NULL, one, NULL, 1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_pivot_rows(F, (sl_pivot_kind)2, one, NULL, 1, &count));
+        SL_EXPECT(SL_ERR_ARGUMENT,
+                  sl_factor_pivot_rows(F, (sl_pivot_kind)-1, one, NULL, 1, &count));
         y.M.x[5] = NAN;
         SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &y.M.view, NULL));
-        SL_EXPECT(SL_ERR_STATE, sl_factor_null_rows(F, one, 1, &count));
+        SL_EXPECT(SL_ERR_STATE, sl_factor_pivot_rows(F, SL_PIVOT_NULL, one, NULL, 1, &count));
         sl_factor_free(F);
         opt.null_pivots = (sl_null_pivots)2;
         SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, FOR_FACTOR(&opt), NULL));

@@ -15,7 +15,7 @@ static void assert_nulls(const sl_factor *F, const sl_stats *stats, const sl_int
     assert_int_equal(stats->factor.null, components);
     assert_int_equal(stats->factor.regular, 0);
     assert_int_equal(stats->factor.negative, 0);
-    SL_CHECK(sl_factor_null_rows(F, rows, 16, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, rows, NULL, 16, &count));
     assert_int_equal(count, components);
     for (sl_int k = 0; k < count; k++) {
         for (sl_int other = 0; other < k; other++) {

@@ -131,7 +131,7 @@ static void a_pin_makes_a_laplacian_regular(void **state) {
         pinned_t p = pinned_make(GEN_SINGULAR, 64, 1, &opt);
         assert_true(p.n <= 64);
         sl_int null, count;
-        SL_CHECK(sl_factor_null_rows(p.y.F, &null, 1, &count));
+        SL_CHECK(sl_factor_pivot_rows(p.y.F, SL_PIVOT_NULL, &null, NULL, 1, &count));
         assert_int_equal(count, 1);
         for (sl_int row = 0; row < p.n; row++) {
             pin(&p, row);

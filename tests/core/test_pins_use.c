@@ -32,7 +32,7 @@ static factored_t path(double sign, sl_int cut, double shift) {
 
 static sl_int null_count(const sl_factor *F) {
     sl_int count = 0;
-    SL_CHECK(sl_factor_null_rows(F, NULL, 0, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, NULL, NULL, 0, &count));
     return count;
 }
 
@@ -206,7 +206,7 @@ static void a_difference_leaves_the_constant_free(void **state) {
     double b[N] = {0.0}, x[N];
     sl_int null, count;
     sl_pins *P;
-    SL_CHECK(sl_factor_null_rows(y.F, &null, 1, &count));
+    SL_CHECK(sl_factor_pivot_rows(y.F, SL_PIVOT_NULL, &null, NULL, 1, &count));
     SL_CHECK(sl_pins_create(&P, y.F, NULL));
     SL_CHECK(sl_pins_add_equality(P, rows, values, 2, NULL));
     SL_CHECK(sl_pins_solve(P, NULL, x, N, b, N, &g, 1, 1, NULL));

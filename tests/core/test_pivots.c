@@ -183,7 +183,7 @@ static void singular_systems_are_refused_or_regularized(void **state) {
     assert_true(stats.factor.regularized >= 1 && stats.factor.regularized <= 2);
     sl_int rows[2], count;
     double shifts[2], b[61], x[61], z[61];
-    SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, 2, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, shifts, 2, &count));
     assert_int_equal(count, stats.factor.regularized);
     for (sl_int k = 0; k < 61; k++) {
         z[k] = k % 7 - 3;
@@ -220,7 +220,7 @@ static void null_pairs_are_refused_or_regularized(void **state) {
         assert_true(stats.error.row == 0 || stats.error.row == 1);
         opt.regularization = 0.25;
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, &stats));
-        SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, 2, &count));
+        SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, shifts, 2, &count));
         assert_int_equal(count, 2);
         SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
         double shifted[3] = {bad[which][0], bad[which][1], bad[which][2]};

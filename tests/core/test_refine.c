@@ -198,7 +198,7 @@ static void null_rows_and_means_stay_zero(void **state) {
         SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
         double before = refine_checked(F, &M.view, x, b, 1, 0, NULL).refine.backward_error;
         assert_true(refine_checked(F, &M.view, x, b, 1, 5, NULL).refine.backward_error <= before);
-        SL_CHECK(sl_factor_null_rows(F, &row, 1, &count));
+        SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, &row, NULL, 1, &count));
         for (size_t i = 0; i < n; i++) {
             sum = i > 0 ? sum + x[i] : x[i];
             most = fmax(i > 0 ? most : 0.0, fabs(x[i]));

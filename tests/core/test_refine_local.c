@@ -33,7 +33,7 @@ static fixture_t *fixture_make(const variant_list_t *variants, int k) {
     opt.regularization = 1e-7;
     opt.signs = f->y.signs;
     SL_CHECK(sl_factor_create(&f->F, f->y.S, &f->y.M.view, &opt, NULL));
-    SL_CHECK(sl_factor_regularized_rows(f->F, f->rows, NULL, N, &f->count));
+    SL_CHECK(sl_factor_pivot_rows(f->F, SL_PIVOT_REGULARIZED, f->rows, NULL, N, &f->count));
     assert_true(f->count > 5);
     gen_set(f->bset, NB, N, 3);
     gen_set(f->xset, NX, N, 4);
@@ -233,7 +233,7 @@ static void rows_of_other_components_may_be_missing(void **state) {
     opt.signs = signs;
     SL_CHECK(sl_symbolic_create(&S, &M.view, FOR_ANALYSIS(&opt), NULL));
     SL_CHECK(sl_factor_create(&F, S, &M.view, FOR_FACTOR(&opt), NULL));
-    SL_CHECK(sl_factor_regularized_rows(F, rows, NULL, 2 * SIZE, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, NULL, 2 * SIZE, &count));
     assert_int_equal(count, 4);
     assert_true(rows[1] < SIZE && rows[2] >= SIZE);
     double b[2] = {1, 2}, x[2];

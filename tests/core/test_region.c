@@ -267,7 +267,7 @@ static void squares_of_a_grid_match_full_solves(void **state) {
             opt.region = R;
             SL_CHECK(sl_plan_create(&P, y.S, set, 1, set, 1, FOR_PLAN(&opt), NULL));
             SL_CHECK(sl_plan_solve(P, y.F, X, 1, B, 1, 1, NULL));
-            SL_CHECK(sl_selected_diagonal(all, Y, set, 1, NULL));
+            SL_CHECK(sl_selected_entries(all, Y, set, NULL, 1, NULL));
             assert_true(fabs(X[0] - B[0] * Y[0]) <= 4 * DBL_EPSILON * fabs(X[0]));
             sl_plan_free(P);
             sl_region_free(R);

@@ -95,7 +95,7 @@ static void null_pivots_match_the_full_solve(void **state) {
         factored_t y = factored_make(GEN_SINGULAR, 400, 1, 0, &opt);
         sl_int n = y.M.view.n_cols, null = -1, nulls = 0;
         double *full = test_reals((size_t)n);
-        SL_CHECK(sl_factor_null_rows(y.F, &null, 1, &nulls));
+        SL_CHECK(sl_factor_pivot_rows(y.F, SL_PIVOT_NULL, &null, NULL, 1, &nulls));
         assert_int_equal(nulls, 1);
         for (int round = 0; round < 20; round++) {
             sl_int set[60], inside[400];

@@ -42,7 +42,7 @@ static void dependent_constraints_are_regularized(void **state) {
                 assert_int_equal(stats.factor.negative, y.n - y.primal);
                 assert_int_equal(stats.factor.null, 0);
                 NOTHING_WRONG(check_regularized(F, &y.M.view));
-                SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, 240, &count));
+                SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, shifts, 240, &count));
                 assert_int_equal(count, twice);
                 /* Reported in order of elimination, which here is the order of the rows. */
                 for (sl_int m = 0; m < count; m++) {
@@ -85,7 +85,7 @@ static void only_pivots_of_the_wrong_sign_change(void **state) {
             memset(&stats, 0, sizeof stats);
             SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, &stats));
             NOTHING_WRONG(check_regularized(F, &y.M.view));
-            SL_CHECK(sl_factor_regularized_rows(F, NULL, NULL, 0, &count));
+            SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, NULL, NULL, 0, &count));
             assert_int_equal(count, stats.factor.regularized);
             if (which < 2) {
                 assert_int_equal(count, 0);
@@ -129,15 +129,21 @@ static void without_signs_all_pivots_become_positive(void **state) {
             assert_int_equal(stats.factor.positive, 100);
             assert_int_equal(stats.factor.regularized, 1);
             NOTHING_WRONG(check_regularized(F, &M.view));
-            SL_CHECK(sl_factor_regularized_rows(F, &row, &shift[scaled], 1, &count));
+            SL_CHECK(
+                sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, &row, &shift[scaled], 1, &count));
             assert_int_equal(count, 1);
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_regularized_rows(NULL, &row, NULL, 1, &count));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_regularized_rows(F, NULL, NULL, 1, &count));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_regularized_rows(F, &row, NULL, -1, &count));
-            SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_regularized_rows(F, &row, NULL, 1, NULL));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_factor_pivot_rows(NULL, SL_PIVOT_REGULARIZED, &row, NULL, 1, &count));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, NULL, NULL, 1, &count));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, &row, NULL, -1, &count));
+            SL_EXPECT(SL_ERR_ARGUMENT,
+                      sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, &row, NULL, 1, NULL));
             M.x[3] = NAN;
             SL_EXPECT(SL_ERR_NOT_FINITE, sl_factor_refactor(F, &M.view, &stats));
-            SL_EXPECT(SL_ERR_STATE, sl_factor_regularized_rows(F, &row, NULL, 1, &count));
+            SL_EXPECT(SL_ERR_STATE,
+                      sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, &row, NULL, 1, &count));
             sl_factor_free(F);
             sl_symbolic_free(S);
             gen_matrix_free(&M);

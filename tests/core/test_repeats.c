@@ -247,7 +247,7 @@ static void refinement(void **state) {
     opt.regularization = 1e-7;
     opt.signs = y.signs;
     SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-    SL_CHECK(sl_factor_regularized_rows(F, rows, NULL, ROWS, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, NULL, ROWS, &count));
     assert_true(count > 5);
     double *B = test_reals(2 * ROWS * R), *sums = test_reals(ROWS * R),
            *X = test_reals(2 * ROWS * R), *wanted = test_reals(ROWS * R);

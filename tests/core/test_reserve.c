@@ -173,7 +173,7 @@ static void refined_local_solves(void **state) {
     opt.regularization = 1e-7;
     opt.signs = y.signs;
     SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
-    SL_CHECK(sl_factor_regularized_rows(F, rows, NULL, 240, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, NULL, 240, &count));
     assert_true(count > 5);
     double *B = test_reals(240 * R), *X = test_reals(240 * R);
     gen_reals(B, 240 * R, 9);

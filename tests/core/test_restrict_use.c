@@ -181,7 +181,7 @@ static void null_pivots_may_be_removed(void **state) {
                 restricted_check(&t);
             } else {
                 sl_int null_row, nulls;
-                SL_CHECK(sl_factor_null_rows(t.y.F, &null_row, 1, &nulls));
+                SL_CHECK(sl_factor_pivot_rows(t.y.F, SL_PIVOT_NULL, &null_row, NULL, 1, &nulls));
                 assert_int_equal(t.stats.error.row, null_row);
             }
             restricted_free(&t);
@@ -211,7 +211,7 @@ static void regularization_is_inherited(void **state) {
         for (sl_int k = 0; k < size; k++) {
             assert_true(D[iperm[k]] * signs[rows[k]] > 0.0);
         }
-        SL_CHECK(sl_factor_regularized_rows(G, changed, NULL, 100, &count));
+        SL_CHECK(sl_factor_pivot_rows(G, SL_PIVOT_REGULARIZED, changed, NULL, 100, &count));
         assert_int_equal(count, stats.factor.regularized);
         for (sl_int k = 0; k < count; k++) {
             assert_int_equal(signs[rows[changed[k]]], -1);

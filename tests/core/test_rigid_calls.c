@@ -346,7 +346,7 @@ static void check_float(bodies_t *f, const sl_options *from) {
     sl_int *nulls = test_ints(f->n), count = 0;
     opt.storage = SL_STORAGE_FLOAT;
     SL_CHECK(sl_factor_create(&F, f->S, &f->y.A, &opt, NULL));
-    SL_CHECK(sl_factor_null_rows(F, nulls, f->y.n, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, nulls, NULL, f->y.n, &count));
     assert_int_equal(count, f->y.null);
     SL_CHECK(sl_factor_solve(F, x, f->n, f->B, f->n, 1, NULL));
     SL_CHECK(sl_factor_refine(F, &f->y.A, x, f->n, f->B, f->n, 1, 5, NULL, NULL));

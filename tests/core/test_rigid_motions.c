@@ -22,7 +22,7 @@ static void assert_nulls(const elastic_t *y, const sl_factor *F, const sl_stats 
     assert_int_equal(stats->factor.null, y->null);
     assert_int_equal(stats->factor.regular, 0);
     assert_int_equal(stats->factor.negative, 0);
-    SL_CHECK(sl_factor_null_rows(F, rows, y->null, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, rows, NULL, y->null, &count));
     assert_int_equal(count, y->null);
     for (sl_int k = 0; k < count; k++) {
         if (y->body[rows[k]] != -1) {
@@ -73,7 +73,7 @@ static void assert_unchecked(const elastic_t *y, const sl_symbolic *S, const sl_
     SL_CHECK(sl_factor_create(&F, S, &y->A, FOR_FACTOR(&opt), NULL));
     SL_CHECK(sl_factor_solve(F, x, n, b, n, 1, NULL));
     SL_CHECK(sl_csc_residual(&y->A, r, n, &eta, x, n, b, n, 1));
-    SL_CHECK(sl_factor_null_rows(F, rows, y->n, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_NULL, rows, NULL, y->n, &count));
     for (sl_int k = 0; k < count; k++) {
         b[rows[k]] -= r[rows[k]];
         largest = fmax(largest, fabs(r[rows[k]]));

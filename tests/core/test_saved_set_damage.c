@@ -54,10 +54,10 @@ static void use(const sl_saved_set *set, const sl_csc *A) {
     if (set->selected != NULL) {
         sl_selected_stats(set->selected, &stats);
         for (sl_int k = 0; k < n; k++) {
-            (void)(sl_selected_diagonal(set->selected, x, &k, 1, NULL) == SL_OK);
+            (void)(sl_selected_entries(set->selected, x, &k, NULL, 1, NULL) == SL_OK);
             (void)(sl_selected_entries(set->selected, x, &k, &row, 1, NULL) == SL_OK);
         }
-        (void)(sl_selected_diagonal(set->selected, x, NULL, 0, NULL) == SL_OK);
+        (void)(sl_selected_entries(set->selected, x, NULL, NULL, 0, NULL) == SL_OK);
         if (set->factor != NULL) {
             (void)(sl_selected_refactor(set->selected, set->factor, NULL) == SL_OK);
         }

@@ -15,7 +15,7 @@ static void assert_queries_match_panels(const sl_selected *Z) {
                 SL_CHECK(sl_selected_entries(Z, got, rows, columns, 2, NULL));
                 assert_true(got[0] == value && got[1] == value);
                 if (i == j) {
-                    SL_CHECK(sl_selected_diagonal(Z, got, rows, 2, NULL));
+                    SL_CHECK(sl_selected_entries(Z, got, rows, NULL, 2, NULL));
                     assert_true(got[0] == value && got[1] == value);
                 }
             }
@@ -99,7 +99,7 @@ static void entries_match_full_solves(void **state) {
         sl_selected *Z = NULL;
         uint64_t seed = 5;
         SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-        SL_CHECK(sl_selected_diagonal(Z, diagonal, NULL, 0, NULL));
+        SL_CHECK(sl_selected_entries(Z, diagonal, NULL, NULL, 0, NULL));
         for (int times = 0; times < 60; times++) {
             sl_int j = gen_below(&seed, n);
             double largest = 0.0;
@@ -175,8 +175,8 @@ static void a_set_gives_the_same_bits(void **state) {
                 for (sl_int i = 0; i < n; i++) {
                     double d = 7.0, e;
                     sl_status wanted = mark[v.super_of[v.iperm[i]]] ? SL_OK : SL_ERR_PATTERN;
-                    SL_EXPECT(wanted, sl_selected_diagonal(some, &d, &i, 1, &stats));
-                    SL_CHECK(sl_selected_diagonal(all, &e, &i, 1, NULL));
+                    SL_EXPECT(wanted, sl_selected_entries(some, &d, &i, NULL, 1, &stats));
+                    SL_CHECK(sl_selected_entries(all, &e, &i, NULL, 1, NULL));
                     assert_int_equal(stats.error.row, wanted == SL_OK ? -1 : i);
                     assert_true(d == (wanted == SL_OK ? e : 7.0));
                 }

@@ -8,18 +8,18 @@ static void values_outlive_the_factor(void **state) {
     double before[225], after[225], again[225];
     sl_selected *Z = NULL, *none = (sl_selected *)(void *)before;
     SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_selected_diagonal(Z, before, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, before, NULL, NULL, 0, NULL));
     for (sl_int p = 0; p < y.M.p[225]; p++) {
         y.M.x[p] *= 4.0;
     }
     SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
-    SL_CHECK(sl_selected_diagonal(Z, after, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, 0, NULL));
     SAME_VALUES(before, after, 225);
     SL_CHECK(sl_selected_refactor(Z, y.F, NULL));
-    SL_CHECK(sl_selected_diagonal(Z, again, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, again, NULL, NULL, 0, NULL));
     sl_selected_free(Z);
     SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
-    SL_CHECK(sl_selected_diagonal(Z, after, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, 0, NULL));
     SAME_VALUES(again, after, 225);
     /* Exact: a power of two. */
     for (int k = 0; k < 225; k++) {
@@ -32,7 +32,7 @@ static void values_outlive_the_factor(void **state) {
     SL_EXPECT(SL_ERR_STATE, sl_selected_refactor(Z, y.F, NULL));
     sl_factor_free(y.F);
     y.F = NULL;
-    SL_CHECK(sl_selected_diagonal(Z, after, NULL, 0, NULL));
+    SL_CHECK(sl_selected_entries(Z, after, NULL, NULL, 0, NULL));
     SAME_VALUES(again, after, 225);
     sl_selected_free(Z);
     factored_free(&y);
@@ -50,14 +50,14 @@ static void empty_problems_work(void **state) {
             memset(&stats, 0, sizeof stats);
             SL_CHECK(sl_selected_create(&Z, y.F, whole ? NULL : no_rows, 0, NULL, &stats));
             assert_int_equal(stats.selected.columns, whole ? kind : 0);
-            SL_CHECK(sl_selected_diagonal(Z, NULL, no_rows, 0, NULL));
-            SL_CHECK(sl_selected_entries(Z, NULL, NULL, NULL, 0, NULL));
+            SL_CHECK(sl_selected_entries(Z, NULL, no_rows, NULL, 0, NULL));
+            SL_CHECK(sl_selected_entries(Z, NULL, no_rows, no_rows, 0, NULL));
             if (kind == GEN_NONE) {
-                SL_CHECK(sl_selected_diagonal(Z, NULL, NULL, 0, NULL));
+                SL_CHECK(sl_selected_entries(Z, NULL, NULL, NULL, 0, NULL));
                 assert_int_equal(sl_selected_view(Z).count, 0);
             } else {
                 SL_EXPECT(whole ? SL_OK : SL_ERR_PATTERN,
-                          sl_selected_diagonal(Z, out, NULL, 0, &stats));
+                          sl_selected_entries(Z, out, NULL, NULL, 0, &stats));
                 assert_true(out[0] == (whole ? 1.0 / sl_factor_view(y.F).D[0] : 5.0));
             }
             sl_selected_free(Z);
@@ -93,16 +93,16 @@ static void wrong_arguments_are_refused(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_create(&none, y.F, above, 3, NULL, &stats));
     assert_int_equal(stats.error.row, 20);
     SL_CHECK(sl_selected_create(&Z, y.F, NULL, -1, NULL, &stats)); /* count is not read */
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_diagonal(NULL, out, fine, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_diagonal(Z, NULL, fine, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_diagonal(Z, NULL, NULL, 0, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_diagonal(Z, out, fine, -1, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_diagonal(Z, out, above, 3, &stats));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(NULL, out, fine, NULL, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, NULL, fine, NULL, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, NULL, NULL, NULL, 0, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, fine, NULL, -1, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, above, NULL, 3, &stats));
     assert_int_equal(stats.error.row, 20);
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(NULL, out, fine, fine, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, NULL, fine, fine, 3, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, NULL, fine, 3, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, fine, NULL, 3, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, NULL, fine, 0, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, fine, fine, -1, NULL));
     SL_EXPECT(SL_ERR_ARGUMENT, sl_selected_entries(Z, out, fine, above, 3, &stats));
     assert_int_equal(stats.error.row, 7);
@@ -159,7 +159,7 @@ static void every_allocation_may_fail(void **state) {
             if (Z) { /* Memory that was never written would show as NaN. */
                 double d[3];
                 size_t calls = counter.calls;
-                SL_CHECK(sl_selected_diagonal(Z, d, set, 3, NULL));
+                SL_CHECK(sl_selected_entries(Z, d, set, NULL, 3, NULL));
                 assert_true(d[0] > 0.0 && d[1] > 0.0 && d[2] > 0.0);
                 assert_int_equal(counter.calls, calls);
             }

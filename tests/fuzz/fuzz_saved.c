@@ -56,7 +56,7 @@ static void use(const sl_symbolic *S, sl_factor *F) {
     ignore(sl_factor_logdet(F, &log_abs, &sign));
     ignore(sl_factor_lower(&L, F, NULL));
     if (sl_selected_create(&Z, F, NULL, 0, NULL, NULL) == SL_OK) {
-        ignore(sl_selected_diagonal(Z, x, NULL, 0, NULL));
+        ignore(sl_selected_entries(Z, x, NULL, NULL, 0, NULL));
     }
     if (sl_region_create(&R, F, set, count, NULL, NULL, NULL) == SL_OK) {
         memset(&opt, 0, sizeof opt);
@@ -129,11 +129,11 @@ static void use_set(const sl_saved_set *set) {
         sl_region_free(R);
     }
     for (sl_int k = 0; k < n && set->selected != NULL; k++) {
-        ignore(sl_selected_diagonal(set->selected, x, &k, 1, NULL));
+        ignore(sl_selected_entries(set->selected, x, &k, NULL, 1, NULL));
         ignore(sl_selected_entries(set->selected, x, &k, &row, 1, NULL));
     }
     if (set->selected != NULL) {
-        ignore(sl_selected_diagonal(set->selected, x, NULL, 0, NULL));
+        ignore(sl_selected_entries(set->selected, x, NULL, NULL, 0, NULL));
         ignore(sl_selected_refactor(set->selected, set->factor, NULL));
     }
     for (sl_int k = 0; k < set->n_regions; k++) {

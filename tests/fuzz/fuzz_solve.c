@@ -211,8 +211,9 @@ static void query(case_t *c, const sl_factor *F, sl_work *W) {
         PROMISE(sl_factor_rcond(F, &c->A, &rcond, W) == SL_OK && rcond >= 0.0);
     } else if (c->part == DEFECTS) {
         sl_factor_stats(F, &stats);
-        PROMISE(sl_factor_null_rows(F, NULL, 0, &count) == SL_OK && count == stats.factor.null);
-        PROMISE(sl_factor_regularized_rows(F, NULL, NULL, 0, &count) == SL_OK);
+        PROMISE(sl_factor_pivot_rows(F, SL_PIVOT_NULL, NULL, NULL, 0, &count) == SL_OK &&
+                count == stats.factor.null);
+        PROMISE(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, NULL, NULL, 0, &count) == SL_OK);
         PROMISE(count == stats.factor.regularized);
         PROMISE(sl_factor_defects(F, defects, MOST, c->B, MOST, c->nrhs, W) == SL_OK);
     } else if (c->part == REFINE) {

@@ -55,7 +55,7 @@ static void create_selected(input_t *in) {
     z->analysis = f->analysis;
     z->is_float = f->is_float;
     memcpy(z->a, f->v.a, sizeof z->a);
-    status = sl_selected_diagonal(z->Z, d, rows_of(&set), set.count, NULL);
+    status = sl_selected_entries(z->Z, d, rows_of(&set), NULL, set.count, NULL);
     PROMISE(status == SL_OK || (form % 2 && status == SL_ERR_PATTERN));
     if (status == SL_OK) {
         check_diagonal(f, &set, d);
@@ -172,7 +172,7 @@ static void query(input_t *in) {
     const analysis_t *s = &analyses[f->analysis];
     const sl_csc A = view(s, f->v.x);
     const sl_status expected = f->is_valid ? SL_OK : SL_ERR_STATE;
-    PROMISE(sl_factor_null_rows(f->F, rows, MOST, &count) == expected);
+    PROMISE(sl_factor_pivot_rows(f->F, SL_PIVOT_NULL, rows, NULL, MOST, &count) == expected);
     PROMISE(sl_factor_logdet(f->F, &log_abs_det, &sign) == expected);
     for (sl_int k = 0; k < MOST * RHS; k++) {
         B[k] = k < MOST ? take_eighths(in) : B[k - MOST] * 0.5 + 1.0;

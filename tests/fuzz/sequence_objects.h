@@ -142,7 +142,7 @@ static void look_into(input_t *in) {
     const sl_status status = sl_factor_lower(&M, f->F, &opt);
     PROMISE(s.n == n && arrays.symbolic == analyses[f->analysis].S);
     PROMISE(status == expected || no_memory(status));
-    PROMISE(sl_factor_regularized_rows(f->F, NULL, NULL, 0, &count) == expected);
+    PROMISE(sl_factor_pivot_rows(f->F, SL_PIVOT_REGULARIZED, NULL, NULL, 0, &count) == expected);
     PROMISE(count == (f->is_valid ? 0 : -1));
     sl_symbolic_stats(analyses[f->analysis].S, &stats);
     PROMISE(stats.symbolic.n == n && stats.symbolic.supernodes == s.n_supers);

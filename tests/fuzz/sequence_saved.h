@@ -109,8 +109,8 @@ static void compare_sets(const factor_t *f, const sl_saved_set *saved, const sl_
         compare_loaded(f, loaded->factor, B);
     }
     for (sl_int row = 0; loaded->selected && row < order_of(f); row++) {
-        const sl_status status = sl_selected_diagonal(loaded->selected, x, &row, 1, NULL);
-        PROMISE(status == sl_selected_diagonal(saved->selected, y, &row, 1, NULL));
+        const sl_status status = sl_selected_entries(loaded->selected, x, &row, NULL, 1, NULL);
+        PROMISE(status == sl_selected_entries(saved->selected, y, &row, NULL, 1, NULL));
         PROMISE(status == SL_OK || status == SL_ERR_PATTERN);
         if (status == SL_OK) {
             check_same(x[0], y[0]);

@@ -104,7 +104,7 @@ static sl_status logdet(arguments_t *a) {
 
 static sl_status null_rows(arguments_t *a) {
     sl_int rows[1], count;
-    return sl_factor_null_rows(a->F, rows, 1, &count);
+    return sl_factor_pivot_rows(a->F, SL_PIVOT_NULL, rows, NULL, 1, &count);
 }
 
 /* The set of an analysis and a factor of the arguments. */
@@ -203,8 +203,9 @@ CALL(diagonal, sl_inverse_diagonal(a->F, a->X, a->xset, a->nx, NULL, &a->stats))
 CALL(pairs, sl_inverse_pairs(a->F, a->X, a->xset, a->xset, a->nx, NULL, &a->stats))
 CALL(block, sl_inverse_block(a->F, a->X, a->ldx, a->xset, a->nx, a->bset, 1, NULL, &a->stats))
 CALL(selected_refactor, sl_selected_refactor(a->Z, a->F, NULL))
-CALL(selected_diagonal, sl_selected_diagonal(a->Z, a->X, a->xset, a->nx, &a->stats))
-CALL(selected_entries, sl_selected_entries(a->Z, a->X, a->xset, a->xset, a->nx, &a->stats))
+CALL(selected_diagonal, sl_selected_entries(a->Z, a->X, a->xset, NULL, a->nx, &a->stats))
+CALL(selected_entries, sl_selected_entries(a->Z, a->X, a->xset, a->xset == NULL ? o->xset : a->xset,
+                                           a->nx, &a->stats))
 CALL(region_refactor, sl_region_refactor(a->R, a->F, NULL, NULL))
 CALL(reserve, sl_work_reserve(a->W, 64))
 ON_PINS(pins_add, 1, sl_pins_add(pins, a->xset, a->nx, &a->stats))
@@ -258,7 +259,7 @@ static const struct {
     {"sl_factor_rcond", rcond, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
     {"sl_factor_restrict", restriction, SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_logdet", logdet, F_ | FAILED_},
-    {"sl_factor_null_rows", null_rows, F_ | FAILED_},
+    {"sl_factor_pivot_rows", null_rows, F_ | FAILED_},
     {"sl_factor_lower", lower, F_ | FAILED_},
     {"sl_factor_defects", defects, F_ | FAILED_ | B_ | LDB_ | NRHS_},
     {"sl_factor_solve", solve, SOLVE_},
@@ -272,7 +273,7 @@ static const struct {
     {"sl_inverse_bilinear", bilinear, F_ | FAILED_ | B_ | BSET_ | XSET_},
     {"sl_selected_create", selected, F_ | FAILED_ | XSET_},
     {"sl_selected_refactor", selected_refactor, F_ | FAILED_ | OTHER_ | Z_},
-    {"sl_selected_diagonal", selected_diagonal, Z_ | X_ | XSET_},
+    {"sl_selected_entries, diagonal", selected_diagonal, Z_ | X_ | XSET_},
     {"sl_selected_entries", selected_entries, Z_ | X_ | LIST_},
     {"sl_region_create", region, F_ | FAILED_ | XSET_},
     {"sl_region_refactor", region_refactor, F_ | FAILED_ | OTHER_ | R_},

@@ -40,7 +40,7 @@ static inline bodies_t bodies_make(int dim, const variant_list_t *variants, int 
     }
     SL_CHECK(sl_symbolic_create(&f.S, &f.y.A, NULL, NULL));
     SL_CHECK(sl_factor_create(&f.F, f.S, &f.y.A, &f.opt, NULL));
-    SL_CHECK(sl_factor_null_rows(f.F, f.nulls, f.y.n, &count));
+    SL_CHECK(sl_factor_pivot_rows(f.F, SL_PIVOT_NULL, f.nulls, NULL, f.y.n, &count));
     assert_int_equal(count, f.y.null);
     SL_CHECK(sl_factor_solve(f.F, f.X, f.n, f.B, f.n, BODIES_RHS, NULL));
     return f;

@@ -252,7 +252,7 @@ static inline void judge_way_inverse(judge_t *t) {
         worst = fmax(fabs(d[c] - x[c]), fmax(fabs(pair - x[c]), fabs(form - x[c])));
         if (sl_selected_create(&selected, t->F, &c, 1, NULL, NULL) == SL_OK) {
             double own = 0.0;
-            SL_CHECK(sl_selected_diagonal(selected, &own, &c, 1, NULL));
+            SL_CHECK(sl_selected_entries(selected, &own, &c, NULL, 1, NULL));
             worst = fmax(worst, fabs(own - x[c]));
         }
         judge_answer(t, most > 0.0 && most <= 1e300 ? worst / most : -1.0,

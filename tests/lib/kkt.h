@@ -72,7 +72,7 @@ static inline const char *check_regularized(const sl_factor *F, const sl_csc *A)
     sl_int n = v.n, count = 0, *rows = test_ints((size_t)n);
     double *shifts = test_reals((size_t)n), *M = ref_dense(A), *size = test_reals((size_t)n);
     const char *wrong = NULL;
-    SL_CHECK(sl_factor_regularized_rows(F, rows, shifts, n, &count));
+    SL_CHECK(sl_factor_pivot_rows(F, SL_PIVOT_REGULARIZED, rows, shifts, n, &count));
     for (sl_int k = 0; k < count; k++) {
         size[rows[k]] = fabs(AT(M, rows[k], rows[k])) + fabs(shifts[k]);
     }

@@ -85,8 +85,8 @@ static inline void assert_same_selected(const sl_selected *Z, const sl_selected 
     assert_memory_equal(z.begin, y.begin, ((size_t)z.count + 1) * sizeof *z.begin);
     assert_memory_equal(z.Z, y.Z, (size_t)z.begin[z.count] * sizeof *z.Z);
     for (sl_int k = 0; k < n; k++) {
-        const sl_status status = sl_selected_diagonal(Z, p, &k, 1, NULL);
-        SL_EXPECT(status, sl_selected_diagonal(Y, q, &k, 1, NULL));
+        const sl_status status = sl_selected_entries(Z, p, &k, NULL, 1, NULL);
+        SL_EXPECT(status, sl_selected_entries(Y, q, &k, NULL, 1, NULL));
         assert_true(status == SL_ERR_PATTERN || memcmp(p, q, sizeof *p) == 0);
     }
     sl_selected_stats(Z, &a);

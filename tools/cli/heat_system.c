@@ -136,7 +136,7 @@ void heat_system_diagonal(const heat_system *h, double *values, const sl_int *ve
                           sl_int count) {
     sl_status status = SL_ERR_PATTERN;
     if (h->selected != NULL) {
-        status = sl_selected_diagonal(h->selected, values, vertices, count, NULL);
+        status = sl_selected_entries(h->selected, values, vertices, NULL, count, NULL);
     }
     if (status == SL_ERR_PATTERN) { /* there is none, or it does not have all of them */
         status = sl_inverse_diagonal(h->F, values, vertices, count, NULL, NULL);

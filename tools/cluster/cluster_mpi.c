@@ -203,7 +203,7 @@ static sl_status find_answers(const job *j, const sl_int *rows, const sl_int *co
         return sl_inverse_pairs(j->set.factor, x, rows, columns, count, W, NULL);
     }
     if (j->set.selected != NULL) {
-        status = sl_selected_diagonal(j->set.selected, x, rows, count, NULL);
+        status = sl_selected_entries(j->set.selected, x, rows, NULL, count, NULL);
     }
     return status == SL_ERR_PATTERN ? sl_inverse_diagonal(j->set.factor, x, rows, count, W, NULL)
                                     : status;

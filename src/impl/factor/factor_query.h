@@ -36,40 +36,23 @@ SL_API sl_status sl_factor_logdet(const sl_factor *F, double *log_abs_det, doubl
     return SL_OK;
 }
 
-/* Checks the arguments of a call that lists rows. */
-static sl_status sli_check_list(const sl_factor *F, const sl_int *rows, sl_int most,
-                                const sl_int *count) {
-    if (F == NULL || count == NULL || most < 0 || (most > 0 && rows == NULL)) {
+SL_API sl_status sl_factor_pivot_rows(const sl_factor *F, sl_pivot_kind kind, sl_int *rows,
+                                      double *shifts, sl_int capacity, sl_int *count) {
+    const sl_int *pivots;
+    sl_int m;
+    if (F == NULL || count == NULL || capacity < 0 || (capacity > 0 && rows == NULL) ||
+        (kind != SL_PIVOT_NULL && kind != SL_PIVOT_REGULARIZED)) {
         return SL_ERR_ARGUMENT;
     }
-    return F->is_valid ? SL_OK : SL_ERR_STATE;
-}
-
-SL_API sl_status sl_factor_null_rows(const sl_factor *F, sl_int *rows, sl_int most, sl_int *count) {
-    const sl_status status = sli_check_list(F, rows, most, count);
-    sl_int m;
-    if (status != SL_OK) {
-        return status;
+    if (!F->is_valid) {
+        return SL_ERR_STATE;
     }
-    *count = F->null.count;
-    for (m = 0; m < sli_min(most, *count); m++) {
-        rows[m] = F->S->perm[F->null.pivots[m]];
-    }
-    return SL_OK;
-}
-
-SL_API sl_status sl_factor_regularized_rows(const sl_factor *F, sl_int *rows, double *shifts,
-                                            sl_int most, sl_int *count) {
-    const sl_status status = sli_check_list(F, rows, most, count);
-    sl_int m;
-    if (status != SL_OK) {
-        return status;
-    }
-    *count = F->stats.factor.regularized;
-    for (m = 0; m < sli_min(most, *count); m++) {
-        rows[m] = F->S->perm[F->rule.regularized[m]];
+    pivots = kind == SL_PIVOT_NULL ? F->null.pivots : F->rule.regularized;
+    *count = kind == SL_PIVOT_NULL ? F->null.count : F->stats.factor.regularized;
+    for (m = 0; m < sli_min(capacity, *count); m++) {
+        rows[m] = F->S->perm[pivots[m]];
         if (shifts != NULL) {
-            shifts[m] = F->rule.shifts[F->rule.regularized[m]];
+            shifts[m] = kind == SL_PIVOT_NULL ? 0.0 : F->rule.shifts[pivots[m]];
         }
     }
     return SL_OK;

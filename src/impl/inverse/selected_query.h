@@ -61,10 +61,10 @@ static void sli_selected_read_diagonal(const sl_selected *Z, double *out) {
     }
 }
 
-SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const sl_int *rows,
-                                      sl_int count, sl_stats *stats) {
+SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
+                                     const sl_int *columns, sl_int count, sl_stats *stats) {
     sli_stats_clear_error(stats);
-    if (Z == NULL || (rows != NULL && count < 0)) {
+    if (Z == NULL || (rows == NULL ? columns != NULL : count < 0)) {
         return SL_ERR_ARGUMENT;
     }
     count = rows == NULL ? Z->traversal.S->n : count;
@@ -74,15 +74,6 @@ SL_API sl_status sl_selected_diagonal(const sl_selected *Z, double *out, const s
     if (rows == NULL && Z->traversal.forest.count == Z->traversal.S->n_supers) {
         sli_selected_read_diagonal(Z, out);
         return SL_OK;
-    }
-    return sli_selected_read(Z, out, rows, NULL, count, stats);
-}
-
-SL_API sl_status sl_selected_entries(const sl_selected *Z, double *out, const sl_int *rows,
-                                     const sl_int *columns, sl_int count, sl_stats *stats) {
-    sli_stats_clear_error(stats);
-    if (Z == NULL || count < 0 || (count > 0 && (out == NULL || rows == NULL || columns == NULL))) {
-        return SL_ERR_ARGUMENT;
     }
     return sli_selected_read(Z, out, rows, columns, count, stats);
 }

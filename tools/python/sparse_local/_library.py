@@ -143,7 +143,6 @@ _CALLS = {
     "region_refactor": [_PTR, _PTR, _PTR, _PTR],
     "selected_create": [_OUT, _PTR, _PTR, _INT, _OPT, _STATS],
     "selected_refactor": [_PTR, _PTR, _PTR],
-    "selected_diagonal": [_PTR, _PTR, _PTR, _INT, _STATS],
     "selected_entries": [_PTR, _PTR, _PTR, _PTR, _INT, _STATS],
     "save_bytes": [ctypes.POINTER(_SIZE), _SET],
     "save_memory": [_PTR, _SIZE, _SET],

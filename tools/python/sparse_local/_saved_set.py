@@ -38,8 +38,8 @@ class Selected:
         """(A^-1)[r, r] for r in rows; None: all. PatternError: a row that is not kept."""
         keep, address, count = arrays.rows(rows)
         out, stats = np.empty(self._factor.n if rows is None else count), Stats()
-        check(lib.sl_selected_diagonal(self._selected.pointer, arrays.address(out), address, count,
-                                       ctypes.byref(stats)), stats)
+        check(lib.sl_selected_entries(self._selected.pointer, arrays.address(out), address, None,
+                                      count, ctypes.byref(stats)), stats)
         return out
 
     def entries(self, rows, columns):
