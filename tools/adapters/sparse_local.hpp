@@ -10,8 +10,8 @@
  *     P.solve(x, F, {1.0});                           any number of times
  *
  * One source file of the program also defines SL_WITH_ALL and SPARSE_LOCAL_IMPLEMENTATION and
- * includes sparse_local.h, or the program is linked with the compiled library. sparse_local.h has the
- * contracts of all calls; this file adds ownership, defaults and sizes.
+ * includes sparse_local.h, or the program is linked with the compiled library. sparse_local.h has
+ * the contracts of all calls; this file adds ownership, defaults and sizes.
  *
  * Errors      A failed call throws sl::Error. If SL_NO_EXCEPTIONS is defined, or the compiler has
  *             exceptions switched off, there are no constructors that can fail: create() takes

@@ -28,7 +28,8 @@ def test_structs_are_those_of_the_header(tmp_path, name):
     source.write_text('#include <stddef.h>\n#include <stdio.h>\n#include "sparse_local.h"\n'
                       "int main(void) {\n%s    return 0;\n}\n" %
                       "".join('    printf("%%zu\\n", %s);\n' % line for line in lines))
-    subprocess.check_call(["cc", "-DSL_WITH_ALL", "-I", HEADER, "-o", str(tmp_path / "offsets"), str(source)])
+    subprocess.check_call(["cc", "-DSL_WITH_ALL", "-I", HEADER, "-o", str(tmp_path / "offsets"),
+                           str(source)])
     numbers = subprocess.check_output([str(tmp_path / "offsets")], text=True).split()
     assert int(numbers[0]) == ctypes.sizeof(getattr(_library, name))
     assert [int(text) for text in numbers[1:]] == list(ours.values())
