@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 95ee9c719281283a
+ * FNV-1a of the lines after this comment, without the license: 32bf0cec49a243de
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -386,8 +386,8 @@ typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
     SL_STORAGE_FLOAT_FRONTS, /* fronts are computed in float, too: half the time, less accuracy */
-    SL_STORAGE_COMPLEX       /* half the bytes of L in full accuracy: complex Hermitian matrices
-                                only, complex.h */
+    SL_STORAGE_COMPLEX       /* EXPERIMENTAL: half the bytes of L in full accuracy, of complex
+                                Hermitian matrices only, complex.h */
 } sl_storage;
 
 /** What to do with a null pivot. */
@@ -2363,7 +2363,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
 
 /* src/public/restrict.h: the factor of a principal submatrix, from that of the whole matrix */
 
-/** Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
+/** EXPERIMENTAL. Factors A[R, R], the matrix of the rows and columns R of A, from a factor of A.
  *
  *  This is the system of a part of a mesh with zero Dirichlet values around it. Columns of L are
  *  copied if their supernode and all its descendants are in R. The others are computed again, in
@@ -2403,7 +2403,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **
 
 /* src/public/edit.h: analyses and factors that follow edits of the pattern: rows and entries come and go */
 
-/** Analyzes an edited matrix B, starting from the analysis of A, the matrix before the edit.
+/** EXPERIMENTAL. Analyzes an edited matrix B, starting from the analysis of A, the one before it.
  *
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
  *  and vertices are doubled. The elimination tree of A is kept where no neighbors change. If edits
@@ -2439,7 +2439,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors an edited matrix B, starting from a factor of A, the matrix before the edit.
+/** EXPERIMENTAL. Factors an edited matrix B, starting from a factor of A, the one before it.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
  *  were computed from the same entries; F knows these by hashes, so new_of and F decide about the
@@ -2510,10 +2510,10 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_edit(sl_factor **out, const sl_factor 
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
- * operations and half the memory. Solves read half as much, and share each read of L as those of
- * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
- * that L as complex is not changed, restricted or saved. */
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
+ * each: half the operations and half the memory. Solves read half as much, and share each read of L
+ * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
+ * storages, except that L as complex is not changed, restricted or saved. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */

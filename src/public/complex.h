@@ -24,10 +24,10 @@
  *     sl_factor_solve(F, x, 2 * n, b, 2 * n, 1, W);    double x[2 n]
  *
  * L has four times the entries of that of a real matrix with the pattern of H. It has the blocks
- * [a -b; b a] as well, and SL_STORAGE_COMPLEX computes and keeps the first column of each: half the
- * operations and half the memory. Solves read half as much, and share each read of L as those of
- * real matrices do: up to 32 right-hand sides. Every call on factors takes both storages, except
- * that L as complex is not changed, restricted or saved. */
+ * [a -b; b a] as well, and SL_STORAGE_COMPLEX (EXPERIMENTAL) computes and keeps the first column of
+ * each: half the operations and half the memory. Solves read half as much, and share each read of L
+ * as those of real matrices do: up to 32 right-hand sides. Every call on factors takes both
+ * storages, except that L as complex is not changed, restricted or saved. */
 
 /** View of a complex Hermitian matrix in compressed columns: one triangle or both, entries and
  *  duplicates as in sl_csc. The imaginary parts of diagonal entries are 0. */

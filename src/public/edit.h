@@ -5,7 +5,7 @@
 #include "options.h"
 #include "stats.h"
 
-/** Analyzes an edited matrix B, starting from the analysis of A, the matrix before the edit.
+/** EXPERIMENTAL. Analyzes an edited matrix B, starting from the analysis of A, the one before it.
  *
  *  This is for meshes that are remeshed or cut in places: edges are flipped, split and collapsed,
  *  and vertices are doubled. The elimination tree of A is kept where no neighbors change. If edits
@@ -41,7 +41,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
                                                  const sl_int *new_of, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors an edited matrix B, starting from a factor of A, the matrix before the edit.
+/** EXPERIMENTAL. Factors an edited matrix B, starting from a factor of A, the one before it.
  *
  *  Columns of L are copied where the supernode and all its descendants have the structure of F and
  *  were computed from the same entries; F knows these by hashes, so new_of and F decide about the

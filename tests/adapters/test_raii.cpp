@@ -68,6 +68,9 @@ void full_solve() {
     std::vector<double> y = b;
     CHECK(work.create().ok() && f.F.solve(y, y, 1, &work).ok());
     CHECK(y == x && work.bytes() > 0);
+    sl::Work reserved;
+    CHECK(reserved.create().ok() && reserved.reserve(work.bytes()).ok());
+    CHECK(f.F.solve(y, b, 1, &reserved).ok() && reserved.bytes() == work.bytes());
 }
 
 void local_solves() {

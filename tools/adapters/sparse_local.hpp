@@ -225,6 +225,10 @@ public:
     std::size_t bytes() const {
         return get() ? sl_work_bytes(get()) : 0;
     }
+    /** As sl_work_reserve: what bytes() of another workspace was after the largest call. */
+    SL_RESULT reserve(std::size_t bytes) {
+        return finish(sl_work_reserve(get(), bytes));
+    }
 };
 
 inline sl_work *work_of(Work *work) {
