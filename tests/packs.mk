@@ -7,3 +7,26 @@ SELECTED = $(filter-out core,$(PACKS))
 no_blank :=
 SELECTION = $(if $(SELECTED),,--comments) --packs '$(SELECTED)' src/sparse_local.in.h \
 	build/sparse_local_$(or $(subst $(no_blank) $(no_blank),_,$(strip $(SELECTED))),core).h
+
+# ---- checks ----
+
+# Those that the conditions of the manifest name, in small letters.
+PACK_NAMES := $(shell tr -c 'A-Z_\n' '\n' <src/sparse_local.in.h | sed -n 's/^SL_WITH_//p' | sort -u | tr A-Z a-z)
+
+.PHONY: check-packs test-packs test-pack
+
+check-packs: build/packs/small.ok $(patsubst %,build/packs/%.ok,core all $(PACK_NAMES)) ## do the core, each pack alone and all compile, with the right calls?
+	@echo 'check-packs: the core, all, and each alone of: $(PACK_NAMES)'
+
+# The log is shown if a check fails.
+build/packs/%.ok: tests/core/check_pack_builds.sh sparse_local.h build/amalgamate
+	@mkdir -p $(@D)
+	$(call say,CHECK)
+	@CC='$(CC)' CXX='$(CXX)' $< $* >build/packs/$*.log 2>&1 || { cat build/packs/$*.log; exit 1; }
+	@touch $@
+
+build/packs/small.ok: tests/core/check_packs.sh tools/build/layers.awk build/amalgamate
+	@mkdir -p $(@D)
+	$(call say,CHECK)
+	@CC='$(CC)' CXX='$(CXX)' $< >build/packs/small.log 2>&1 || { cat build/packs/small.log; exit 1; }
+	@touch $@
