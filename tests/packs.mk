@@ -1,4 +1,4 @@
-# packs.mk: headers of chosen packs, and their checks and tests
+# packs.mk: headers of chosen packs, and their checks and tests (a part of the Makefile)
 
 # ---- make header PACKS="core change" ----
 
@@ -13,7 +13,7 @@ SELECTION = $(if $(SELECTED),,--comments) --packs '$(SELECTED)' src/sparse_local
 # Those that the conditions of the manifest name, in small letters.
 PACK_NAMES := $(shell tr -c 'A-Z_\n' '\n' <src/sparse_local.in.h | sed -n 's/^SL_WITH_//p' | sort -u | tr A-Z a-z)
 
-.PHONY: check-packs test-packs test-pack
+.PHONY: check-packs test-packs test-pack-core $(PACK_NAMES:%=test-pack-%)
 
 check-packs: build/packs/small.ok $(patsubst %,build/packs/%.ok,core all $(PACK_NAMES)) ## do the core, each pack alone and all compile, with the right calls?
 	@echo 'check-packs: the core, all, and each alone of: $(PACK_NAMES)'
@@ -30,3 +30,15 @@ build/packs/small.ok: tests/core/check_packs.sh tools/build/layers.awk build/ama
 	$(call say,CHECK)
 	@CC='$(CC)' CXX='$(CXX)' $< >build/packs/small.log 2>&1 || { cat build/packs/small.log; exit 1; }
 	@touch $@
+
+# ---- tests ----
+
+# The core and each pack alone, with -DSL_NO_SIMD: which kernels run is not what these tests are about. Tests that use tools or more
+# than one pack are left to `make test`.
+PACK_TESTS_core =
+$(PACK_NAMES:%=test-pack-%) test-pack-core: test-pack-%: deps sparse_local.h
+	@+$(SUB_MAKE) run-tests B=build/pack_$* LIBRARY= REPLAYS= OPT='-O1 -DSL_NO_SIMD' \
+	PACK_FLAGS=$(if $(filter-out core,$*),-DSL_WITH_$(shell echo $* | tr a-z A-Z)) \
+	TEST_PROGRAMS='$(PACK_TESTS_$*:%=build/pack_$*/tests/core/test_%)'
+
+test-packs: $(patsubst %,test-pack-%,core $(PACK_NAMES)) ## the core with its tests, and each pack with its own; test-pack-change for one

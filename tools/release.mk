@@ -5,7 +5,7 @@
 header-flat: build/amalgamate ## writes build/sparse_local_flat.h: the header without self-inclusion, for pasting
 	build/amalgamate --flat src/sparse_local.in.h build/sparse_local_flat.h LICENSE
 
-size: sparse_local.h build/deps.ok ## size of the header and of its object, compile time; fails above the limits
+size: sparse_local.h build/amalgamate build/deps.ok ## sizes and compile times of the core and of all; with SIZE=full of each pack; fails above the limits
 	@tools/build/size.sh
 
 test-figures: ## counts of tests and fuzzed inputs, as in tests/README.md
@@ -31,6 +31,7 @@ release: check-header docs ## build/release: header, flat header, tarball, manua
 	@rm -rf build/release && mkdir -p build/release
 	@cp sparse_local.h build/release
 	@$(MAKE) --no-print-directory header-flat && cp build/sparse_local_flat.h build/release
+	@$(MAKE) --no-print-directory header PACKS=core && cp build/sparse_local_core.h build/release
 	@git archive --format=tar --prefix=sparse_local-$(VERSION)/ HEAD | gzip -9n >$(RELEASE).tar.gz
 	@tar --sort=name --owner=0 --group=0 --mtime="$$(git log -1 --format=@%ct)" -cf - -C build manual | gzip -9n >$(RELEASE)-manual.tar.gz
 	@tools/docs/release_notes.sh $(VERSION) >build/release/NOTES.md

@@ -1,14 +1,21 @@
 #!/bin/bash
-# size.sh: prints the sizes of header and object and the compile time; checks limits (make size)
+# size.sh: sizes of headers and objects and compile times: core, packs, all; checks limits (make size)
 #
-# Compiled by gcc -O2, in three variants: all kernels, without AVX-512, plain C only. The time is
-# processor time. The limits are on the header and on the text of the object with all kernels; the
-# second is checked only on x86-64.
+#     [SIZE=full] tools/build/size.sh
+#
+# Compiled by gcc -O2: the core, the core with all packs, and the core without AVX-512 and in plain C
+# only. SIZE=full adds the core with each pack alone, as the difference to the core; a pack that
+# implies others has them in it. A header is that of make header PACKS=. The time is processor time;
+# its share is that of the header with all packs. Limits are on bytes: headers, and the text of the
+# objects, the latter only on x86-64, where the kernels of AVX2, AVX-512 and plain C are in it.
 
 cd "$(dirname "$0")/../.." || exit 1
-header_limit=1245000 # bytes
-text_limit=865000   # bytes: with the kernels of AVX2, AVX-512 and plain C
+header_limit=1245000      # sparse_local.h
+core_header_limit=775000  # the core, with the comments of the implementation
+core_text_limit=440000
+all_text_limit=865000
 
+export CCACHE_DISABLE=1
 dir=build/size
 mkdir -p $dir || exit 1
 printf '#define SPARSE_LOCAL_IMPLEMENTATION\n#include "sparse_local.h"\n' >$dir/bodies.c
@@ -22,23 +29,63 @@ check() {
     failed=1
 }
 
-header=$(wc -c <sparse_local.h)
-printf '%-14s %12s %12s %12s\n' '' 'header kB' 'object kB' 'compile s'
-for variant in SL_ALL_KERNELS SL_NO_AVX512 SL_NO_SIMD; do
-    object=$dir/$variant.o
-    seconds=$( { time gcc -std=c99 -O2 -I. -D$variant -c $dir/bodies.c -o $object; } 2>&1 ) || {
+# selection OPTION ...: the bytes of a header that amalgamate writes
+selection() {
+    build/amalgamate "$@" src/sparse_local.in.h $dir/sparse_local_size.h LICENSE || exit 1
+    wc -c <$dir/sparse_local_size.h
+}
+
+# compile FLAG ...: sets text and seconds
+compile() {
+    seconds=$( { time gcc -std=c99 -O2 -I. "$@" -c $dir/bodies.c -o $dir/bodies.o; } 2>&1 ) || {
         echo "$seconds"
         exit 1
     }
-    text=$(size $object | awk 'NR == 2 { print $1 }')
-    [ $variant = SL_ALL_KERNELS ] && name='all kernels' full=$text || name=$variant
-    awk -v name="$name" -v header="$header" -v text="$text" -v seconds="$seconds" \
-        'BEGIN { printf "%-14s %12.0f %12.0f %12.1f\n", name, header / 1000, text / 1000, seconds }'
+    text=$(size $dir/bodies.o | awk 'NR == 2 { print $1 }')
+}
+
+# row NAME HEADER TEXT SECONDS [SIGN]: kB, and the share of the time of all packs. HEADER may be -.
+row() {
+    awk -v name="$1" -v header="$2" -v text="$3" -v seconds="$4" -v all="$all_seconds" -v sign="$5" '
+        BEGIN {
+            kB = header == "-" ? "-" : sprintf("%" sign ".0f", header / 1000)
+            printf "%-16s %10s %" sign "10.0f %" sign "10.1f %" sign "10.2f\n", name, kB,
+                   text / 1000, seconds, seconds / all
+        }'
+}
+
+header=$(wc -c <sparse_local.h)
+core_header=$(selection --packs '')
+read_header=$(selection --comments --packs '')
+compile -DSL_WITH_ALL
+all_text=$text all_seconds=$seconds
+printf '%-16s %10s %10s %10s %10s\n' '' 'header kB' 'object kB' 'compile s' 'of all'
+compile
+core_text=$text core_seconds=$seconds
+row core "$core_header" "$text" "$seconds"
+if [ "$SIZE" = full ]; then
+    for pack in $(tr -c 'A-Z_\n' '\n' <src/sparse_local.in.h | sed -n 's/^SL_WITH_//p' | sort -u); do
+        compile -DSL_WITH_"$pack"
+        bytes=$(selection --packs "$pack")
+        row "  $pack" $((bytes - core_header)) $((text - core_text)) \
+            "$(echo "$seconds $core_seconds" | awk '{ print $1 - $2 }')" +
+    done
+fi
+row 'all' "$header" "$all_text" "$all_seconds"
+for variant in SL_NO_AVX512 SL_NO_SIMD; do
+    compile -D$variant
+    row "core $variant" - "$text" "$seconds"
 done
+
 check sparse_local.h "$header" $header_limit
+check 'the header of the core, with comments,' "$read_header" $core_header_limit
 case $(gcc -dumpmachine) in
-x86_64-*) check 'the object' "$full" $text_limit ;;
+x86_64-*)
+    check 'the object of the core' "$core_text" $core_text_limit
+    check 'the object with all packs' "$all_text" $all_text_limit
+    ;;
 esac
 [ $failed -eq 0 ] &&
-    echo "size: header $header of $header_limit bytes, object $full of $text_limit bytes"
+    echo "size: header $header of $header_limit bytes, core with comments $read_header of" \
+        "$core_header_limit, objects: core $core_text of $core_text_limit, all $all_text of $all_text_limit"
 exit $failed
