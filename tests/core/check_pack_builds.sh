@@ -81,9 +81,9 @@ C
 # declared FLAG: the names of the public functions that are declared
 declared() {
     printf '#include "sparse_local.h"\n' | $cc -std=c99 -I. "$1" -DSL_API=@ -E -P -x c - |
-        tr '\n' ' ' | tr '@' '\n' |
-        sed -n '2,$s/__attribute__ *(([a-z_]*))//; 2,$s/^[^(]*[^a-z0-9_]\(sl_[a-z0-9_]*\) *(.*/\1/p' |
-        sort
+        tr '\n' ' ' | tr '@' '\n' | sed -n '1d
+            s/__attribute__ *(([a-z_]*))//
+            s/^[^(]*[^a-z0-9_]\(sl_[a-z0-9_]*\) *(.*/\1/p' | sort
 }
 
 # needed FLAG: the names of those that a macro says need a pack

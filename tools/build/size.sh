@@ -1,10 +1,10 @@
 #!/bin/bash
-# size.sh: sizes of headers and objects and compile times: core, packs, all; checks limits (make size)
+# size.sh: sizes and compile times of the core, of packs and of all; checks limits (make size)
 #
 #     [SIZE=full] tools/build/size.sh
 #
-# Compiled by gcc -O2: the core, the core with all packs, and the core without AVX-512 and in plain C
-# only. SIZE=full adds the core with each pack alone, as the difference to the core; a pack that
+# Compiled by gcc -O2: the core, the core with all packs, and the core without AVX-512 and in plain
+# C only. SIZE=full adds the core with each pack alone, as the difference to the core; a pack that
 # implies others has them in it. A header is that of make header PACKS=. The time is processor time;
 # its share is that of the header with all packs. Limits are on bytes: headers, and the text of the
 # objects, the latter only on x86-64, where the kernels of AVX2, AVX-512 and plain C are in it.
@@ -46,8 +46,8 @@ compile() {
 
 # row NAME HEADER TEXT SECONDS [SIGN]: kB, and the share of the time of all packs. HEADER may be -.
 row() {
-    awk -v name="$1" -v header="$2" -v text="$3" -v seconds="$4" -v all="$all_seconds" -v sign="$5" '
-        BEGIN {
+    awk -v name="$1" -v header="$2" -v text="$3" -v seconds="$4" -v all="$all_seconds" \
+        -v sign="$5" 'BEGIN {
             kB = header == "-" ? "-" : sprintf("%" sign ".0f", header / 1000)
             printf "%-16s %10s %" sign "10.0f %" sign "10.1f %" sign "10.2f\n", name, kB,
                    text / 1000, seconds, seconds / all
@@ -64,7 +64,8 @@ compile
 core_text=$text core_seconds=$seconds
 row core "$core_header" "$text" "$seconds"
 if [ "$SIZE" = full ]; then
-    for pack in $(tr -c 'A-Z_\n' '\n' <src/sparse_local.in.h | sed -n 's/^SL_WITH_//p' | sort -u); do
+    packs=$(tr -c 'A-Z_\n' '\n' <src/sparse_local.in.h | sed -n 's/^SL_WITH_//p' | sort -u)
+    for pack in $packs; do
         compile -DSL_WITH_"$pack"
         bytes=$(selection --packs "$pack")
         row "  $pack" $((bytes - core_header)) $((text - core_text)) \
@@ -86,6 +87,6 @@ x86_64-*)
     ;;
 esac
 [ $failed -eq 0 ] &&
-    echo "size: header $header of $header_limit bytes, core with comments $read_header of" \
-        "$core_header_limit, objects: core $core_text of $core_text_limit, all $all_text of $all_text_limit"
+    echo "size: header $header of $header_limit bytes, core $read_header of $core_header_limit;" \
+        "objects: all $all_text of $all_text_limit, core $core_text of $core_text_limit"
 exit $failed
