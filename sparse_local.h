@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 32bf0cec49a243de
+ * FNV-1a of the lines after this comment, without the license: a2898e5c766ee7f9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,24 +35,24 @@
  *   3721 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4556 impl/ matrix: sparse matrices of the caller and of the library
  *   5082 impl/ ordering: fill-reducing orderings of a graph
- *   9467 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11387 impl/ factor: the numbers of L and D
- *  14150 impl/ solve: full and local solves
- *  15625 impl/ accuracy: refinement, condition, defects, half solves
- *  16456 impl/ pivots: the order of the pivots by the values of a matrix
- *  16874 impl/ float: L and fronts in single precision
- *  17325 impl/ inverse: entries of the inverse, regions
- *  19841 impl/ change: a factor that follows changes of its matrix
- *  26343 impl/ io: files that are written and mapped
- *  26653 impl/ files: Matrix Market files, 64-bit indices
- *  27175 impl/ save: factors in files
- *  28998 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29654 impl/ batch: diagonals of many inverses
- *  29796 impl/ complex: complex Hermitian systems over real factors
- *  30307 impl/ complex: entries of the inverse
- *  30365 impl/ packs: the tables through which the core calls packs
- *  30392 impl/ last: undefine every internal macro
- *  30690 impl/ templates: the header includes them from itself, once for each instruction set
+ *   9460 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11380 impl/ factor: the numbers of L and D
+ *  14143 impl/ solve: full and local solves
+ *  15618 impl/ accuracy: refinement, condition, defects, half solves
+ *  16449 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16867 impl/ float: L and fronts in single precision
+ *  17318 impl/ inverse: entries of the inverse, regions
+ *  19834 impl/ change: a factor that follows changes of its matrix
+ *  26336 impl/ io: files that are written and mapped
+ *  26646 impl/ files: Matrix Market files, 64-bit indices
+ *  27168 impl/ save: factors in files
+ *  28991 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29647 impl/ batch: diagonals of many inverses
+ *  29789 impl/ complex: complex Hermitian systems over real factors
+ *  30300 impl/ complex: entries of the inverse
+ *  30358 impl/ packs: the tables through which the core calls packs
+ *  30385 impl/ last: undefine every internal macro
+ *  30672 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5195,6 +5195,10 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
   return G->begin[v + 1] - G->begin[v];
 }
 
+SLI_INLINE int sli_graph_is_dense_row(const sli_graph *G, sl_int v) {
+  return sli_exceeds_sqrt(sli_graph_degree(G, v), 10, G->n);
+}
+
 static void sli_postorder(const sl_int *parent, const sl_int *sequence, sl_int n, sl_int *post,
               sl_int *child, sl_int *sibling) {
   sl_int k, j, at = 0, roots = -1;
@@ -6717,8 +6721,8 @@ typedef struct sli_flow {
   unsigned char *terminal;
 } sli_flow;
 
-#define SLI_FLOW_NONE (-1)
-#define SLI_FLOW_END (-2)
+enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2  };
+
 #if !defined(SLI_FLOW_ROUNDS)
 #define SLI_FLOW_ROUNDS 60
 #endif
@@ -7379,13 +7383,11 @@ static void sli_dissect_visit(sli_dissection *d,
 #define SLI_DISSECT_SHRINK 10
 #define SLI_DISSECT_SHRINK_VOLUME 2
 #define SLI_SEVEN_POINT_DEGREE 6
-#define SLI_SEVEN_POINT_DEGREE_COARSE 7
 #define SLI_VOLUME_DEGREE 10
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
 #define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND 1
 #define SLI_DISSECT_BAND_FROM 1000
 #define SLI_SEPARATOR_BALANCE 70
 
@@ -7421,7 +7423,7 @@ static int sli_dissect_is_balanced(const sli_subgraph *sub) {
 }
 
 static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
-  int layers = SLI_DISSECT_BAND;
+  int layers = 1;
   if (d->is_volume) {
     return 1;
   }
@@ -7536,7 +7538,7 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
 static void sli_dissect_recognize(sli_dissection *d) {
   d->is_volume = sli_level_exceeds(&d->levels[1], SLI_VOLUME_DEGREE);
   d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-              sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE_COARSE);
+              sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE + 1);
 }
 
 static sl_status sli_dissect_coarsen(sli_dissection *d, int *working) {
@@ -7686,7 +7688,7 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
   return cost;
 }
 
-#define SLI_LEVELSET_SHARE 35
+#define SLI_LEVELSET_BALANCE 65
 
 static sl_int sli_levelset_search(const sli_subgraph *sub, sl_int from, sl_int *order,
                   sl_int *distance) {
@@ -7721,7 +7723,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
   const sl_int n = sub->n;
   sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
        *size = sub->scratch + 2 * (size_t)n;
-  const sl_int low = (sl_int)((int64_t)n * SLI_LEVELSET_SHARE / 100), high = n - low;
+  const sl_int low = (sl_int)((int64_t)n * (100 - SLI_LEVELSET_BALANCE) / 100), high = n - low;
   sl_int k, n_sets, before = 0, best = -1;
   int64_t cost = 0;
   const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);
@@ -7779,7 +7781,6 @@ static sl_status sli_dissect_graph(sli_dissection *d) {
 #define SLI_THIN_ASPECT 8
 #define SLI_THIN_LEAF_MIN 64
 #define SLI_THIN_LEAF_MAX 250
-#define SLI_THIN_BALANCE 65
 
 #define SLI_LATTICE_SHARE 75
 #define SLI_LATTICE_DEGREES 32
@@ -7889,8 +7890,8 @@ static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *l
   for (s = p->first; s < p->first + p->levels - 1; s++) {
     const sl_int next = t->begin[s + 1];
     const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
-    const int64_t cost =
-      100 * side <= SLI_THIN_BALANCE * (int64_t)n ? side * t->ahead[s] : INT64_MAX / 2 + side;
+    const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
+                                       : INT64_MAX / 2 + side;
     if (cost < *least) {
       best = s;
       *least = cost;
@@ -8039,8 +8040,6 @@ static int sli_order_thin(sli_dissection *d, const sl_int *row, sl_int *perm, sl
 }
 
 /* src/impl/ordering/nd.h: nested dissection of any graph: component by component, dense rows last */
-
-#define SLI_ND_DENSE_ROW 10
 
 #define SLI_ND_RESPLITS 12
 
@@ -8220,7 +8219,7 @@ static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
   sl_int v, count = 0;
   for (v = G->n - 1; v >= 0; v--) {
     w->local[v] = -1;
-    if (sli_exceeds_sqrt(G->begin[v + 1] - G->begin[v], SLI_ND_DENSE_ROW, G->n)) {
+    if (sli_graph_is_dense_row(G, v)) {
       w->local[v] = -2;
       perm[G->n - ++count] = v;
     }
@@ -8550,8 +8549,6 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
                       : SL_ERR_ORDERING;
 }
 
-#define SLI_ORDER_TINY 4
-
 static sl_status sli_order_metis(const sli_order_job *job) {
   const sli_graph *G = job->G;
   sl_int *perm = job->perm, *local = job->scratch;
@@ -8577,7 +8574,7 @@ static sl_status sli_order_metis(const sli_order_job *job) {
         }
       }
     }
-    if (tail - start > SLI_ORDER_TINY) {
+    if (tail - start > 4) {
       status = sli_metis_order(job, perm + start, tail - start);
     }
   }
@@ -8662,8 +8659,6 @@ static int sli_order_levels(const sli_order_job *job) {
 
 /* src/impl/ordering/quotient.h: elimination of variables of approximate minimum degree from a quotient graph */
 
-#define SLI_QUOTIENT_DENSE_ROW 10
-
 #if !defined(SLI_MARKS_BEGIN)
 #define SLI_MARKS_BEGIN 2
 #endif
@@ -8734,7 +8729,6 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
 }
 
 static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
-  const sl_off limit = (sl_off)SLI_QUOTIENT_DENSE_ROW * SLI_QUOTIENT_DENSE_ROW * G->n;
   sl_int v;
   sl_off e;
   q->live = q->n;
@@ -8743,8 +8737,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
   q->flops = 0.0;
   q->base = SLI_MARKS_BEGIN;
   for (v = 0; v < q->n; v++) {
-    const sl_off degree = G->begin[v + 1] - G->begin[v];
-    const int is_dense = degree > 16 && degree * degree > limit;
+    const int is_dense = sli_graph_degree(G, v) > 16 && sli_graph_is_dense_row(G, v);
     q->weight[v] = !is_dense;
     q->node[v].elements = is_dense ? SLI_QUOTIENT_MERGED : 0;
     q->mark[v] = 1;
@@ -30512,14 +30505,11 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_CHUNK_COLUMNS
 #undef SLI_FRONT_RECIPROCALS
 #undef SLI_PIVOT_THRESHOLD
-#undef SLI_QUOTIENT_DENSE_ROW
 #undef SLI_ORDER_ND_FLOPS
 #undef SLI_ORDER_ND_SAVES
 #undef SLI_ANALYSIS_FLOPS
 #undef SLI_ANALYSIS_ROOM
 #undef SLI_ENTRY
-#undef SLI_ORDER_PATHS_SHORT
-#undef SLI_ORDER_PATHS_LONG
 #undef SLI_GROWTH_LIMIT
 #undef SLI_GROWTH_LIMIT_FLOAT
 #undef SLI_ENTRIES_AHEAD
@@ -30579,11 +30569,9 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_THIN_ASPECT
 #undef SLI_THIN_LEAF_MIN
 #undef SLI_THIN_LEAF_MAX
-#undef SLI_THIN_BALANCE
 #undef SLI_LINE_MAX
 #undef SLI_ENTRIES_FIRST
 #undef SLI_POINT_MAX
-#undef SLI_ORDER_TINY
 #undef SLI_COARSEN_STALL
 #undef SLI_LEVELS_MAX
 #undef SLI_LEVELS_MOST
@@ -30592,8 +30580,6 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_LEVELS_TRY
 #undef SLI_BAND_SHARE
 #undef SLI_BISECT_BALANCE
-#undef SLI_FLOW_NONE
-#undef SLI_FLOW_END
 #undef SLI_FLOW_ROUNDS
 #undef SLI_MARKS_BEGIN
 #undef SLI_MINDEG_MAX
@@ -30604,25 +30590,21 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
 #undef SLI_DISSECT_SHRINK
 #undef SLI_DISSECT_SHRINK_VOLUME
 #undef SLI_SEVEN_POINT_DEGREE
-#undef SLI_SEVEN_POINT_DEGREE_COARSE
 #undef SLI_VOLUME_DEGREE
 #undef SLI_DISSECT_FIRST
 #undef SLI_DISSECT_TRIES_FIRST
 #undef SLI_DISSECT_TRIES
 #undef SLI_BALL_PAIRS
 #undef SLI_DISSECT_LAYERS
-#undef SLI_DISSECT_BAND
 #undef SLI_DISSECT_BAND_FROM
-#undef SLI_ND_DENSE_ROW
 #undef SLI_SEPARATOR_BALANCE
 #undef SLI_ND_RESPLITS
 #undef SLI_PEEL_SHARE
 #undef SLI_PEEL_SEARCH
 #undef SLI_PEEL_LEAVES
 #undef SLI_PEEL_ENDS
-#undef SLI_PEEL_ENTRIES
 #undef SLI_COMPRESS_SHARE
-#undef SLI_LEVELSET_SHARE
+#undef SLI_LEVELSET_BALANCE
 #undef SLI_REACH_WALK
 #undef SLI_LANES_MAX
 #undef SLI_BLOCK_REQUESTS_MAX

@@ -33,7 +33,7 @@ typedef enum sli_tree_result {
     /* the columns are numbered in a postorder or, if the job keeps the order, each only child with
      * the same rows is numbered before its parent */
     SLI_TREE_IN_ORDER,
-    SLI_TREE_TOO_LONG /* with this numbering it would take too long: nothing is known */
+    SLI_TREE_TOO_LONG /* the numbers of the columns make it too long, and nothing is known */
 } sli_tree_result;
 
 /* The lists of rows below columns whose parents are not the next columns: each row once, in any

@@ -18,17 +18,15 @@
  * wide graphs of them, 7.1 to 9.3 in 7-point volumes and plates, whose finest level has up to 6,
  * and 12 to 17 in volumes of tetrahedra or 27 points. */
 #define SLI_SEVEN_POINT_DEGREE 6
-#define SLI_SEVEN_POINT_DEGREE_COARSE 7
 #define SLI_VOLUME_DEGREE 10
 /* Tries of graph growing: TRIES_FIRST while the tree has fewer than FIRST nodes, because the first
  * separators decide most, then TRIES. */
 #define SLI_DISSECT_FIRST 64
 #define SLI_DISSECT_TRIES_FIRST 8
 #define SLI_DISSECT_TRIES 2
-/* Layers on each side of a border whose vertices may change sides: LAYERS on coarse levels, BAND
- * for the final separators, and more than BAND from BAND_FROM finest vertices on. */
+/* Layers on each side of a border whose vertices may change sides: LAYERS on coarse levels, one for
+ * the final separators, and more from BAND_FROM finest vertices on. */
 #define SLI_DISSECT_LAYERS 3
-#define SLI_DISSECT_BAND 1
 #define SLI_DISSECT_BAND_FROM 1000
 /* Largest percentage of the weight that one side of a separator may have. It exceeds
  * SLI_BISECT_BALANCE because the last step may lose some balance for a smaller separator. */
@@ -74,7 +72,7 @@ static int sli_dissect_is_balanced(const sli_subgraph *sub) {
  * small subgraph, and several move the separators of large ones away from the middle. So they do in
  * volumes. */
 static int sli_dissect_layers(const sli_dissection *d, sl_int weight) {
-    int layers = SLI_DISSECT_BAND;
+    int layers = 1;
     if (d->is_volume) {
         return 1;
     }
@@ -202,7 +200,7 @@ static sl_int sli_dissect_bisect_min(const sli_dissection *d) {
 static void sli_dissect_recognize(sli_dissection *d) {
     d->is_volume = sli_level_exceeds(&d->levels[1], SLI_VOLUME_DEGREE);
     d->may_be_seven_point = !sli_level_exceeds(&d->levels[0], SLI_SEVEN_POINT_DEGREE) &&
-                            sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE_COARSE);
+                            sli_level_exceeds(&d->levels[1], SLI_SEVEN_POINT_DEGREE + 1);
 }
 
 /* Makes the coarser levels, in addition to those that there are. *working := the finest level on

@@ -134,6 +134,11 @@ SLI_INLINE sl_off sli_graph_degree(const sli_graph *G, sl_int v) {
     return G->begin[v + 1] - G->begin[v];
 }
 
+/* Has v more than 10 sqrt(n) neighbors? It connects everything, so that it is eliminated last. */
+SLI_INLINE int sli_graph_is_dense_row(const sli_graph *G, sl_int v) {
+    return sli_exceeds_sqrt(sli_graph_degree(G, v), 10, G->n);
+}
+
 /* post[k] := the k-th of n nodes of a forest in postorder. Roots, and children of a node, follow
  * each other as in the sequence, which may be post; NULL: 0, 1, ... child, sibling: scratch, an
  * element for each node. */

@@ -63,8 +63,8 @@ static sli_tree_cost sli_dissect_cost(sli_dissection *d) {
     return cost;
 }
 
-/* Each side of a bisection has at least this percentage, if a level set allows it. */
-#define SLI_LEVELSET_SHARE 35
+/* The largest percentage that may be on one side of a level set, if there is a choice. */
+#define SLI_LEVELSET_BALANCE 65
 
 /* Breadth-first search: distances from a vertex, and the vertices in the order of their distances.
  * Vertices that are not reached follow at larger distances. Returns one more than the largest
@@ -105,7 +105,7 @@ static void sli_levelset_bisect(sli_subgraph *sub, sl_int nodes) {
     const sl_int n = sub->n;
     sl_int *order = sub->scratch, *distance = sub->scratch + (size_t)n,
            *size = sub->scratch + 2 * (size_t)n;
-    const sl_int low = (sl_int)((int64_t)n * SLI_LEVELSET_SHARE / 100), high = n - low;
+    const sl_int low = (sl_int)((int64_t)n * (100 - SLI_LEVELSET_BALANCE) / 100), high = n - low;
     sl_int k, n_sets, before = 0, best = -1;
     int64_t cost = 0;
     const sl_int end = sli_subgraph_farthest(sub, 0, order, sub->locked);

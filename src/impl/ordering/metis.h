@@ -101,8 +101,6 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
                                           : SL_ERR_ORDERING;
 }
 
-#define SLI_ORDER_TINY 4 /* components of at most this size are not passed to METIS */
-
 /* Orders the graph of a job by METIS, component by component. A breadth-first search finds each
  * component, with perm itself as its queue; the component is then reordered in place. */
 static sl_status sli_order_metis(const sli_order_job *job) {
@@ -130,7 +128,7 @@ static sl_status sli_order_metis(const sli_order_job *job) {
                 }
             }
         }
-        if (tail - start > SLI_ORDER_TINY) {
+        if (tail - start > 4) { /* others need no order */
             status = sli_metis_order(job, perm + start, tail - start);
         }
     }

@@ -2,13 +2,8 @@
 #ifndef SLI_ORDERING_ND_H
 #define SLI_ORDERING_ND_H
 
-#include "levelset.h"
 #include "thin.h"
 #include "../base/sort.h"
-
-/* A row with more than this many times sqrt(n) neighbors is dense: it connects everything and is
- * eliminated last. */
-#define SLI_ND_DENSE_ROW 10
 
 /* A leaf that is more than twice its intended size after the borders have moved is bisected again.
  * This many rounds at most. */
@@ -206,7 +201,7 @@ static sl_int sli_nd_dense(sli_nd *w, sl_int *perm) {
     sl_int v, count = 0;
     for (v = G->n - 1; v >= 0; v--) {
         w->local[v] = -1;
-        if (sli_exceeds_sqrt(G->begin[v + 1] - G->begin[v], SLI_ND_DENSE_ROW, G->n)) {
+        if (sli_graph_is_dense_row(G, v)) {
             w->local[v] = -2;
             perm[G->n - ++count] = v;
         }

@@ -5,10 +5,6 @@
 #include "graph.h"
 #include "../base/alloc.h"
 
-/* A row with more than this many times sqrt(n) neighbors, and more than 16, is eliminated last:
- * its degree would be updated by every pivot. */
-#define SLI_QUOTIENT_DENSE_ROW 10
-
 #if !defined(SLI_MARKS_BEGIN) /* a test defines it as a variable */
 #define SLI_MARKS_BEGIN 2
 #endif
@@ -83,10 +79,9 @@ SLI_INLINE void sli_quotient_dequeue(sli_quotient *q, sl_int v) {
     }
 }
 
-/* Makes every vertex of G a variable, except for dense rows, which are written to the end of perm.
- */
+/* Makes every vertex of G a variable, except for dense rows, whose degrees would be updated by
+ * every pivot: they are written to the end of perm. */
 static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm) {
-    const sl_off limit = (sl_off)SLI_QUOTIENT_DENSE_ROW * SLI_QUOTIENT_DENSE_ROW * G->n;
     sl_int v;
     sl_off e;
     q->live = q->n;
@@ -95,8 +90,7 @@ static void sli_quotient_start(sli_quotient *q, const sli_graph *G, sl_int *perm
     q->flops = 0.0;
     q->base = SLI_MARKS_BEGIN;
     for (v = 0; v < q->n; v++) {
-        const sl_off degree = G->begin[v + 1] - G->begin[v];
-        const int is_dense = degree > 16 && degree * degree > limit;
+        const int is_dense = sli_graph_degree(G, v) > 16 && sli_graph_is_dense_row(G, v);
         q->weight[v] = !is_dense;
         q->node[v].elements = is_dense ? SLI_QUOTIENT_MERGED : 0;
         q->mark[v] = 1;

@@ -18,8 +18,8 @@ typedef struct sli_flow {
     unsigned char *terminal; /* n: 1 source, 2 sink, 0 neither */
 } sli_flow;
 
-#define SLI_FLOW_NONE (-1)
-#define SLI_FLOW_END (-2)     /* the path begins or ends here */
+enum { SLI_FLOW_NONE = -1, SLI_FLOW_END = -2 /* the path begins or ends here */ };
+
 #if !defined(SLI_FLOW_ROUNDS) /* a test defines it as 1 */
 #define SLI_FLOW_ROUNDS 60    /* no band seen needed more than 20 */
 #endif

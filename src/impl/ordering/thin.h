@@ -2,8 +2,8 @@
 #ifndef SLI_ORDERING_THIN_H
 #define SLI_ORDERING_THIN_H
 
-#include "dissect.h"
 #include "job.h"
+#include "levelset.h"
 
 /* A graph is narrow if the sizes of its levels, weighed by themselves, have a mean of at most
  * NARROW, give or take a sixteenth. In a strip of 20 rows across L has 3 percent more entries than
@@ -25,8 +25,6 @@
 #define SLI_THIN_ASPECT 8
 #define SLI_THIN_LEAF_MIN 64
 #define SLI_THIN_LEAF_MAX 250
-/* The largest percentage of a part that may be on one side of a separator, if there is a choice. */
-#define SLI_THIN_BALANCE 65
 
 /* In a lattice, at least this percentage of the vertices have equal degrees. */
 #define SLI_LATTICE_SHARE 75
@@ -137,8 +135,8 @@ static int sli_thin_search(sli_thin *t, sl_int root) {
 }
 
 /* The level whose last vertices separate the levels before it, and the others of its own, from
- * those behind it: of those that leave at most SLI_THIN_BALANCE percent on a side, the one of least
- * size times imbalance; otherwise the one that leaves least; -1 if there is only one level. */
+ * those behind it: of those that leave at most SLI_LEVELSET_BALANCE percent on a side, the one
+ * of least size times imbalance; otherwise the one that leaves least; -1 if there is only one. */
 static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *least) {
     const sl_int n = p->end - p->first;
     sl_int s, best = -1;
@@ -146,8 +144,8 @@ static sl_int sli_thin_cut(const sli_thin *t, const sli_thin_part *p, int64_t *l
     for (s = p->first; s < p->first + p->levels - 1; s++) {
         const sl_int next = t->begin[s + 1];
         const int64_t side = sli_max(next - t->ahead[s] - p->first, p->end - next);
-        const int64_t cost =
-            100 * side <= SLI_THIN_BALANCE * (int64_t)n ? side * t->ahead[s] : INT64_MAX / 2 + side;
+        const int64_t cost = 100 * side <= SLI_LEVELSET_BALANCE * (int64_t)n ? side * t->ahead[s]
+                                                                             : INT64_MAX / 2 + side;
         if (cost < *least) {
             best = s;
             *least = cost;
