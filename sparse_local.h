@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a2898e5c766ee7f9
+ * FNV-1a of the lines after this comment, without the license: eb7ab1b5588e5ffb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9134,10 +9134,10 @@ static const struct sli_order_rule {
   {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
   {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-  {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
-  {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
   {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
-  {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
+  {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
   {0, 0, SLI_BY_DISSECTION}};
 
 static sli_order_way sli_order_choose(const sli_graph_facts *f) {

@@ -47,36 +47,37 @@ typedef enum sli_order_way {
     SLI_BY_BOTH /* dissection; the analysis then counts minimum degree, too, and takes the better */
 } sli_order_way;
 
-/* The first rule decides of which all facts hold that it asks for, and none that it excludes. Named
- * are the rows of the bench that a rule wins, and how much: peers_kinds (K), peers_kkt (Q). */
+/* The first rule decides of which all facts hold that it asks for, and none that it excludes. With
+ * each stands the row of the bench that it wins (K: peers_kinds, Q: peers_kkt), and how much longer
+ * ordering, analysis and factor together take without it. */
 static const struct sli_order_rule {
     int all, none;
     sli_order_way way;
 } sli_order_rules[] = {
     {SLI_WANTS_METIS, 0, SLI_BY_METIS},
     {SLI_WANTS_MINDEG, 0, SLI_BY_MINDEG},
-    /* K strip, tube, one factor: 0.62 to 0.67 of the time with minimum degree */
+    /* K strips and tube, one factor: 1.5 to 1.6 */
     {SLI_WANTS_ONE_FACTOR, SLI_TRIED_LEVELS, SLI_TRY_LEVELS},
     {SLI_WANTS_ONE_FACTOR | SLI_IS_NARROW, 0, SLI_BY_LEVELS},
-    /* K grid, sphere, torus, one factor: 0.4 to 0.8 of the time with dissection */
+    /* K surfaces and volumes, one factor: 1.3 to 3 */
     {SLI_WANTS_ONE_FACTOR, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_ONE_FACTOR | SLI_IS_CHEAP, 0, SLI_BY_MINDEG},
-    /* Q, one factor: dissection has more fill on graphs whose degrees vary */
+    /* networks with hubs, one factor: twice the entries of L */
     {SLI_WANTS_ONE_FACTOR | SLI_IS_IRREGULAR, 0, SLI_BY_MINDEG},
-    /* Q control: minimum degree first, which takes a fraction of the time, and shows what it
-     * costs; in thin graphs it has long paths in any case */
+    /* What minimum degree costs is known in a fraction of the time. In thin graphs it has long
+     * paths in any case. */
     {SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_IS_THIN | SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_BIPARTITE, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
     {SLI_WANTS_MANY_SOLVES | SLI_IS_EXPANDING, SLI_TRIED_MINDEG, SLI_TRY_MINDEG},
-    /* Q random: dissection would have more fill and longer paths, and takes longer */
-    {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
-    /* Q lasso, Huber, portfolio: no other order can be much better */
-    {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
-    /* Q PDE control in the plane: dissection saves 13 to 20 % of the paths for 14 to 20 % fill */
+    /* Q random: 2.8; dissection also has more fill and longer paths */
+    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_CORE, 0, SLI_BY_MINDEG},
+    /* least squares, lasso, Huber and portfolio programs (test_order_kkt.c): 1.5 */
+    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_HAS_NO_FILL, 0, SLI_BY_MINDEG},
+    /* Q PDE control: 1.9 to 2.3; dissection saves 13 to 20 % of the paths for 14 to 20 % of fill */
     {SLI_TRIED_MINDEG | SLI_IS_BIPARTITE | SLI_HAS_SHORT_PATHS, 0, SLI_BY_MINDEG},
-    /* K quadtree and random points: the analysis of both takes 4 % of the time */
-    {SLI_TRIED_MINDEG | SLI_WANTS_MANY_SOLVES | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
-    /* all meshes, and K 7-point, tetrahedra, one factor */
+    /* a power network (bcspwr10): 7 % more entries and 9 % more on paths, in 0.7 of the time */
+    {SLI_WANTS_MANY_SOLVES | SLI_TRIED_MINDEG | SLI_IS_IRREGULAR, SLI_HAS_LONG_PATHS, SLI_BY_BOTH},
+    /* all else, such as K surfaces and volumes by default */
     {0, 0, SLI_BY_DISSECTION}};
 
 static sli_order_way sli_order_choose(const sli_graph_facts *f) {
