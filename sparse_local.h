@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: eb7ab1b5588e5ffb
+ * FNV-1a of the lines after this comment, without the license: fafff430bdbad09a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,22 +37,22 @@
  *   5082 impl/ ordering: fill-reducing orderings of a graph
  *   9460 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11380 impl/ factor: the numbers of L and D
- *  14143 impl/ solve: full and local solves
- *  15618 impl/ accuracy: refinement, condition, defects, half solves
- *  16449 impl/ pivots: the order of the pivots by the values of a matrix
- *  16867 impl/ float: L and fronts in single precision
- *  17318 impl/ inverse: entries of the inverse, regions
- *  19834 impl/ change: a factor that follows changes of its matrix
- *  26336 impl/ io: files that are written and mapped
- *  26646 impl/ files: Matrix Market files, 64-bit indices
- *  27168 impl/ save: factors in files
- *  28991 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29647 impl/ batch: diagonals of many inverses
- *  29789 impl/ complex: complex Hermitian systems over real factors
- *  30300 impl/ complex: entries of the inverse
- *  30358 impl/ packs: the tables through which the core calls packs
- *  30385 impl/ last: undefine every internal macro
- *  30672 impl/ templates: the header includes them from itself, once for each instruction set
+ *  14140 impl/ solve: full and local solves
+ *  15712 impl/ accuracy: refinement, condition, defects, half solves
+ *  16544 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16962 impl/ float: L and fronts in single precision
+ *  17413 impl/ inverse: entries of the inverse, regions
+ *  19929 impl/ change: a factor that follows changes of its matrix
+ *  26454 impl/ io: files that are written and mapped
+ *  26764 impl/ files: Matrix Market files, 64-bit indices
+ *  27286 impl/ save: factors in files
+ *  29109 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29765 impl/ batch: diagonals of many inverses
+ *  29907 impl/ complex: complex Hermitian systems over real factors
+ *  30418 impl/ complex: entries of the inverse
+ *  30476 impl/ packs: the tables through which the core calls packs
+ *  30503 impl/ last: undefine every internal macro
+ *  30790 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11626,14 +11626,13 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
                : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
 }
 
-SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
-                  const sl_int *rows, double *x, double *scratch) {
-  F->sweeps->forward[kind](count, steps, rows, F->values, x, scratch);
+SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
+                  double *scratch) {
+  F->sweeps->forward[kind](R->count, R->steps, R->rows, F->values, x, scratch);
 }
-SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
-                   const sli_step *steps, const sl_int *rows_end, const double *D,
-                   double *x, double *scratch) {
-  F->sweeps->backward[kind](count, steps, rows_end, F->values, D, x, scratch);
+SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, const sli_reach *R,
+                   const double *D, double *x, double *scratch) {
+  F->sweeps->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->values, D, x, scratch);
 }
 
 SLI_INLINE double sli_entry(const sl_factor *F, sl_off at) {
@@ -13164,8 +13163,7 @@ static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
   memset(F->null.center + n * count, 0, n * count * sizeof(double));
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     for (j = count; j < 2 * count && pass == 1; j++) {
-      sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center + n * j,
-                F->null.sweep);
+      sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center + n * j, F->null.sweep);
     }
     if (pass == 1) {
       sli_center_multiply(F);
@@ -13299,7 +13297,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
   status = sli_anchors_find(F, failure);
   sli_anchor_weights(F, F->divisors);
   memcpy(F->null.center, F->divisors, (size_t)S->n * sizeof(double));
-  sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center, F->null.sweep);
+  sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center, F->null.sweep);
   for (k = 0; k < S->n && status == SL_OK; k++) {
     total += fabs(F->divisors[k]);
     if (S->parent[k] == -1) {
@@ -13339,8 +13337,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
       z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
     }
   }
-  sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, z,
-             F->null.sweep);
+  sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
   w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
              NULL);
   for (k = 0; k < S->n && status == SL_OK; k++) {
@@ -14380,56 +14377,101 @@ SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
   return (ld & ~SL_ROW_MAJOR) >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
 }
 
-static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B,
-                 size_t ldb, sl_int nb, sl_int nrhs) {
-  const int bad_x = nx > 0 && (X == NULL || !sli_dense_spans(ldx, nx, nrhs));
-  const int bad_b = nb > 0 && (B == NULL || !sli_dense_spans(ldb, nb, nrhs));
-  const int is_misaligned = X == B && ldx != ldb && nx > 0 && nb > 0;
-  return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT : SL_OK;
+typedef struct sli_rhs {
+  double *X;
+  const double *B;
+  size_t ldx, ldb;
+  sl_int nrhs;
+} sli_rhs;
+
+SLI_INLINE sli_rhs sli_rhs_of(double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs) {
+  sli_rhs r;
+  r.X = X;
+  r.B = B;
+  r.ldx = ldx;
+  r.ldb = ldb;
+  r.nrhs = nrhs;
+  return r;
 }
 
-static sl_status sli_check_dense_columns(const double *X, size_t ldx, sl_int nx, const double *B,
-                     size_t ldb, sl_int nb, sl_int nrhs) {
-  return nrhs > 0 && ((ldx | ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
-                          : sli_check_dense(X, ldx, nx, B, ldb, nb, nrhs);
+SLI_INLINE sli_rhs sli_rhs_part(const sli_rhs *all, sl_int first, sl_int count) {
+  sli_rhs r = *all;
+  if (r.X != NULL) {
+    r.X += (size_t)first * sli_dense_of(r.ldx).column;
+  }
+  if (r.B != NULL) {
+    r.B += (size_t)first * sli_dense_of(r.ldb).column;
+  }
+  r.nrhs = count;
+  return r;
+}
+
+static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
+  const int bad_x = nx > 0 && (r->X == NULL || !sli_dense_spans(r->ldx, nx, r->nrhs));
+  const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
+  const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
+  return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
+                                      : SL_OK;
+}
+
+static sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
+  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                               : sli_rhs_check(r, nx, nb);
 }
 
 #define SLI_ROWS_AHEAD 32
 
-SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sl_int lanes, const sl_int *index, sl_int count,
-                   const double *M, sli_dense at, sl_int columns) {
+typedef struct sli_rows {
+  const sl_int *index;
+  sl_int count, lanes;
+} sli_rows;
+
+SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int lanes) {
+  sli_rows rows;
+  rows.index = index;
+  rows.count = count;
+  rows.lanes = lanes;
+  return rows;
+}
+
+SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sli_rows rows, const double *M, sli_dense at,
+                   sl_int columns) {
   sl_int k, r;
-  for (k = 0; k < count; k++) {
-    if (lanes >= 4) { /* untested: constant */
-      SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
+  for (k = 0; k < rows.count; k++) {
+    if (rows.lanes >= 4) { /* untested: constant */
+      const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
+      SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
     }
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
-      v[(ptrdiff_t)index[k] * lanes + r] = M[(size_t)k * at.row + (size_t)r * at.column];
+      v[(ptrdiff_t)rows.index[k] * rows.lanes + r] =
+        M[(size_t)k * at.row + (size_t)r * at.column];
     }
   }
 }
 
-static void sli_pack_sums(double *v, sl_int lanes, const sl_int *index, sl_int count,
-              const double *M, sli_dense at, sl_int columns) {
+static void sli_pack_sums(double *v, sli_rows rows, const double *M, sli_dense at, sl_int columns) {
   sl_int k, r;
-  for (k = 0; k < count; k++) {
+  for (k = 0; k < rows.count; k++) {
     for (r = 0; r < columns; r++) {
-      v[(ptrdiff_t)index[k] * lanes + r] += M[(size_t)k * at.row + (size_t)r * at.column];
+      v[(ptrdiff_t)rows.index[k] * rows.lanes + r] +=
+        M[(size_t)k * at.row + (size_t)r * at.column];
     }
   }
 }
 
-SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v, sl_int lanes,
-                     const sl_int *index, sl_int count, sl_int columns) {
+SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v, sli_rows rows,
+                     sl_int columns) {
   sl_int k, r;
-  for (k = 0; k < count; k++) {
-    if (lanes >= 4) { /* untested: constant */
-      SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
+  for (k = 0; k < rows.count; k++) {
+    if (rows.lanes >= 4) { /* untested: constant */
+      const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
+      SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
     }
     SLI_UNROLL
     for (r = 0; r < columns; r++) {
-      M[(size_t)k * at.row + (size_t)r * at.column] = v[(ptrdiff_t)index[k] * lanes + r];
+      M[(size_t)k * at.row + (size_t)r * at.column] =
+        v[(ptrdiff_t)rows.index[k] * rows.lanes + r];
     }
   }
 }
@@ -14442,20 +14484,22 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
 #define SLI_STREAMED 4000000
 #endif
 
-static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, const double *B,
-           sli_dense at, sl_int lanes, sl_int nrhs) {
+static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
+  const double *B = rhs->B;
+  const sli_dense at = sli_dense_of(rhs->ldb);
+  const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const sl_int *index = q->b_index, count = q->nb;
   if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
     memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
   }
   if (q->b_repeats) {
-    sli_pack_sums(y, lanes, index, count, B, at, nrhs);
+    sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
   } else if (nrhs % 8 == 0 && at.row == 1) {
     const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
     sl_int first, r;
     for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
-        kernels->interleave(
+        F->kernels->interleave(
           y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
           B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
       }
@@ -14463,39 +14507,44 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
   } else if (nrhs % 8 == 0) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
-      sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_by_rows(at.row), 8);
+      sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
+              8);
     }
   } else if (nrhs == 3) {
-    sli_pack_rows(y, 4, index, count, B, at, 3);
+    sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
   } else if (nrhs == 1) {
-    sli_pack_rows(y, 1, index, count, B, at, 1);
+    sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
   } else {
-    sli_pack_rows(y, lanes, index, count, B, at, nrhs);
+    sli_pack_rows(y, sli_rows_of(index, count, lanes), B, at, nrhs);
   }
 }
 
-static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X, sli_dense at,
-             const double *x, sl_int lanes, sl_int nrhs) {
+static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+             const double *x) {
+  double *X = rhs->X;
+  const sli_dense at = sli_dense_of(rhs->ldx);
+  const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
   const sl_int *index = q->x_index, count = q->nx;
   if (nrhs % 8 == 0 && at.row == 1) {
     sl_int first, r;
     for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
       for (r = 0; r < nrhs; r += 8) {
-        kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-                  lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+        F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
+                   lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
       }
     }
   } else if (nrhs % 8 == 0) {
     sl_int r;
     for (r = 0; r < nrhs; r += 8) {
-      sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r, lanes, index, count, 8);
+      sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
+              sli_rows_of(index, count, lanes), 8);
     }
   } else if (nrhs == 3) {
-    sli_unpack_rows(X, at, x, 4, index, count, 3);
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
   } else if (nrhs == 1) {
-    sli_unpack_rows(X, at, x, 1, index, count, 1);
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
   } else {
-    sli_unpack_rows(X, at, x, lanes, index, count, nrhs);
+    sli_unpack_rows(X, at, x, sli_rows_of(index, count, lanes), nrhs);
   }
 }
 
@@ -14564,13 +14613,29 @@ static void sli_chains_add(double *chains, const double *v, const double *row, s
 #undef SLI_CALL
 }
 
-static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
+typedef struct sli_packed {
+  const sli_reach *R;
+  double *v;
+  sl_int lanes;
+} sli_packed;
+
+SLI_INLINE sli_packed sli_packed_of(const sli_reach *R, double *v, sl_int lanes) {
+  sli_packed b;
+  b.R = R;
+  b.v = v;
+  b.lanes = lanes;
+  return b;
+}
+
+static void sli_norms(const sli_packed *b, double *norms) {
+  const sli_reach *R = b->R;
+  const sl_int lanes = b->lanes;
   double chains[SLI_TILE];
   sl_int s;
   memset(chains, 0, sizeof chains);
   for (s = 0; s < R->count; s++) {
     const sl_int columns = sli_step_columns(&R->steps[s]);
-    const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
+    const double *row = b->v + (ptrdiff_t)R->steps[s].base * lanes;
 #define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
     SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
@@ -14593,18 +14658,20 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
 typedef struct sli_null_dot {
   sl_int null;
   sl_int number;
+  sl_int next;
   double sums[SLI_TILE];
 } sli_null_dot;
 
-static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
-               const double *b, sl_int lanes, sl_int *m, sli_null_dot *dot) {
-  const sl_int last = sli_tree_range_of(F->S, &R->steps[root]).root;
+static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
+               sli_null_dot *dot) {
+  const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
   double chains[SLI_TILE];
   const double *z;
   sl_int column = -1, r;
-  for (; *m < F->null.count && F->null.pivots[*m] <= last && column == -1; ++*m) {
-    dot->number = *m;
-    dot->null = F->null.pivots[*m];
+  for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
+     dot->next++) {
+    dot->number = dot->next;
+    dot->null = F->null.pivots[dot->next];
     column = sli_null_column(F, dot->null);
   }
   if (column == -1) {
@@ -14613,8 +14680,8 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
   z = F->null.g + (size_t)column * (size_t)F->S->n;
   memset(chains, 0, sizeof chains);
   for (; first <= root; first++) {
-    const sli_step *step = &R->steps[first];
-    const double *v = z + step->column, *row = b + (ptrdiff_t)step->base * lanes;
+    const sli_step *step = &b->R->steps[first];
+    const double *v = z + step->column, *row = b->v + (ptrdiff_t)step->base * lanes;
     const sl_int columns = sli_step_columns(step);
     sli_chains_add(chains, v, row, columns, lanes);
   }
@@ -14630,16 +14697,17 @@ SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int 
                sli_tree_range_of(F->S, &R->steps[root]).first);
 }
 
-static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b, sl_int lanes,
-             const double *norms, double *Y, size_t ldy, sl_int nrhs) {
-  sl_int first = 0, s, m, r;
+static int sli_null_dots(const sl_factor *F, const sli_packed *b, const double *norms, double *Y,
+             size_t ldy, sl_int nrhs) {
+  const sli_reach *R = b->R;
+  sl_int first = 0, s, r;
   for (s = 0; s < R->count; s++) {
     sli_null_dot dot;
     if (R->steps[s].up != -1) {
       continue;
     }
-    m = sli_null_first(F, R, s);
-    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+    dot.next = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, b, first, s, &dot)) {
       for (r = 0; r < nrhs; r++) {
         if (Y != NULL) {
           Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
@@ -14653,8 +14721,9 @@ static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b
   return 1;
 }
 
-static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
-               const double *norms) {
+static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const double *norms) {
+  const sli_reach *R = y->R;
+  const sl_int lanes = y->lanes;
   sl_int s, m, r;
   for (s = 0; s < R->count; s++) {
     sli_tree_range tree;
@@ -14668,7 +14737,7 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
         F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
       const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
       for (r = 0; at != -1 && r < lanes; r++) {
-        if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
+        if (fabs(y->v[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
           return 0;
         }
       }
@@ -14678,25 +14747,26 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
 }
 
 typedef struct sli_center_terms {
+  sl_int count;
   double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-static void sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
-                  const double *y, sl_int lanes, sl_int m, sl_int count,
-                  sli_center_terms *terms) {
+static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int first,
+                  sl_int root, sl_int m, sli_center_terms *terms) {
+  const sl_int lanes = y->lanes, count = terms->count;
   sl_int s, j, r, at;
   for (j = 0; j < count; j++) {
     double chains[SLI_TILE] = {0.0};
     for (s = first; s <= root; s++) {
-      const sli_step *step = &R->steps[s];
+      const sli_step *step = &y->R->steps[s];
       sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
-               y + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+               y->v + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
     }
     sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
   }
-  at = count == 1 ? sli_reach_index_of(R, F->null.anchors[m]) : -1;
+  at = count == 1 ? sli_reach_index_of(y->R, F->null.anchors[m]) : -1;
   for (r = 0; r < lanes && count == 1; r++) {
-    const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
+    const double c = at != -1 ? y->v[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
     terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
     terms->c[0][r] = c;
   }
@@ -14714,45 +14784,59 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
   }
 }
 
-static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
-             const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
+static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, sl_int root) {
+  for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
+    const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
+    if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
+      memset(x->v + (ptrdiff_t)j * x->lanes, 0, (size_t)x->lanes * sizeof(double));
+    }
+  }
+}
+
+static void sli_center_step(const sl_factor *F, const sli_packed *x, const sli_step *step,
+              const sli_center_terms *terms) {
+  double *row = x->v + (ptrdiff_t)step->base * x->lanes;
+  const sl_int columns = sli_step_columns(step);
+  sl_int j;
+  for (j = 0; j < terms->count; j++) {
+    const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
+    const double *D = F->divisors + step->column;
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms->c[j], constant)
+    SLI_FOR_LANES(x->lanes, SLI_CALL)
+#undef SLI_CALL
+  }
+}
+
+static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
+             const sl_int *uses) {
   const int is_one = F->null.vectors == 1;
   const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
   const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
-  const sl_int count = F->null.is_centered ? sli_center_count(F) : 0;
+  const sli_reach *to = x->R;
+  sli_center_terms terms;
   sl_int first = 0, at = 0, root, m, j;
-  for (root = 0; root < from->count; root++) {
-    sli_center_terms terms;
+  terms.count = F->null.is_centered ? sli_center_count(F) : 0;
+  for (root = 0; root < y->R->count; root++) {
     sli_tree_range tree;
-    if (from->steps[root].up != -1) {
+    if (y->R->steps[root].up != -1) {
       continue;
     }
-    tree = sli_tree_range_of(F->S, &from->steps[root]);
+    tree = sli_tree_range_of(F->S, &y->R->steps[root]);
     m = sli_lower_bound(list, listed, tree.first);
     if (m < listed && list[m] <= tree.root &&
       (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
-      sli_center_tree_terms(F, from, first, root, y, lanes, m, count, &terms);
-      for (; m < listed && list[m] <= tree.root && !is_one; m++) {
-        j = sli_reach_index_of(to, list[m]);
-        if (j != -1 && F->rule.kinds[list[m]] == SLI_PIVOT_NULL) {
-          memset(x + (ptrdiff_t)j * lanes, 0, (size_t)lanes * sizeof(double));
-        }
+      sli_center_tree_terms(F, y, first, root, m, &terms);
+      if (!is_one) {
+        sli_center_clear(F, x, m, tree.root);
       }
       for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-        const sli_step *step = &to->steps[at];
-        double *row = x + (ptrdiff_t)step->base * lanes;
-        const sl_int columns = sli_step_columns(step);
-        for (j = 0; j < count && step->column >= tree.first; j++) {
-          const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
-          const double *D = F->divisors + step->column;
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
-          SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+        if (to->steps[at].column >= tree.first) {
+          sli_center_step(F, x, &to->steps[at], &terms);
         }
       }
       j = is_one ? sli_reach_index_of(to, list[m]) : -1;
       if (j != -1) {
-        memcpy(x + (ptrdiff_t)j * lanes, terms.t, (size_t)lanes * sizeof(double));
+        memcpy(x->v + (ptrdiff_t)j * x->lanes, terms.t, (size_t)x->lanes * sizeof(double));
       }
     }
     first = root + 1;
@@ -14787,8 +14871,8 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
   if (F->E != NULL) {
     sli_pairs_apply(F, R, x, (sl_int)1 << kind);
   }
-  sli_backward_sweep(F, kind, R->count, R->steps, R->rows + R->n_rows,
-             F->null.is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
+  sli_backward_sweep(F, kind, R, F->null.is_centered || F->E != NULL ? F->divisors : F->D, x,
+             scratch);
 }
 
 /* src/impl/solve/sweep_tasks.h: one right-hand side of a full solve by several workers: subtrees, then the rest */
@@ -14808,15 +14892,13 @@ typedef struct sli_sweep_task {
 typedef struct sli_sweep_tasks {
   const sl_factor *F;
   const sli_query *q;
-  sl_int nrhs, workers;
+  sli_rhs rhs;
+  sl_int workers;
   sl_int share;
   sl_int n_tasks, n_tops, n_slots;
   sli_sweep_task tasks[SLI_SOLVE_TASKS];
   sl_int order[SLI_SOLVE_TASKS];
   sl_int tops[SLI_SOLVE_TASKS];
-  double *X;
-  const double *B;
-  sli_dense x_at, b_at;
   void (*run_block)(void *data, sl_int item, sl_int worker);
   void *memory;
   size_t bytes, total;
@@ -14955,8 +15037,9 @@ static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
 }
 
 static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
-                 sl_int nrhs, const sl_threads *threads) {
+                 const sli_rhs *rhs, const sl_threads *threads) {
   const sl_symbolic *S = F->S;
+  const sl_int nrhs = rhs->nrhs;
   sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
   sli_block b = {NULL, 0, 0};
   sl_int workers;
@@ -14973,7 +15056,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
   }
   t->F = F;
   t->q = q;
-  t->nrhs = nrhs;
+  t->rhs = *rhs;
   if (nrhs > 8) {
     t->share = 8;
     while (2 * t->share * workers <= nrhs && t->share < SLI_BLOCK_MOST) {
@@ -14999,26 +15082,31 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
 
 static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
   const sl_symbolic *S = t->F->S;
+  const size_t row = sli_dense_of(t->rhs.ldb).row;
   sl_int k;
   for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-    t->y[k] = t->B[(size_t)S->perm[k] * t->b_at.row];
+    t->y[k] = t->rhs.B[(size_t)S->perm[k] * row];
   }
 }
 
 static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
   const sl_symbolic *S = t->F->S;
+  const size_t row = sli_dense_of(t->rhs.ldx).row;
   sl_int k;
   for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-    t->X[(size_t)S->perm[k] * t->x_at.row] = t->y[k];
+    t->rhs.X[(size_t)S->perm[k] * row] = t->y[k];
   }
 }
 
 static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int last,
                   const sl_int *rows, double *scratch) {
   const sl_symbolic *S = t->F->S;
+  sli_reach R = t->q->forward;
   if (first <= last) {
-    sli_forward_sweep(t->F, SLI_NRHS_1, last + 1 - first, S->steps + first,
-              rows == NULL ? S->rows + S->rows_begin[first] : rows, t->y, scratch);
+    R.count = last + 1 - first;
+    R.steps = S->steps + first;
+    R.rows = rows == NULL ? S->rows + S->rows_begin[first] : rows;
+    sli_forward_sweep(t->F, SLI_NRHS_1, &R, t->y, scratch);
   }
 }
 
@@ -15101,8 +15189,8 @@ static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker
 
 static void sli_sweep_tasks_lead(sli_team *team, void *data) {
   sli_sweep_tasks *t = (sli_sweep_tasks *)data;
-  if (t->nrhs > 8) {
-    sli_team_loop(team, (t->nrhs - 1) / t->share + 1, NULL, t->run_block, t);
+  if (t->rhs.nrhs > 8) {
+    sli_team_loop(team, (t->rhs.nrhs - 1) / t->share + 1, NULL, t->run_block, t);
     return;
   }
   sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
@@ -15115,7 +15203,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
   sli_block b = {NULL, 0, 0};
   t->memory = memory;
   t->run_block = run_block;
-  if (t->nrhs <= 8) {
+  if (t->rhs.nrhs <= 8) {
     b.base = (unsigned char *)memory;
     sli_sweep_tasks_layout(t, &b);
   }
@@ -15137,46 +15225,54 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
                 sl_int nrhs) {
   const int kind = sli_lanes_kind(nrhs);
   const sli_reach *R = &q->forward;
-  const sl_int *rows = R->rows;
+  sli_packed b;
+  sli_reach tree;
   sl_int first = 0, s;
   if (F->null.count == 0 || F->null.vectors > 1) {
-    sli_forward_sweep(F, kind, R->count, R->steps, rows, v->y, v->scratch);
+    sli_forward_sweep(F, kind, R, v->y, v->scratch);
     return;
   }
+  b = sli_packed_of(R, v->y, (sl_int)1 << kind);
+  tree = *R;
   for (s = 0; s < R->count; s++) {
     sli_null_dot dot;
-    sl_int m, at = -1;
+    sl_int at = -1;
     if (R->steps[s].up != -1) {
       continue;
     }
-    m = sli_null_first(F, R, s);
-    if (sli_null_dot_next(F, R, first, s, v->y, (sl_int)1 << kind, &m, &dot)) {
+    dot.next = sli_null_first(F, R, s);
+    if (sli_null_dot_next(F, &b, first, s, &dot)) {
       at = sli_reach_index_of(R, dot.null);
     }
-    sli_forward_sweep(F, kind, s + 1 - first, R->steps + first, rows, v->y, v->scratch);
+    tree.count = s + 1 - first;
+    tree.steps = R->steps + first;
+    sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
     if (at != -1) {
       memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
     }
     for (; first <= s; first++) {
-      rows += R->steps[first].below;
+      tree.rows += R->steps[first].below;
     }
   }
 }
 
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-              const double *B, sli_dense at, sl_int nrhs) {
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
-  double norms[SLI_TILE];
-  sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
+              const sli_rhs *rhs) {
+  sli_pack(F, q, v->y, rhs);
   if (F->null.checks) {
-    sli_norms(&q->forward, v->y, lanes, norms);
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
+    const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
+    double norms[SLI_TILE];
+    sli_norms(&b, norms);
     if (F->null.vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
-      !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
+      !sli_null_dots(F, &b, norms, NULL, 0, lanes)) {
       return 0;
     }
+    sli_sweep_forward(F, q, v, rhs->nrhs);
+    return sli_is_consistent(F, &b, norms);
   }
-  sli_sweep_forward(F, q, v, nrhs);
-  return !F->null.checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
+  sli_sweep_forward(F, q, v, rhs->nrhs);
+  return 1;
 }
 
 static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli_vectors *v,
@@ -15190,104 +15286,101 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
     q->ending->calls->apply(F, q, kind, v);
   }
   if (F->null.is_centered || F->null.vectors > 1) {
-    sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
+    const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
+    const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
+    sli_center(F, &y, &x, NULL);
   }
   sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
-static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
-                 sli_dense b_at, sl_int nrhs, void *memory) {
+static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                 void *memory) {
   sl_int r;
-  for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
-    const sl_int block = sli_min(8, nrhs - r);
-    const sli_vectors v = sli_vectors_of(q, block, memory);
-    if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+  for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
+    const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
+    const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
+    if (!sli_sweep_load(F, q, &v, &block)) {
       return SL_ERR_INCONSISTENT;
     }
   }
   return SL_OK;
 }
 
-static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                  const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
-  sl_int r, block;
-  for (r = 0; r < nrhs; r += block) {
+static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                  void *memory) {
+  sl_int r, count;
+  for (r = 0; r < rhs->nrhs; r += count) {
+    sli_rhs block;
     sli_vectors v;
-    block = sli_block_size(nrhs - r, sli_block_most(F));
-    v = sli_vectors_of(q, block, memory);
-    if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+    count = sli_block_size(rhs->nrhs - r, sli_block_most(F));
+    block = sli_rhs_part(rhs, r, count);
+    v = sli_vectors_of(q, count, memory);
+    if (!sli_sweep_load(F, q, &v, &block)) {
       return SL_ERR_INCONSISTENT;
     }
-    sli_sweep_backward(F, q, &v, block);
-    sli_unpack(q, F->kernels, X + (size_t)r * x_at.column, x_at, v.x,
-           (sl_int)1 << sli_lanes_kind(block), block);
+    sli_sweep_backward(F, q, &v, count);
+    sli_unpack(F, q, &block, v.x);
   }
   return SL_OK;
 }
 
-static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-               const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+               void *memory) {
   sl_status status = SL_OK;
-  if (F->null.checks && nrhs > 8 && q->nb > 0) {
-    status = sli_sweep_check(F, q, B + 8 * b_at.column, b_at, nrhs - 8, memory);
+  if (F->null.checks && rhs->nrhs > 8 && q->nb > 0) {
+    const sli_rhs later = sli_rhs_part(rhs, 8, rhs->nrhs - 8);
+    status = sli_sweep_check(F, q, &later, memory);
   }
-  return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
+  return status == SL_OK ? sli_sweep_blocks(F, q, rhs, memory) : status;
 }
 
 static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
   const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-  const sl_int first = m * t->share, count = sli_min(t->share, t->nrhs - first);
-  (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)first * t->x_at.column, t->x_at,
-               t->B + (size_t)first * t->b_at.column, t->b_at, count,
+  const sl_int first = m * t->share;
+  const sli_rhs part = sli_rhs_part(&t->rhs, first, sli_min(t->share, t->rhs.nrhs - first));
+  (void)sli_sweep_blocks(t->F, t->q, &part,
                (unsigned char *)t->memory + (size_t)worker * t->bytes);
 }
 
-static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                 const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
+static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                 sl_work *W) {
   sl_work own;
   sl_status status;
   sli_sweep_tasks t;
-  if (nrhs == 0 || q->nx == 0) {
+  if (rhs->nrhs == 0 || q->nx == 0) {
     return SL_OK;
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
-  status =
-    sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
+  sli_sweep_tasks_plan(&t, F, q, rhs, &W->threads);
+  status = sli_work_grow(
+    W, t.workers > 1 ? t.total : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
   if (status == SL_OK && t.workers > 1) {
-    t.X = X;
-    t.x_at = x_at;
-    t.B = B;
-    t.b_at = b_at;
     sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
   } else if (status == SL_OK) {
-    status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
+    status = sli_sweep(F, q, rhs, W->block);
   }
   sli_free(&own.allocator, own.block);
   return status;
 }
 
-static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
-               const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  const sl_status status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, nrhs);
+static sl_status sli_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, sl_work *W) {
+  const sl_status status = sli_rhs_check(rhs, q->nx, q->nb);
   if (status != SL_OK) {
     return status;
   }
-  if (!sli_query_fits(q, F)) {
-    return SL_ERR_STATE;
-  }
-  return sli_query_solve(F, q, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, W);
+  return sli_query_fits(q, F) ? sli_query_solve(F, q, rhs, W) : SL_ERR_STATE;
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
                  size_t ldb, sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_query q;
   if (F == NULL) {
     return SL_ERR_ARGUMENT;
   }
   q = sli_query_all(F->S);
-  return sli_solve(F, &q, X, ldx, B, ldb, nrhs, W);
+  return sli_solve(F, &q, &rhs, W);
 }
 
 /* src/impl/solve/compile.h: compiles a b-set and an x-set into a query: sorting, reaches, row indices */
@@ -15509,8 +15602,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                  const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  return P == NULL || F == NULL ? SL_ERR_ARGUMENT
-                  : sli_solve(F, &P->query, X, ldx, B, ldb, nrhs, W);
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return P == NULL || F == NULL ? SL_ERR_ARGUMENT : sli_solve(F, &P->query, &rhs, W);
 }
 
 /* src/impl/solve/local.h: sl_local_solve: one local solve without a plan, compiled in the workspace */
@@ -15573,6 +15666,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
                 const sl_int *xset, sl_int nx, double *X, size_t ldx,
                 const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                 sl_stats *stats) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sl_work own;
   sli_local l;
   sl_status status;
@@ -15590,7 +15684,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   l.x = sli_set_of(F->S, xset, nx);
   l.nrhs = nrhs;
   l.stats = stats;
-  status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, nrhs);
+  status = sli_rhs_check(&rhs, l.x.count, l.b.count);
   if (status != SL_OK) {
     return status;
   }
@@ -15607,7 +15701,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     stats->plan.bytes = 0;
   }
   if (status == SL_OK && nrhs > 0 && l.query.nx > 0) {
-    status = sli_sweep(F, &l.query, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, l.memory);
+    status = sli_sweep(F, &l.query, &rhs, l.memory);
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -15704,8 +15798,10 @@ static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
   }
 }
 
-static void sli_column_multiply(const sl_factor *F, const sli_step *step, const sl_int *rows,
-                sl_int j, int is_transposed, double *x, sl_int lanes) {
+static void sli_column_multiply(const sl_factor *F, sl_int s, sl_int j, int is_transposed,
+                double *x, sl_int lanes) {
+  const sli_step *step = &F->S->steps[s];
+  const sl_int *rows = F->S->rows + F->S->rows_begin[s];
   double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
   sl_int i, r;
   for (i = j + 1; i < step->width + step->below; i++) {
@@ -15729,21 +15825,20 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
     s = is_transposed ? at : S->n_supers - 1 - at;
     for (k = 0; k < S->steps[s].width; k++) {
       j = is_transposed ? k : S->steps[s].width - 1 - k;
-      sli_column_multiply(F, &S->steps[s], S->rows + S->rows_begin[s], j, is_transposed, x,
-                lanes);
+      sli_column_multiply(F, s, j, is_transposed, x, lanes);
     }
   }
 }
 
 static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) {
   const sl_factor *F = p->F;
-  const sli_reach *R = &p->q.backward;
+  sli_reach R = p->q.backward;
   const sl_int lanes = (sl_int)1 << kind;
   if (p->is_product && p->parts & SL_PART_LT) {
     sli_lower_multiply(F, 1, v->x, lanes);
   }
   if (!p->is_product && p->parts & SL_PART_L) {
-    sli_forward_sweep(F, kind, R->count, R->steps, R->rows, v->x, v->scratch);
+    sli_forward_sweep(F, kind, &R, v->x, v->scratch);
   }
   if (p->parts & (SL_PART_D | SL_PART_SQRT_D)) {
     sli_parts_scale(p, v->x, lanes);
@@ -15752,8 +15847,8 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
     sli_lower_multiply(F, 0, v->x, lanes);
   }
   if (!p->is_product && p->parts & SL_PART_LT) {
-    sli_backward_sweep(F, kind, R->count, p->steps, R->rows + R->n_rows, p->ones, v->x,
-               v->scratch);
+    R.steps = p->steps;
+    sli_backward_sweep(F, kind, &R, p->ones, v->x, v->scratch);
   }
 }
 
@@ -15771,11 +15866,9 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   return parts & SL_PART_SQRT_D && F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
 }
 
-static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double *B, size_t ldb,
-                 sl_int nrhs, sl_work *W) {
-  const sli_dense x_at = sli_dense_of(ldx);
-  const sli_dense b_at = sli_dense_of(ldb);
-  sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, nrhs);
+static sl_status sli_parts_run(sli_parts *p, const sli_rhs *rhs, sl_work *W) {
+  const sl_int nrhs = rhs->nrhs;
+  sl_status status = sli_rhs_check(rhs, p->q.nx, p->q.nb);
   sli_block b = {NULL, 0, 0};
   sl_work own;
   sl_int r;
@@ -15792,21 +15885,18 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
     sli_parts_fill(p);
   }
   for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
-    const sl_int block = sli_min(8, nrhs - r);
-    const int kind = sli_lanes_kind(block);
-    const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);
-    sli_pack(&p->q, p->F->kernels, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind,
-         block);
-    sli_parts_apply(p, &v, kind);
-    sli_unpack(&p->q, p->F->kernels, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind,
-           block);
+    const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, nrhs - r));
+    const sli_vectors v = sli_vectors_of(&p->q, block.nrhs, p->memory);
+    sli_pack(p->F, &p->q, v.y, &block);
+    sli_parts_apply(p, &v, sli_lanes_kind(block.nrhs));
+    sli_unpack(p->F, &p->q, &block, v.x);
   }
   sli_free(&own.allocator, own.block);
   return status;
 }
 
-static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product, double *X,
-                 size_t ldx, const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product,
+                 const sli_rhs *rhs, sl_work *W) {
   sli_query all;
   sli_parts p;
   if (F == NULL) {
@@ -15818,17 +15908,19 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
   p.parts = parts;
   p.is_product = is_product;
   p.q = sli_parts_query(&all, &all.forward, (parts & SL_PART_P) != 0, (parts & SL_PART_PT) != 0);
-  return sli_parts_run(&p, X, ldx, B, ldb, nrhs, W);
+  return sli_parts_run(&p, rhs, W);
 }
 
 SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
                     const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  return sli_factor_part(F, parts, 0, X, ldx, B, ldb, nrhs, W);
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return sli_factor_part(F, parts, 0, &rhs, W);
 }
 
 SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
                      const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-  return sli_factor_part(F, parts, 1, X, ldx, B, ldb, nrhs, W);
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  return sli_factor_part(F, parts, 1, &rhs, W);
 }
 
 SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
@@ -15836,6 +15928,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
                   sl_work *W) {
   const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
   const int is_forward = ends == (SL_PART_P | SL_PART_L);
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_parts p;
   if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
     return SL_ERR_ARGUMENT;
@@ -15851,7 +15944,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   p.parts = parts;
   p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
               is_forward, !is_forward);
-  return sli_parts_run(&p, X, ldx, B, ldb, nrhs, W);
+  return sli_parts_run(&p, &rhs, W);
 }
 
 SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,
@@ -15930,13 +16023,13 @@ static double sli_row_error(const sli_refinement *f, double *r, const double *x,
 
 static void sli_correct(const sli_refinement *f, sl_int columns) {
   const sli_query q = sli_query_all(f->F->S);
-  const sli_dense at = sli_dense_by_columns((size_t)f->F->S->n);
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+  const size_t n = (size_t)f->F->S->n;
+  const sli_rhs rhs = sli_rhs_of(f->R, n, f->R, n, columns);
   const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
-  sli_pack(&q, f->F->kernels, v.y, f->R, at, lanes, columns);
+  sli_pack(f->F, &q, v.y, &rhs);
   sli_sweep_forward(f->F, &q, &v, columns);
   sli_sweep_backward(f->F, &q, &v, columns);
-  sli_unpack(&q, f->F->kernels, f->R, at, v.x, lanes, columns);
+  sli_unpack(f->F, &q, &rhs, v.x);
 }
 
 static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const double *b) {
@@ -15959,23 +16052,23 @@ static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const doubl
   return is_kept;
 }
 
-static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const double *B, size_t ldb,
-               sl_int columns, sl_int steps) {
+static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps) {
   const size_t n = (size_t)f->F->S->n;
   sl_int c, step, todo = 0;
-  for (c = 0; c < columns; c++) {
-    f->error[c] =
-      sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
+  for (c = 0; c < rhs->nrhs; c++) {
+    f->error[c] = sli_row_error(f, f->R + n * (size_t)c, rhs->X + rhs->ldx * (size_t)c,
+                  rhs->B + rhs->ldb * (size_t)c);
     f->is_done[c] = f->error[c] <= DBL_EPSILON;
     f->is_slow[c] = 0;
     todo += !f->is_done[c];
   }
   for (step = 1; step <= steps && todo > 0; step++) {
-    sli_correct(f, columns);
+    sli_correct(f, rhs->nrhs);
     todo = 0;
-    for (c = 0; c < columns; c++) {
+    for (c = 0; c < rhs->nrhs; c++) {
       if (!f->is_done[c]) {
-        if (sli_refine_column(f, c, X + ldx * (size_t)c, B + ldb * (size_t)c)) {
+        if (sli_refine_column(f, c, rhs->X + rhs->ldx * (size_t)c,
+                    rhs->B + rhs->ldb * (size_t)c)) {
           f->steps = sli_max(f->steps, step);
         }
         todo += !f->is_done[c];
@@ -16002,6 +16095,7 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
 SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
                   const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                   sl_work *W, sl_stats *stats) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_block b = {NULL, 0, 0};
   sli_refinement f;
   sl_work own;
@@ -16012,7 +16106,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   if (F == NULL || steps < 0) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_check_dense_columns(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
+  status = sli_rhs_check_columns(&rhs, F->S->n, F->S->n);
   if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
     return SL_ERR_ARGUMENT;
   }
@@ -16031,9 +16125,9 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
   if (status == SL_OK && nrhs > 0 && F->S->n > 0) {
     sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
     for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
-      sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
-               sli_min(8, nrhs - r), steps);
-      for (c = 0; c < sli_min(8, nrhs - r); c++) {
+      const sli_rhs block = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
+      sli_refine_block(&f, &block, steps);
+      for (c = 0; c < block.nrhs; c++) {
         worst = sli_max_error(f.error[c], worst);
       }
     }
@@ -16100,13 +16194,14 @@ static sl_int sli_local_refinement_find(sli_local_refinement *f) {
   return -1;
 }
 
-static void sli_local_refinement_step(sli_local_refinement *f, const double *B, sli_dense at,
-                    sl_int columns, const double *norms, sl_int step) {
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+static void sli_local_refinement_step(sli_local_refinement *f, const sli_rhs *rhs,
+                    const double *norms, sl_int step) {
+  const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
   const size_t nx = (size_t)f->q->nx;
+  const sli_rhs current = sli_rhs_of(f->current, nx, rhs->B, rhs->ldb, columns);
   sl_int m, c;
-  sli_pack(f->q, f->F->kernels, v.y, B, at, lanes, columns);
+  sli_pack(f->F, f->q, v.y, &current);
   for (m = 0; m < f->count; m++) {
     for (c = 0; c < columns; c++) {
       v.y[(ptrdiff_t)f->in_y[m] * lanes + c] +=
@@ -16115,7 +16210,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
   }
   sli_sweep_forward(f->F, f->q, &v, columns);
   sli_sweep_backward(f->F, f->q, &v, columns);
-  sli_unpack(f->q, f->F->kernels, f->current, sli_dense_by_columns(nx), v.x, lanes, columns);
+  sli_unpack(f->F, f->q, &current, v.x);
   for (c = 0; c < columns; c++) {
     double error = 0.0;
     for (m = 0; m < f->count; m++) {
@@ -16137,18 +16232,18 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
   }
 }
 
-static void sli_local_refinement_norms(const sli_local_refinement *f, const double *B, size_t ldb,
-                     sl_int columns, double *norms) {
-  const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_rhs *rhs,
+                     double *norms) {
+  const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
   const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
   sl_int k, c;
   if (!f->q->b_repeats) {
     for (c = 0; c < columns; c++) {
-      norms[c] = sli_largest(f->q->nb > 0 ? B + ldb * (size_t)c : B, f->q->nb);
+      norms[c] = f->q->nb > 0 ? sli_largest(rhs->B + rhs->ldb * (size_t)c, f->q->nb) : 0.0;
     }
     return;
   }
-  sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_by_columns(ldb), lanes, columns);
+  sli_pack(f->F, f->q, v.y, rhs);
   for (c = 0; c < columns; c++) {
     norms[c] = 0.0;
   }
@@ -16159,47 +16254,44 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
   }
 }
 
-static void sli_local_refinement_block(sli_local_refinement *f, double *X, size_t ldx,
-                     const double *B, size_t ldb, sl_int columns, sl_int steps) {
-  const sli_dense at = sli_dense_by_columns(ldb);
+static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps) {
   const size_t nx = (size_t)f->q->nx;
+  const sl_int columns = rhs->nrhs;
   double norms[SLI_TILE];
   sl_int c, step, todo = columns;
-  sli_local_refinement_norms(f, B, ldb, columns, norms);
+  sli_local_refinement_norms(f, rhs, norms);
   memset(f->previous, 0, (size_t)f->count * (size_t)columns * sizeof(double));
   for (step = 0; step <= steps && todo > 0; step++) {
-    sli_local_refinement_step(f, B, at, columns, norms, step);
+    sli_local_refinement_step(f, rhs, norms, step);
     for (c = 0, todo = 0; c < columns; c++) {
       todo += !f->is_done[c];
     }
   }
   for (c = 0; c < columns; c++) {
-    memcpy(X + ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
+    memcpy(rhs->X + rhs->ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
   }
 }
 
-static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx, const double *B,
-                  size_t ldb, sl_int nrhs, sl_int steps, sl_work *W,
-                  sl_stats *stats) {
+static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
+                  sl_work *W, sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   double worst = 0.0;
   sl_status status;
   sl_int r, c;
-  sli_local_refinement_layout(f, &b, nrhs);
+  sli_local_refinement_layout(f, &b, rhs->nrhs);
   status = sli_work_block(W, &b);
   if (status != SL_OK) {
     return status;
   }
-  sli_local_refinement_layout(f, &b, nrhs);
+  sli_local_refinement_layout(f, &b, rhs->nrhs);
   c = sli_local_refinement_find(f);
   if (c != -1) {
     return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
   }
-  for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
-    const sl_int columns = sli_min(8, nrhs - r);
-    sli_local_refinement_block(f, X + ldx * (size_t)r, ldx,
-                   f->q->nb > 0 ? B + ldb * (size_t)r : B, ldb, columns, steps);
-    for (c = 0; c < columns; c++) {
+  for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
+    const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
+    sli_local_refinement_block(f, &block, steps);
+    for (c = 0; c < block.nrhs; c++) {
       worst = sli_max_error(f->error[c], worst);
     }
   }
@@ -16209,6 +16301,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
 SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                      const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                      sl_work *W, sl_stats *stats) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_local_refinement f;
   sl_work own;
   sl_status status;
@@ -16216,12 +16309,12 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   if (P == NULL || F == NULL || steps < 0) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_check_dense_columns(X, ldx, P->query.nx, B, ldb, P->query.nb, nrhs);
+  status = sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb);
   if (status != SL_OK) {
     return status;
   }
   if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
-    status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
+    status = sli_solve(F, &P->query, &rhs, W);
     return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
   }
   if (!sli_query_fits(&P->query, F)) {
@@ -16236,7 +16329,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   f.room = sli_min(F->stats.factor.regularized,
            sli_min(P->query.forward.columns, P->query.backward.columns));
   own = sli_work_own(&F->allocator);
-  status = sli_local_refine(&f, X, ldx, B, ldb, nrhs, steps, W == NULL ? &own : W, stats);
+  status = sli_local_refine(&f, &rhs, steps, W == NULL ? &own : W, stats);
   sli_free(&own.allocator, own.block);
   return status;
 }
@@ -16286,7 +16379,7 @@ static double sli_norm_estimate_solve(sli_norm_estimate *p) {
   double sum = 0.0, error;
   sl_int k;
   memcpy(p->residual, p->v, (size_t)n * sizeof(double));
-  sli_forward_sweep(F, SLI_NRHS_1, p->all.count, p->all.steps, p->all.rows, p->v, p->scratch);
+  sli_forward_sweep(F, SLI_NRHS_1, &p->all, p->v, p->scratch);
   sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
   for (k = 0; k < n; k++) {
     sum += fabs(p->v[k]);
@@ -16391,21 +16484,22 @@ SL_API sl_status sl_factor_rcond(const sl_factor *F, const sl_csc *A, double *rc
 
 /* src/impl/accuracy/defects.h: sl_factor_defects: by how much right-hand sides are inconsistent */
 
-static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
-            const double *B, size_t ldb, sl_int nrhs, void *memory) {
+static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, void *memory) {
   sl_int c, r, m;
-  for (c = 0; c < nrhs; c += sli_min(8, nrhs - c)) {
-    const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
-    const sli_vectors v = sli_vectors_of(q, block, memory);
-    sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_by_columns(ldb), lanes, block);
+  for (c = 0; c < rhs->nrhs; c += sli_min(8, rhs->nrhs - c)) {
+    const sli_rhs block = sli_rhs_part(rhs, c, sli_min(8, rhs->nrhs - c));
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(block.nrhs);
+    const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
+    const sli_packed b = sli_packed_of(&q->forward, v.y, lanes);
+    sli_pack(F, q, v.y, &block);
     if (F->null.vectors > 1) {
-      (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
+      (void)sli_null_dots(F, &b, NULL, block.X, block.ldx, block.nrhs);
     }
-    sli_sweep_forward(F, q, &v, block);
+    sli_sweep_forward(F, q, &v, block.nrhs);
     for (m = 0; m < F->null.count; m++) {
       const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
-      for (r = 0; r < block && !is_known; r++) {
-        Y[(size_t)m + (size_t)(c + r) * ldy] =
+      for (r = 0; r < block.nrhs && !is_known; r++) {
+        block.X[(size_t)m + (size_t)r * block.ldx] =
           v.y[(ptrdiff_t)F->null.pivots[m] * lanes + r];
       }
     }
@@ -16414,6 +16508,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
 
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
                    size_t ldb, sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(Y, ldy, B, ldb, nrhs);
   sli_block b = {NULL, 0, 0};
   sl_work own;
   sli_query q;
@@ -16424,7 +16519,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   if (!F->is_valid) {
     return SL_ERR_STATE;
   }
-  status = sli_check_dense_columns(Y, ldy, F->null.count, B, ldb, F->S->n, nrhs);
+  status = sli_rhs_check_columns(&rhs, F->null.count, F->S->n);
   if (status != SL_OK || (Y == B && Y != NULL)) {
     return SL_ERR_ARGUMENT;
   }
@@ -16437,7 +16532,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   b.used = sli_vectors_bytes(&q, nrhs, 8);
   status = sli_work_block(W, &b);
   if (status == SL_OK) {
-    sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);
+    sli_defects(F, &q, &rhs, W->block);
   }
   sli_free(&own.allocator, own.block);
   return status;
@@ -18156,7 +18251,7 @@ static void sli_forward_clear(sli_forward *f, sl_int vectors) {
 }
 
 static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats) {
-  sli_forward_sweep(F, f->kind, f->reach.count, f->reach.steps, f->reach.rows, f->y, f->scratch);
+  sli_forward_sweep(F, f->kind, &f->reach, f->y, f->scratch);
   if (stats != NULL) {
     stats->inverse.method = SL_INVERSE_FORWARD;
     stats->inverse.supernodes = sli_max(stats->inverse.supernodes, f->reach.count);
@@ -20652,7 +20747,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
   sl_int s, j, k, r;
   memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
   memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
-  sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
+  sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
   u->is_trial = 1;
   for (s = 0; s < R->count; s++) {
     const sli_step *step = &R->steps[s];
@@ -21854,7 +21949,7 @@ static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
     pin->y[sli_reach_index_of(&pin->R, column)] +=
       sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
   }
-  sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
+  sli_forward_sweep(F, SLI_NRHS_1, &pin->R, pin->y, scratch);
   sli_pin_clear_nulls(P, pin, &pin->R, pin->y, 1);
   f.reach = pin->R;
   f.lanes = 1;
@@ -22249,19 +22344,20 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
   return SL_OK;
 }
 
-static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
-              const double *b, sl_int lanes, const double *norms) {
+static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
+              const double *norms) {
   const sl_factor *F = P->base;
-  const sli_reach *R = &q->forward;
-  sl_int first = 0, s, m, k, r;
+  const sli_reach *R = b->R;
+  const sl_int lanes = b->lanes;
+  sl_int first = 0, s, k, r;
   memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
   for (s = 0; s < R->count && (w->count > 0 || F->null.checks); s++) {
     sli_null_dot dot;
     if (R->steps[s].up != -1) {
       continue;
     }
-    m = sli_null_first(F, R, s);
-    while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+    dot.next = sli_null_first(F, R, s);
+    while (sli_null_dot_next(F, b, first, s, &dot)) {
       if (P->uses[dot.number] > 0) {
         memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
              (size_t)lanes * sizeof(double));
@@ -22278,7 +22374,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
   for (k = 0; k < w->count; k++) {
     const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
     if (at != -1 && sli_null_column(F, null) == -1) {
-      memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
+      memcpy(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes,
            (size_t)lanes * sizeof(double));
     }
   }
@@ -22930,12 +23026,11 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
     for (k = 0; k < S->n; k++) {
       x[k] = y[k] = rows[k].product;
     }
-    sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, x, scratch);
+    sli_forward_sweep(F, SLI_NRHS_1, &all, x, scratch);
     for (k = 0; k < F->null.count; k++) {
       x[F->null.pivots[k]] = 0.0;
     }
-    sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, x,
-               scratch);
+    sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, x, scratch);
     (void)sli_null_product(S, from, 0, rows, x, diagonal);
     for (k = 0; k < S->n; k++) {
       most = fmax(most, sqrt(fabs(diagonal[k])) * fabs(x[k]));
@@ -23305,26 +23400,30 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
 
 /* src/impl/change/pins_solve.h: sl_pins_solve: solves with rows held */
 
-typedef struct sli_pins_work {
+typedef struct sli_pins_solve {
+  const sl_pins *P;
+  const sli_query *q;
+  int is_whole;
+  sli_rhs rhs;
+  const double *G;
+  size_t ldg;
+  sl_int lanes;
   unsigned char *memory;
   double *largest;
   double *f;
   double *e;
   double *scratch;
   sli_pins_nulls nulls;
-} sli_pins_work;
+} sli_pins_solve;
 
-SLI_INLINE int sli_pins_is_whole(const sli_query *q) {
-  return q->forward.steps == q->S->steps;
-}
-
-static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, const sli_query *q,
-              sl_int nrhs) {
+static void sli_pins_layout(sli_pins_solve *w, sli_block *b, sl_int nrhs) {
+  const sl_pins *P = w->P;
+  const sli_query *q = w->q;
   const sl_int lanes = (sl_int)1 << sli_lanes_kind(sli_min(nrhs, 8));
   w->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(q, nrhs, 8), 1);
   w->largest = SLI_TAKE(b, double, (uint64_t)q->backward.count *(uint64_t)lanes);
   w->f = SLI_TAKE(b, double, SLI_TILE *(uint64_t)P->n_pins);
-  if (P->n_held > 0 && !sli_pins_is_whole(q)) {
+  if (P->n_held > 0 && !w->is_whole) {
     const sli_reach *R = &P->held_reach;
     w->e = SLI_TAKE(b, double, (uint64_t)R->columns *(uint64_t)lanes);
     w->scratch = SLI_TAKE(b, double,
@@ -23334,26 +23433,27 @@ static void sli_pins_layout(sli_pins_work *w, sli_block *b, const sl_pins *P, co
   sli_pins_nulls_layout(&w->nulls, b, P);
 }
 
-static void sli_pins_couple(const sl_pins *P, double *y, int is_whole, const double *G, size_t ldg,
-              sl_int lanes, sl_int nrhs) {
-  const sl_int *to = is_whole ? P->coupling_column : P->coupling_to;
+static void sli_pins_couple(const sli_pins_solve *w, double *y) {
+  const sl_pins *P = w->P;
+  const sl_int *to = w->is_whole ? P->coupling_column : P->coupling_to;
   sl_int k, r;
   for (k = 0; k < P->n_couplings; k++) {
-    const double *g = G + P->held_pin[P->coupling_from[k]];
-    for (r = 0; r < nrhs; r++) {
-      y[(ptrdiff_t)to[k] * lanes + r] -= P->couplings[k] * g[ldg * (size_t)r];
+    const double *g = w->G + P->held_pin[P->coupling_from[k]];
+    for (r = 0; r < w->rhs.nrhs; r++) {
+      y[(ptrdiff_t)to[k] * w->lanes + r] -= P->couplings[k] * g[w->ldg * (size_t)r];
     }
   }
 }
 
-static void sli_pins_set_held(const sl_pins *P, const sli_reach *R, double *x, sl_int lanes,
-                const double *G, size_t ldg, sl_int nrhs) {
+static void sli_pins_set_held(const sli_pins_solve *w, const sli_reach *R, double *x,
+                const double *G) {
+  const sl_pins *P = w->P;
   sl_int k, r;
   for (k = 0; k < P->n_held; k++) {
     const sl_int at = sli_reach_index_of(R, P->held[k]);
-    for (r = 0; r < lanes && at != -1; r++) {
-      x[(ptrdiff_t)at * lanes + r] =
-        G != NULL && r < nrhs ? G[(size_t)P->held_pin[k] + ldg * (size_t)r] : 0.0;
+    for (r = 0; r < w->lanes && at != -1; r++) {
+      x[(ptrdiff_t)at * w->lanes + r] =
+        G != NULL && r < w->rhs.nrhs ? G[(size_t)P->held_pin[k] + w->ldg * (size_t)r] : 0.0;
     }
   }
 }
@@ -23370,20 +23470,18 @@ static void sli_pins_clear_rows(const sl_pins *P, const sli_reach *R, double *b,
   }
 }
 
-static void sli_pins_spread(const sl_pins *P, const sli_pins_work *w, const double *G, size_t ldg,
-              sl_int nrhs) {
+static void sli_pins_spread(const sli_pins_solve *w) {
+  const sl_pins *P = w->P;
   const sli_reach *R = &P->held_reach;
-  const int kind = sli_lanes_kind(nrhs);
-  const sl_int lanes = (sl_int)1 << kind;
-  memset(w->e, 0, (size_t)R->columns * (size_t)lanes * sizeof(double));
-  sli_pins_couple(P, w->e, 0, G, ldg, lanes, nrhs);
-  sli_forward_sweep(P->base, kind, R->count, R->steps, R->rows, w->e, w->scratch);
-  (void)sli_pins_clear(P, R, w->e, lanes, NULL);
+  memset(w->e, 0, (size_t)R->columns * (size_t)w->lanes * sizeof(double));
+  sli_pins_couple(w, w->e);
+  sli_forward_sweep(P->base, sli_lanes_kind(w->rhs.nrhs), R, w->e, w->scratch);
+  (void)sli_pins_clear(P, R, w->e, w->lanes, NULL);
 }
 
-static void sli_pins_join(const sl_pins *P, const sli_query *q, const sli_pins_work *w, double *x,
-              sl_int lanes) {
-  sli_intersection m = sli_intersection_of(&P->held_reach, &q->backward);
+static void sli_pins_join(const sli_pins_solve *w, double *x) {
+  sli_intersection m = sli_intersection_of(&w->P->held_reach, &w->q->backward);
+  const sl_int lanes = w->lanes;
   sl_int k;
   while (sli_intersection_next(&m)) {
     const double *e = w->e + (ptrdiff_t)m.in_a * lanes;
@@ -23394,14 +23492,15 @@ static void sli_pins_join(const sl_pins *P, const sli_query *q, const sli_pins_w
   }
 }
 
-static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
-              const double *y, const double *G, size_t ldg, sl_int lanes, sl_int nrhs) {
+static void sli_pins_load(const sli_pins_solve *w, const double *y) {
+  const sl_pins *P = w->P;
+  const sl_int lanes = w->lanes, nrhs = w->rhs.nrhs;
   sl_int p, r, k;
   for (p = 0; p < P->n_pins; p++) {
     const sli_pin *pin = P->pins[p];
     double sums[SLI_TILE], more[SLI_TILE], *f = w->f + (ptrdiff_t)p * lanes;
-    sli_pin_dot(pin, &q->forward, y, lanes, sums);
-    if (P->n_held > 0 && !sli_pins_is_whole(q)) {
+    sli_pin_dot(pin, &w->q->forward, y, lanes, sums);
+    if (P->n_held > 0 && !w->is_whole) {
       sli_pin_dot(pin, &P->held_reach, w->e, lanes, more);
       for (r = 0; r < lanes; r++) {
         sums[r] += more[r];
@@ -23414,12 +23513,12 @@ static void sli_pins_load(const sl_pins *P, const sli_query *q, const sli_pins_w
       }
     }
     for (r = 0; r < lanes; r++) {
-      f[r] = r < nrhs ? G[(size_t)pin->index + ldg * (size_t)r] - sums[r] : 0.0;
+      f[r] = r < nrhs ? w->G[(size_t)pin->index + w->ldg * (size_t)r] - sums[r] : 0.0;
     }
     for (k = 0; k < pin->count && P->n_held > 0; k++) {
       const sl_int at = sli_held_find(P, P->F->S->iperm[pin->rows[k]]);
       for (r = 0; r < nrhs && at != -1; r++) {
-        f[r] -= pin->values[k] * G[(size_t)P->held_pin[at] + ldg * (size_t)r];
+        f[r] -= pin->values[k] * w->G[(size_t)P->held_pin[at] + w->ldg * (size_t)r];
       }
     }
   }
@@ -23447,14 +23546,15 @@ static void sli_pins_largest(const sli_reach *R, const double *x, double *larges
   }
 }
 
-static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
-             const double *largest, const double *G, size_t ldg, sl_int lanes,
-             sl_int nrhs) {
+static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
+  const sl_pins *P = w->P;
+  const sli_reach *R = &w->q->backward;
+  const sl_int lanes = w->lanes;
   sl_int p, r, k;
-  for (r = 0; r < nrhs; r++) {
+  for (r = 0; r < w->rhs.nrhs; r++) {
     for (p = 0; p < P->n_pins; p++) {
       const sli_pin *pin = P->pins[p];
-      const double g = G[(size_t)pin->index + ldg * (size_t)r];
+      const double g = w->G[(size_t)pin->index + w->ldg * (size_t)r];
       double sum = -g, size = 0.0;
       sl_int s = 0;
       for (k = 0; k < pin->count && s != -1; k++) {
@@ -23463,7 +23563,7 @@ static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
         if (s != -1) {
           const sl_int at = R->steps[s].base + column - R->steps[s].column;
           sum += pin->values[k] * x[(ptrdiff_t)at * lanes + r];
-          size += fabs(pin->values[k]) * largest[(ptrdiff_t)s * lanes + r];
+          size += fabs(pin->values[k]) * w->largest[(ptrdiff_t)s * lanes + r];
         }
       }
       if (s != -1 && fabs(sum) > SLI_PINS_LOST * (size + fabs(g))) {
@@ -23474,40 +23574,52 @@ static int sli_pins_hold(const sl_pins *P, const sli_reach *R, const double *x,
   return 1;
 }
 
-static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_pins_work *w,
-                double *X, sli_dense x_at, const double *B, sli_dense b_at,
-                const double *G, size_t ldg, sl_int nrhs) {
+static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, double *norms) {
+  const sl_pins *P = w->P;
   const sl_factor *F = P->base;
-  const sli_vectors v = sli_vectors_of(q, nrhs, w->memory);
-  const int kind = sli_lanes_kind(nrhs), is_whole = sli_pins_is_whole(q);
+  const sli_reach *R = &w->q->forward;
+  const sli_packed b = sli_packed_of(R, v->y, w->lanes);
+  sli_pack(F, w->q, v->y, &w->rhs);
+  sli_pins_set_held(w, R, v->y, NULL);
+  sli_pins_clear_rows(P, R, v->y, w->lanes);
+  if (F->null.count > 0) {
+    sli_norms(&b, norms);
+  }
+  if (!sli_pins_defects(P, &w->nulls, &b, norms)) {
+    return 0;
+  }
+  if (w->is_whole) {
+    sli_pins_couple(w, v->y);
+  }
+  sli_sweep_forward(F, w->q, v, w->rhs.nrhs);
+  if (!sli_pins_clear(P, R, v->y, w->lanes, norms)) {
+    return 0;
+  }
+  if (P->n_held > 0 && !w->is_whole) {
+    sli_pins_spread(w);
+  }
+  sli_pins_load(w, v->y);
+  return 1;
+}
+
+static sl_status sli_pins_block(sli_pins_solve *w) {
+  const sl_pins *P = w->P;
+  const sli_query *q = w->q;
+  const sl_factor *F = P->base;
+  const sli_vectors v = sli_vectors_of(q, w->rhs.nrhs, w->memory);
+  const int kind = sli_lanes_kind(w->rhs.nrhs);
   const sl_int lanes = (sl_int)1 << kind;
   double norms[SLI_TILE];
   sl_int p;
-  sli_pack(q, F->kernels, v.y, B, b_at, lanes, nrhs);
-  sli_pins_set_held(P, &q->forward, v.y, lanes, NULL, 0, 0);
-  sli_pins_clear_rows(P, &q->forward, v.y, lanes);
-  if (F->null.count > 0) {
-    sli_norms(&q->forward, v.y, lanes, norms);
-  }
-  if (!sli_pins_defects(P, q, &w->nulls, v.y, lanes, norms)) {
+  w->lanes = lanes;
+  if (!sli_pins_forward(w, &v, norms)) {
     return SL_ERR_INCONSISTENT;
   }
-  if (is_whole) {
-    sli_pins_couple(P, v.y, 1, G, ldg, lanes, nrhs);
-  }
-  sli_sweep_forward(F, q, &v, nrhs);
-  if (!sli_pins_clear(P, &q->forward, v.y, lanes, norms)) {
-    return SL_ERR_INCONSISTENT;
-  }
-  if (P->n_held > 0 && !is_whole) {
-    sli_pins_spread(P, w, G, ldg, nrhs);
-  }
-  sli_pins_load(P, q, w, v.y, G, ldg, lanes, nrhs);
   if (!q->is_shared) {
     sli_sweep_transfer(q, v.y, v.x, lanes);
   }
-  if (P->n_held > 0 && !is_whole) {
-    sli_pins_join(P, q, w, v.x, lanes);
+  if (P->n_held > 0 && !w->is_whole) {
+    sli_pins_join(w, v.x);
   }
   sli_pins_apply(P, w->f, lanes);
   if (!sli_pins_balance(P, &w->nulls, w->f, lanes, norms)) {
@@ -23517,26 +23629,29 @@ static sl_status sli_pins_block(const sl_pins *P, const sli_query *q, const sli_
     sli_pin_add(P->pins[p], &q->backward, v.x, lanes, w->f + p * lanes);
   }
   if (F->null.is_centered) {
-    sli_center(F, &q->forward, v.y, &q->backward, v.x, lanes, P->uses);
+    const sli_packed y = sli_packed_of(&q->forward, v.y, lanes);
+    const sli_packed x = sli_packed_of(&q->backward, v.x, lanes);
+    sli_center(F, &y, &x, P->uses);
   }
   sli_backward(F, &q->backward, kind, v.x, v.scratch);
   sli_pins_shift(P, q, &w->nulls, v.x, lanes);
-  sli_pins_set_held(P, &q->backward, v.x, lanes, G, ldg, nrhs);
+  sli_pins_set_held(w, &q->backward, v.x, w->G);
   if (P->n_pins > 0) {
     sli_pins_largest(&q->backward, v.x, w->largest, lanes);
   }
-  if (!sli_pins_hold(P, &q->backward, v.x, w->largest, G, ldg, lanes, nrhs)) {
+  if (!sli_pins_hold(w, v.x)) {
     return SL_ERR_INACCURATE;
   }
-  sli_unpack(q, F->kernels, X, x_at, v.x, lanes, nrhs);
+  sli_unpack(F, q, &w->rhs, v.x);
   return SL_OK;
 }
 
 SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X, size_t ldx,
                  const double *B, size_t ldb, const double *G, size_t ldg,
                  sl_int nrhs, sl_work *W) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
   sli_block counted = {NULL, 0, 0};
-  sli_pins_work w;
+  sli_pins_solve w;
   sli_query all;
   const sli_query *q = plan == NULL ? &all : &plan->query;
   sl_work own;
@@ -23546,7 +23661,7 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
     return SL_ERR_ARGUMENT;
   }
   all = sli_query_all(P->F->S);
-  status = sli_check_dense_columns(X, ldx, q->nx, B, ldb, q->nb, nrhs);
+  status = sli_rhs_check_columns(&rhs, q->nx, q->nb);
   if (status != SL_OK || (nrhs > 0 && P->count > 0 && (G == NULL || !sli_is_ld(ldg, P->count)))) {
     return SL_ERR_ARGUMENT;
   }
@@ -23561,16 +23676,19 @@ SL_API sl_status sl_pins_solve(const sl_pins *P, const sl_plan *plan, double *X,
   }
   own = sli_work_own(&P->allocator);
   W = W == NULL ? &own : W;
-  sli_pins_layout(&w, &counted, P, q, nrhs);
+  w.P = P;
+  w.q = q;
+  w.is_whole = q->forward.steps == q->S->steps;
+  w.ldg = ldg;
+  sli_pins_layout(&w, &counted, nrhs);
   status = sli_work_block(W, &counted);
   if (status == SL_OK) {
-    sli_pins_layout(&w, &counted, P, q, nrhs);
+    sli_pins_layout(&w, &counted, nrhs);
     status = sli_pins_nulls_factor(&w.nulls, P);
     for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
-      const sl_int block = sli_min(8, nrhs - r);
-      status = sli_pins_block(P, q, &w, X + (size_t)r * ldx, sli_dense_by_columns(ldx),
-                  q->nb == 0 ? B : B + (size_t)r * ldb, sli_dense_by_columns(ldb),
-                  P->count == 0 ? G : G + (size_t)r * ldg, ldg, block);
+      w.rhs = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
+      w.G = P->count == 0 ? G : G + (size_t)r * ldg;
+      status = sli_pins_block(&w);
     }
   }
   sli_free(&own.allocator, own.block);
@@ -29268,13 +29386,12 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
                      const sli_query *q, sl_int first, sl_int last,
                      void *memory) {
   const sl_factor *F = sli_request_factor(b, r);
-  const sli_dense x_at = sli_dense_of(r->ldx), b_at = sli_dense_of(r->ldb);
-  const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
+  const sli_rhs all = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
+  const sli_rhs part = sli_rhs_part(&all, first, last - first);
   if (b->only_checks) {
-    return F->null.checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
+    return F->null.checks ? sli_sweep_check(F, q, &part, memory) : SL_OK;
   }
-  return sli_sweep_blocks(F, q, r->X + (size_t)first * x_at.column, x_at, B, b_at, last - first,
-              memory);
+  return sli_sweep_blocks(F, q, &part, memory);
 }
 
 static void sli_solve_batch_worker(void *data, sl_int k) {
@@ -29319,6 +29436,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
   for (*at = 0; *at < b->count; ++*at) {
     const sl_request *r = &b->requests[*at];
     const sl_factor *F = sli_request_factor(b, r);
+    const sli_rhs rhs = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
     sli_query q;
     size_t bytes;
     sl_status status;
@@ -29326,7 +29444,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
       return SL_ERR_ARGUMENT;
     }
     q = sli_request_query(F, r);
-    status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
+    status = sli_rhs_check(&rhs, q.nx, q.nb);
     if (status != SL_OK) {
       return status;
     }

@@ -5,22 +5,23 @@
 #include "../../public/accuracy.h"
 #include "../solve/sweep.h"
 
-/* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides. */
-static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_t ldy,
-                        const double *B, size_t ldb, sl_int nrhs, void *memory) {
+/* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides; Y is rhs->X. */
+static void sli_defects(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, void *memory) {
     sl_int c, r, m;
-    for (c = 0; c < nrhs; c += sli_min(8, nrhs - c)) {
-        const sl_int block = sli_min(8, nrhs - c), lanes = (sl_int)1 << sli_lanes_kind(block);
-        const sli_vectors v = sli_vectors_of(q, block, memory);
-        sli_pack(q, F->kernels, v.y, B + (size_t)c * ldb, sli_dense_by_columns(ldb), lanes, block);
+    for (c = 0; c < rhs->nrhs; c += sli_min(8, rhs->nrhs - c)) {
+        const sli_rhs block = sli_rhs_part(rhs, c, sli_min(8, rhs->nrhs - c));
+        const sl_int lanes = (sl_int)1 << sli_lanes_kind(block.nrhs);
+        const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
+        const sli_packed b = sli_packed_of(&q->forward, v.y, lanes);
+        sli_pack(F, q, v.y, &block);
         if (F->null.vectors > 1) {
-            (void)sli_null_dots(F, &q->forward, v.y, lanes, NULL, Y + (size_t)c * ldy, ldy, block);
+            (void)sli_null_dots(F, &b, NULL, block.X, block.ldx, block.nrhs);
         }
-        sli_sweep_forward(F, q, &v, block);
+        sli_sweep_forward(F, q, &v, block.nrhs);
         for (m = 0; m < F->null.count; m++) {
             const int is_known = F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
-            for (r = 0; r < block && !is_known; r++) {
-                Y[(size_t)m + (size_t)(c + r) * ldy] =
+            for (r = 0; r < block.nrhs && !is_known; r++) {
+                block.X[(size_t)m + (size_t)r * block.ldx] =
                     v.y[(ptrdiff_t)F->null.pivots[m] * lanes + r];
             }
         }
@@ -29,6 +30,7 @@ static void sli_defects(const sl_factor *F, const sli_query *q, double *Y, size_
 
 SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, const double *B,
                                    size_t ldb, sl_int nrhs, sl_work *W) {
+    const sli_rhs rhs = sli_rhs_of(Y, ldy, B, ldb, nrhs);
     sli_block b = {NULL, 0, 0};
     sl_work own;
     sli_query q;
@@ -39,7 +41,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     if (!F->is_valid) {
         return SL_ERR_STATE;
     }
-    status = sli_check_dense_columns(Y, ldy, F->null.count, B, ldb, F->S->n, nrhs);
+    status = sli_rhs_check_columns(&rhs, F->null.count, F->S->n);
     if (status != SL_OK || (Y == B && Y != NULL)) {
         return SL_ERR_ARGUMENT;
     }
@@ -52,7 +54,7 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
     b.used = sli_vectors_bytes(&q, nrhs, 8);
     status = sli_work_block(W, &b);
     if (status == SL_OK) {
-        sli_defects(F, &q, Y, ldy, B, ldb, nrhs, W->block);
+        sli_defects(F, &q, &rhs, W->block);
     }
     sli_free(&own.allocator, own.block);
     return status;

@@ -98,9 +98,12 @@ static void sli_parts_scale(const sli_parts *p, double *x, sl_int lanes) {
     }
 }
 
-/* Column j of a panel in a product: x(i) += l(i,j) x(j) for its rows i, or x(j) += l(i,j) x(i). */
-static void sli_column_multiply(const sl_factor *F, const sli_step *step, const sl_int *rows,
-                                sl_int j, int is_transposed, double *x, sl_int lanes) {
+/* Column j of supernode s in a product: x(i) += l(i,j) x(j) for its rows i, or
+ * x(j) += l(i,j) x(i). */
+static void sli_column_multiply(const sl_factor *F, sl_int s, sl_int j, int is_transposed,
+                                double *x, sl_int lanes) {
+    const sli_step *step = &F->S->steps[s];
+    const sl_int *rows = F->S->rows + F->S->rows_begin[s];
     double *xj = x + (ptrdiff_t)(step->base + j) * lanes;
     sl_int i, r;
     for (i = j + 1; i < step->width + step->below; i++) {
@@ -126,8 +129,7 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
         s = is_transposed ? at : S->n_supers - 1 - at;
         for (k = 0; k < S->steps[s].width; k++) {
             j = is_transposed ? k : S->steps[s].width - 1 - k;
-            sli_column_multiply(F, &S->steps[s], S->rows + S->rows_begin[s], j, is_transposed, x,
-                                lanes);
+            sli_column_multiply(F, s, j, is_transposed, x, lanes);
         }
     }
 }
@@ -135,13 +137,13 @@ static void sli_lower_multiply(const sl_factor *F, int is_transposed, double *x,
 /* Applies the parts to one packed block. */
 static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) {
     const sl_factor *F = p->F;
-    const sli_reach *R = &p->q.backward;
+    sli_reach R = p->q.backward;
     const sl_int lanes = (sl_int)1 << kind;
     if (p->is_product && p->parts & SL_PART_LT) {
         sli_lower_multiply(F, 1, v->x, lanes);
     }
     if (!p->is_product && p->parts & SL_PART_L) {
-        sli_forward_sweep(F, kind, R->count, R->steps, R->rows, v->x, v->scratch);
+        sli_forward_sweep(F, kind, &R, v->x, v->scratch);
     }
     if (p->parts & (SL_PART_D | SL_PART_SQRT_D)) {
         sli_parts_scale(p, v->x, lanes);
@@ -150,8 +152,8 @@ static void sli_parts_apply(const sli_parts *p, const sli_vectors *v, int kind) 
         sli_lower_multiply(F, 0, v->x, lanes);
     }
     if (!p->is_product && p->parts & SL_PART_LT) {
-        sli_backward_sweep(F, kind, R->count, p->steps, R->rows + R->n_rows, p->ones, v->x,
-                           v->scratch);
+        R.steps = p->steps;
+        sli_backward_sweep(F, kind, &R, p->ones, v->x, v->scratch);
     }
 }
 
@@ -171,11 +173,9 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
 }
 
 /* Runs a call whose query is set. */
-static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double *B, size_t ldb,
-                               sl_int nrhs, sl_work *W) {
-    const sli_dense x_at = sli_dense_of(ldx);
-    const sli_dense b_at = sli_dense_of(ldb);
-    sl_status status = sli_check_dense(X, ldx, p->q.nx, B, ldb, p->q.nb, nrhs);
+static sl_status sli_parts_run(sli_parts *p, const sli_rhs *rhs, sl_work *W) {
+    const sl_int nrhs = rhs->nrhs;
+    sl_status status = sli_rhs_check(rhs, p->q.nx, p->q.nb);
     sli_block b = {NULL, 0, 0};
     sl_work own;
     sl_int r;
@@ -192,21 +192,18 @@ static sl_status sli_parts_run(sli_parts *p, double *X, size_t ldx, const double
         sli_parts_fill(p);
     }
     for (r = 0; r < nrhs && status == SL_OK; r += sli_min(8, nrhs - r)) {
-        const sl_int block = sli_min(8, nrhs - r);
-        const int kind = sli_lanes_kind(block);
-        const sli_vectors v = sli_vectors_of(&p->q, block, p->memory);
-        sli_pack(&p->q, p->F->kernels, v.y, B + (size_t)r * b_at.column, b_at, (sl_int)1 << kind,
-                 block);
-        sli_parts_apply(p, &v, kind);
-        sli_unpack(&p->q, p->F->kernels, X + (size_t)r * x_at.column, x_at, v.x, (sl_int)1 << kind,
-                   block);
+        const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, nrhs - r));
+        const sli_vectors v = sli_vectors_of(&p->q, block.nrhs, p->memory);
+        sli_pack(p->F, &p->q, v.y, &block);
+        sli_parts_apply(p, &v, sli_lanes_kind(block.nrhs));
+        sli_unpack(p->F, &p->q, &block, v.x);
     }
     sli_free(&own.allocator, own.block);
     return status;
 }
 
-static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product, double *X,
-                                 size_t ldx, const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
+static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_product,
+                                 const sli_rhs *rhs, sl_work *W) {
     sli_query all;
     sli_parts p;
     if (F == NULL) {
@@ -218,17 +215,19 @@ static sl_status sli_factor_part(const sl_factor *F, unsigned parts, int is_prod
     p.parts = parts;
     p.is_product = is_product;
     p.q = sli_parts_query(&all, &all.forward, (parts & SL_PART_P) != 0, (parts & SL_PART_PT) != 0);
-    return sli_parts_run(&p, X, ldx, B, ldb, nrhs, W);
+    return sli_parts_run(&p, rhs, W);
 }
 
 SL_API sl_status sl_factor_solve_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
                                       const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    return sli_factor_part(F, parts, 0, X, ldx, B, ldb, nrhs, W);
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    return sli_factor_part(F, parts, 0, &rhs, W);
 }
 
 SL_API sl_status sl_factor_multiply_part(const sl_factor *F, unsigned parts, double *X, size_t ldx,
                                          const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    return sli_factor_part(F, parts, 1, X, ldx, B, ldb, nrhs, W);
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    return sli_factor_part(F, parts, 1, &rhs, W);
 }
 
 SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsigned parts, double *X,
@@ -236,6 +235,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
                                     sl_work *W) {
     const unsigned ends = parts & ~(unsigned)(SL_PART_D | SL_PART_SQRT_D);
     const int is_forward = ends == (SL_PART_P | SL_PART_L);
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_parts p;
     if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
         return SL_ERR_ARGUMENT;
@@ -251,7 +251,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
     p.parts = parts;
     p.q = sli_parts_query(&P->query, is_forward ? &P->query.forward : &P->query.backward,
                           is_forward, !is_forward);
-    return sli_parts_run(&p, X, ldx, B, ldb, nrhs, W);
+    return sli_parts_run(&p, &rhs, W);
 }
 
 SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns, sl_int capacity,

@@ -57,7 +57,7 @@ static double sli_norm_estimate_solve(sli_norm_estimate *p) {
     double sum = 0.0, error;
     sl_int k;
     memcpy(p->residual, p->v, (size_t)n * sizeof(double));
-    sli_forward_sweep(F, SLI_NRHS_1, p->all.count, p->all.steps, p->all.rows, p->v, p->scratch);
+    sli_forward_sweep(F, SLI_NRHS_1, &p->all, p->v, p->scratch);
     sli_backward(F, &p->all, SLI_NRHS_1, p->v, p->scratch);
     for (k = 0; k < n; k++) {
         sum += fabs(p->v[k]);

@@ -64,13 +64,13 @@ static double sli_row_error(const sli_refinement *f, double *r, const double *x,
 /* R := A^-1 R by the factor, whether consistent or not. */
 static void sli_correct(const sli_refinement *f, sl_int columns) {
     const sli_query q = sli_query_all(f->F->S);
-    const sli_dense at = sli_dense_by_columns((size_t)f->F->S->n);
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+    const size_t n = (size_t)f->F->S->n;
+    const sli_rhs rhs = sli_rhs_of(f->R, n, f->R, n, columns);
     const sli_vectors v = sli_vectors_of(&q, columns, f->memory);
-    sli_pack(&q, f->F->kernels, v.y, f->R, at, lanes, columns);
+    sli_pack(f->F, &q, v.y, &rhs);
     sli_sweep_forward(f->F, &q, &v, columns);
     sli_sweep_backward(f->F, &q, &v, columns);
-    sli_unpack(&q, f->F->kernels, f->R, at, v.x, lanes, columns);
+    sli_unpack(f->F, &q, &rhs, v.x);
 }
 
 /* Applies the correction of column c, already in R. The column is done once a correction does not
@@ -97,23 +97,23 @@ static int sli_refine_column(sli_refinement *f, sl_int c, double *x, const doubl
     return is_kept;
 }
 
-static void sli_refine_block(sli_refinement *f, double *X, size_t ldx, const double *B, size_t ldb,
-                             sl_int columns, sl_int steps) {
+static void sli_refine_block(sli_refinement *f, const sli_rhs *rhs, sl_int steps) {
     const size_t n = (size_t)f->F->S->n;
     sl_int c, step, todo = 0;
-    for (c = 0; c < columns; c++) {
-        f->error[c] =
-            sli_row_error(f, f->R + n * (size_t)c, X + ldx * (size_t)c, B + ldb * (size_t)c);
+    for (c = 0; c < rhs->nrhs; c++) {
+        f->error[c] = sli_row_error(f, f->R + n * (size_t)c, rhs->X + rhs->ldx * (size_t)c,
+                                    rhs->B + rhs->ldb * (size_t)c);
         f->is_done[c] = f->error[c] <= DBL_EPSILON;
         f->is_slow[c] = 0;
         todo += !f->is_done[c];
     }
     for (step = 1; step <= steps && todo > 0; step++) {
-        sli_correct(f, columns);
+        sli_correct(f, rhs->nrhs);
         todo = 0;
-        for (c = 0; c < columns; c++) {
+        for (c = 0; c < rhs->nrhs; c++) {
             if (!f->is_done[c]) {
-                if (sli_refine_column(f, c, X + ldx * (size_t)c, B + ldb * (size_t)c)) {
+                if (sli_refine_column(f, c, rhs->X + rhs->ldx * (size_t)c,
+                                      rhs->B + rhs->ldb * (size_t)c)) {
                     f->steps = sli_max(f->steps, step);
                 }
                 todo += !f->is_done[c];
@@ -142,6 +142,7 @@ static sl_status sli_refine_done(const sl_factor *F, sl_stats *stats, sl_int mos
 SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X, size_t ldx,
                                   const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                                   sl_work *W, sl_stats *stats) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_block b = {NULL, 0, 0};
     sli_refinement f;
     sl_work own;
@@ -152,7 +153,7 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     if (F == NULL || steps < 0) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_check_dense_columns(X, ldx, F->S->n, B, ldb, F->S->n, nrhs);
+    status = sli_rhs_check_columns(&rhs, F->S->n, F->S->n);
     if (status != SL_OK || (X == B && nrhs > 0 && F->S->n > 0)) {
         return SL_ERR_ARGUMENT;
     }
@@ -171,9 +172,9 @@ SL_API sl_status sl_factor_refine(const sl_factor *F, const sl_csc *A, double *X
     if (status == SL_OK && nrhs > 0 && F->S->n > 0) { /* without rows all arrays are NULL */
         sli_refinement_layout(&f, &b, sli_min(nrhs, 8));
         for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
-            sli_refine_block(&f, X + ldx * (size_t)r, ldx, B + ldb * (size_t)r, ldb,
-                             sli_min(8, nrhs - r), steps);
-            for (c = 0; c < sli_min(8, nrhs - r); c++) {
+            const sli_rhs block = sli_rhs_part(&rhs, r, sli_min(8, nrhs - r));
+            sli_refine_block(&f, &block, steps);
+            for (c = 0; c < block.nrhs; c++) {
                 worst = sli_max_error(f.error[c], worst);
             }
         }

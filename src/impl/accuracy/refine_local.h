@@ -67,13 +67,14 @@ static sl_int sli_local_refinement_find(sli_local_refinement *f) {
 
 /* Solves (A + E) x = b + E x_previous, and keeps x where its residual E (x - x_previous) is the
  * least so far. */
-static void sli_local_refinement_step(sli_local_refinement *f, const double *B, sli_dense at,
-                                      sl_int columns, const double *norms, sl_int step) {
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+static void sli_local_refinement_step(sli_local_refinement *f, const sli_rhs *rhs,
+                                      const double *norms, sl_int step) {
+    const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
     const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
     const size_t nx = (size_t)f->q->nx;
+    const sli_rhs current = sli_rhs_of(f->current, nx, rhs->B, rhs->ldb, columns);
     sl_int m, c;
-    sli_pack(f->q, f->F->kernels, v.y, B, at, lanes, columns);
+    sli_pack(f->F, f->q, v.y, &current);
     for (m = 0; m < f->count; m++) {
         for (c = 0; c < columns; c++) {
             v.y[(ptrdiff_t)f->in_y[m] * lanes + c] +=
@@ -82,7 +83,7 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
     }
     sli_sweep_forward(f->F, f->q, &v, columns);
     sli_sweep_backward(f->F, f->q, &v, columns);
-    sli_unpack(f->q, f->F->kernels, f->current, sli_dense_by_columns(nx), v.x, lanes, columns);
+    sli_unpack(f->F, f->q, &current, v.x);
     for (c = 0; c < columns; c++) {
         double error = 0.0;
         for (m = 0; m < f->count; m++) {
@@ -106,18 +107,18 @@ static void sli_local_refinement_step(sli_local_refinement *f, const double *B, 
 
 /* norms(c) := the largest |b| of right-hand side c. Where the b-set repeats rows it is the largest
  * sum, which only the packed forward vector holds. */
-static void sli_local_refinement_norms(const sli_local_refinement *f, const double *B, size_t ldb,
-                                       sl_int columns, double *norms) {
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(columns);
+static void sli_local_refinement_norms(const sli_local_refinement *f, const sli_rhs *rhs,
+                                       double *norms) {
+    const sl_int columns = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(columns);
     const sli_vectors v = sli_vectors_of(f->q, columns, f->memory);
     sl_int k, c;
     if (!f->q->b_repeats) {
         for (c = 0; c < columns; c++) {
-            norms[c] = sli_largest(f->q->nb > 0 ? B + ldb * (size_t)c : B, f->q->nb);
+            norms[c] = f->q->nb > 0 ? sli_largest(rhs->B + rhs->ldb * (size_t)c, f->q->nb) : 0.0;
         }
         return;
     }
-    sli_pack(f->q, f->F->kernels, v.y, B, sli_dense_by_columns(ldb), lanes, columns);
+    sli_pack(f->F, f->q, v.y, rhs);
     for (c = 0; c < columns; c++) {
         norms[c] = 0.0;
     }
@@ -128,48 +129,45 @@ static void sli_local_refinement_norms(const sli_local_refinement *f, const doub
     }
 }
 
-static void sli_local_refinement_block(sli_local_refinement *f, double *X, size_t ldx,
-                                       const double *B, size_t ldb, sl_int columns, sl_int steps) {
-    const sli_dense at = sli_dense_by_columns(ldb);
+static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps) {
     const size_t nx = (size_t)f->q->nx;
+    const sl_int columns = rhs->nrhs;
     double norms[SLI_TILE];
     sl_int c, step, todo = columns;
-    sli_local_refinement_norms(f, B, ldb, columns, norms);
+    sli_local_refinement_norms(f, rhs, norms);
     memset(f->previous, 0, (size_t)f->count * (size_t)columns * sizeof(double));
     for (step = 0; step <= steps && todo > 0; step++) {
-        sli_local_refinement_step(f, B, at, columns, norms, step);
+        sli_local_refinement_step(f, rhs, norms, step);
         for (c = 0, todo = 0; c < columns; c++) {
             todo += !f->is_done[c];
         }
     }
     for (c = 0; c < columns; c++) {
-        memcpy(X + ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
+        memcpy(rhs->X + rhs->ldx * (size_t)c, f->best + nx * (size_t)c, nx * sizeof(double));
     }
 }
 
 /* Refines the right-hand sides in blocks, in a workspace. */
-static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx, const double *B,
-                                  size_t ldb, sl_int nrhs, sl_int steps, sl_work *W,
-                                  sl_stats *stats) {
+static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
+                                  sl_work *W, sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     double worst = 0.0;
     sl_status status;
     sl_int r, c;
-    sli_local_refinement_layout(f, &b, nrhs);
+    sli_local_refinement_layout(f, &b, rhs->nrhs);
     status = sli_work_block(W, &b);
     if (status != SL_OK) {
         return status;
     }
-    sli_local_refinement_layout(f, &b, nrhs);
+    sli_local_refinement_layout(f, &b, rhs->nrhs);
     c = sli_local_refinement_find(f);
     if (c != -1) {
         return sli_fail_at(stats, SL_ERR_ARGUMENT, f->F->S->perm[c], -1, f->F->rule.shifts[c]);
     }
-    for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
-        const sl_int columns = sli_min(8, nrhs - r);
-        sli_local_refinement_block(f, X + ldx * (size_t)r, ldx,
-                                   f->q->nb > 0 ? B + ldb * (size_t)r : B, ldb, columns, steps);
-        for (c = 0; c < columns; c++) {
+    for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
+        const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
+        sli_local_refinement_block(f, &block, steps);
+        for (c = 0; c < block.nrhs; c++) {
             worst = sli_max_error(f->error[c], worst);
         }
     }
@@ -179,6 +177,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, double *X, size_t ldx
 SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                                        const double *B, size_t ldb, sl_int nrhs, sl_int steps,
                                        sl_work *W, sl_stats *stats) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_local_refinement f;
     sl_work own;
     sl_status status;
@@ -186,12 +185,12 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     if (P == NULL || F == NULL || steps < 0) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_check_dense_columns(X, ldx, P->query.nx, B, ldb, P->query.nb, nrhs);
+    status = sli_rhs_check_columns(&rhs, P->query.nx, P->query.nb);
     if (status != SL_OK) {
         return status;
     }
     if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
-        status = sl_plan_solve(P, F, X, ldx, B, ldb, nrhs, W);
+        status = sli_solve(F, &P->query, &rhs, W);
         return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
     }
     if (!sli_query_fits(&P->query, F)) {
@@ -206,7 +205,7 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     f.room = sli_min(F->stats.factor.regularized,
                      sli_min(P->query.forward.columns, P->query.backward.columns));
     own = sli_work_own(&F->allocator);
-    status = sli_local_refine(&f, X, ldx, B, ldb, nrhs, steps, W == NULL ? &own : W, stats);
+    status = sli_local_refine(&f, &rhs, steps, W == NULL ? &own : W, stats);
     sli_free(&own.allocator, own.block);
     return status;
 }

@@ -50,13 +50,12 @@ static sl_status sli_solve_batch_columns(const sli_solve_batch *b, const sl_requ
                                          const sli_query *q, sl_int first, sl_int last,
                                          void *memory) {
     const sl_factor *F = sli_request_factor(b, r);
-    const sli_dense x_at = sli_dense_of(r->ldx), b_at = sli_dense_of(r->ldb);
-    const double *B = q->nb > 0 ? r->B + (size_t)first * b_at.column : r->B;
+    const sli_rhs all = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
+    const sli_rhs part = sli_rhs_part(&all, first, last - first);
     if (b->only_checks) {
-        return F->null.checks ? sli_sweep_check(F, q, B, b_at, last - first, memory) : SL_OK;
+        return F->null.checks ? sli_sweep_check(F, q, &part, memory) : SL_OK;
     }
-    return sli_sweep_blocks(F, q, r->X + (size_t)first * x_at.column, x_at, B, b_at, last - first,
-                            memory);
+    return sli_sweep_blocks(F, q, &part, memory);
 }
 
 /* Worker k solves an equal share of the weight. When checking, it leaves the first request that
@@ -107,6 +106,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
     for (*at = 0; *at < b->count; ++*at) {
         const sl_request *r = &b->requests[*at];
         const sl_factor *F = sli_request_factor(b, r);
+        const sli_rhs rhs = sli_rhs_of(r->X, r->ldx, r->B, r->ldb, r->nrhs);
         sli_query q;
         size_t bytes;
         sl_status status;
@@ -114,7 +114,7 @@ static sl_status sli_solve_batch_check(sli_solve_batch *b, sl_int *at) {
             return SL_ERR_ARGUMENT;
         }
         q = sli_request_query(F, r);
-        status = sli_check_dense(r->X, r->ldx, q.nx, r->B, r->ldb, q.nb, r->nrhs);
+        status = sli_rhs_check(&rhs, q.nx, q.nb);
         if (status != SL_OK) {
             return status;
         }

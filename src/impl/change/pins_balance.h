@@ -39,19 +39,20 @@ static sl_status sli_pins_nulls_factor(const sli_pins_nulls *w, const sl_pins *P
 
 /* s := Z' b before the forward sweep. Returns 0 if b is inconsistent in a component without pins
  * that has several null vectors. norms: of b. */
-static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins_nulls *w,
-                            const double *b, sl_int lanes, const double *norms) {
+static int sli_pins_defects(const sl_pins *P, const sli_pins_nulls *w, const sli_packed *b,
+                            const double *norms) {
     const sl_factor *F = P->base;
-    const sli_reach *R = &q->forward;
-    sl_int first = 0, s, m, k, r;
+    const sli_reach *R = b->R;
+    const sl_int lanes = b->lanes;
+    sl_int first = 0, s, k, r;
     memset(w->s, 0, (size_t)w->count * (size_t)lanes * sizeof(double));
     for (s = 0; s < R->count && (w->count > 0 || F->null.checks); s++) {
         sli_null_dot dot;
         if (R->steps[s].up != -1) {
             continue;
         }
-        m = sli_null_first(F, R, s);
-        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+        dot.next = sli_null_first(F, R, s);
+        while (sli_null_dot_next(F, b, first, s, &dot)) {
             if (P->uses[dot.number] > 0) {
                 memcpy(w->s + (ptrdiff_t)w->place[dot.number] * lanes, dot.sums,
                        (size_t)lanes * sizeof(double));
@@ -68,7 +69,7 @@ static int sli_pins_defects(const sl_pins *P, const sli_query *q, const sli_pins
     for (k = 0; k < w->count; k++) {
         const sl_int null = F->null.pivots[w->numbers[k]], at = sli_reach_index_of(R, null);
         if (at != -1 && sli_null_column(F, null) == -1) { /* a row of zeros */
-            memcpy(w->s + (ptrdiff_t)k * lanes, b + (ptrdiff_t)at * lanes,
+            memcpy(w->s + (ptrdiff_t)k * lanes, b->v + (ptrdiff_t)at * lanes,
                    (size_t)lanes * sizeof(double));
         }
     }

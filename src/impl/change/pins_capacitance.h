@@ -29,7 +29,7 @@ static void sli_pin_sweep(const sl_pins *P, sli_pin *pin, double *scratch) {
         pin->y[sli_reach_index_of(&pin->R, column)] +=
             sli_held_find(P, column) == -1 ? pin->values[k] : 0.0;
     }
-    sli_forward_sweep(F, SLI_NRHS_1, pin->R.count, pin->R.steps, pin->R.rows, pin->y, scratch);
+    sli_forward_sweep(F, SLI_NRHS_1, &pin->R, pin->y, scratch);
     sli_pin_clear_nulls(P, pin, &pin->R, pin->y, 1);
     f.reach = pin->R;
     f.lanes = 1;

@@ -42,12 +42,11 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
         for (k = 0; k < S->n; k++) {
             x[k] = y[k] = rows[k].product;
         }
-        sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, x, scratch);
+        sli_forward_sweep(F, SLI_NRHS_1, &all, x, scratch);
         for (k = 0; k < F->null.count; k++) {
             x[F->null.pivots[k]] = 0.0;
         }
-        sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, x,
-                           scratch);
+        sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, x, scratch);
         (void)sli_null_product(S, from, 0, rows, x, diagonal);
         for (k = 0; k < S->n; k++) {
             most = fmax(most, sqrt(fabs(diagonal[k])) * fabs(x[k]));

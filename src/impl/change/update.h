@@ -219,7 +219,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
     sl_int s, j, k, r;
     memset(u->local, 0, SLI_TILE * (size_t)u->lanes * sizeof(double));
     memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
-    sli_forward_sweep(u->F, u->kind, R->count, R->steps, R->rows, u->trial, u->scratch);
+    sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
     u->is_trial = 1;
     for (s = 0; s < R->count; s++) {
         const sli_step *step = &R->steps[s];

@@ -132,8 +132,7 @@ static sl_status sli_center_several(sl_factor *F, sli_failure *failure) {
     memset(F->null.center + n * count, 0, n * count * sizeof(double));
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         for (j = count; j < 2 * count && pass == 1; j++) {
-            sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center + n * j,
-                              F->null.sweep);
+            sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center + n * j, F->null.sweep);
         }
         if (pass == 1) {
             sli_center_multiply(F);

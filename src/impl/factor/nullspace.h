@@ -156,7 +156,7 @@ static sl_status sli_center_compute(sl_factor *F, sli_failure *failure) {
     status = sli_anchors_find(F, failure);
     sli_anchor_weights(F, F->divisors);
     memcpy(F->null.center, F->divisors, (size_t)S->n * sizeof(double));
-    sli_forward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows, F->null.center, F->null.sweep);
+    sli_forward_sweep(F, SLI_NRHS_1, &all, F->null.center, F->null.sweep);
     for (k = 0; k < S->n && status == SL_OK; k++) {
         total += fabs(F->divisors[k]);
         if (S->parent[k] == -1) {
@@ -200,8 +200,7 @@ static sl_status sli_null_pivots_verify(sl_factor *F, const sli_source *from,
             z[k] = SLI_NULL_PIVOT * (0.5 + (double)(random >> 40) / 33554432.0);
         }
     }
-    sli_backward_sweep(F, SLI_NRHS_1, all.count, all.steps, all.rows + all.n_rows, F->D, z,
-                       F->null.sweep);
+    sli_backward_sweep(F, SLI_NRHS_1, &all, F->D, z, F->null.sweep);
     w = sli_null_product(S, from, from->A != NULL && !F->null.has_duplicates, F->null.rows, z,
                          NULL);
     for (k = 0; k < S->n && status == SL_OK; k++) {

@@ -2,6 +2,7 @@
 #ifndef SLI_FACTOR_STORAGE_TYPE_H
 #define SLI_FACTOR_STORAGE_TYPE_H
 
+#include "../analysis/reach.h"
 #include "factor_types.h"
 
 /* The core has the table of L in double; packs have those of the other storages. Common code reads
@@ -61,15 +62,14 @@ SLI_INLINE double *sli_front_panel(const sl_factor *F, sl_int s, sl_int worker) 
                            : (double *)F->values + (F->S->steps[s].panel >> F->type->half);
 }
 
-/* The sweeps of F's factorization: x := L^-1 x over steps, and x := L'^-1 D^-1 x. */
-SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, sl_int count, const sli_step *steps,
-                                  const sl_int *rows, double *x, double *scratch) {
-    F->sweeps->forward[kind](count, steps, rows, F->values, x, scratch);
+/* The sweeps of F's factorization over a reach: x := L^-1 x, and x := L'^-1 D^-1 x. */
+SLI_INLINE void sli_forward_sweep(const sl_factor *F, int kind, const sli_reach *R, double *x,
+                                  double *scratch) {
+    F->sweeps->forward[kind](R->count, R->steps, R->rows, F->values, x, scratch);
 }
-SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, sl_int count,
-                                   const sli_step *steps, const sl_int *rows_end, const double *D,
-                                   double *x, double *scratch) {
-    F->sweeps->backward[kind](count, steps, rows_end, F->values, D, x, scratch);
+SLI_INLINE void sli_backward_sweep(const sl_factor *F, int kind, const sli_reach *R,
+                                   const double *D, double *x, double *scratch) {
+    F->sweeps->backward[kind](R->count, R->steps, R->rows + R->n_rows, F->values, D, x, scratch);
 }
 
 /* The entry of L at a position of the panels. */

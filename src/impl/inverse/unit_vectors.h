@@ -233,7 +233,7 @@ static void sli_forward_clear(sli_forward *f, sl_int vectors) {
 
 /* y := L^-1 y; adds the sweep to stats. */
 static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats) {
-    sli_forward_sweep(F, f->kind, f->reach.count, f->reach.steps, f->reach.rows, f->y, f->scratch);
+    sli_forward_sweep(F, f->kind, &f->reach, f->y, f->scratch);
     if (stats != NULL) {
         stats->inverse.method = SL_INVERSE_FORWARD;
         stats->inverse.supernodes = sli_max(stats->inverse.supernodes, f->reach.count);

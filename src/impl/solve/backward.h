@@ -32,8 +32,8 @@ static void sli_backward(const sl_factor *F, const sli_reach *R, int kind, doubl
     if (F->E != NULL) {
         sli_pairs_apply(F, R, x, (sl_int)1 << kind);
     }
-    sli_backward_sweep(F, kind, R->count, R->steps, R->rows + R->n_rows,
-                       F->null.is_centered || F->E != NULL ? F->divisors : F->D, x, scratch);
+    sli_backward_sweep(F, kind, R, F->null.is_centered || F->E != NULL ? F->divisors : F->D, x,
+                       scratch);
 }
 
 #endif

@@ -66,6 +66,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
                                 const sl_int *xset, sl_int nx, double *X, size_t ldx,
                                 const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                 sl_stats *stats) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sl_work own;
     sli_local l;
     sl_status status;
@@ -83,7 +84,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
     l.x = sli_set_of(F->S, xset, nx);
     l.nrhs = nrhs;
     l.stats = stats;
-    status = sli_check_dense(X, ldx, l.x.count, B, ldb, l.b.count, nrhs);
+    status = sli_rhs_check(&rhs, l.x.count, l.b.count);
     if (status != SL_OK) {
         return status;
     }
@@ -100,7 +101,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
         stats->plan.bytes = 0;
     }
     if (status == SL_OK && nrhs > 0 && l.query.nx > 0) {
-        status = sli_sweep(F, &l.query, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, l.memory);
+        status = sli_sweep(F, &l.query, &rhs, l.memory);
     }
     sli_free(&own.allocator, own.block);
     return status;

@@ -89,8 +89,8 @@ SL_API void sl_plan_stats(const sl_plan *P, sl_stats *stats) {
 
 SL_API sl_status sl_plan_solve(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
                                const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    return P == NULL || F == NULL ? SL_ERR_ARGUMENT
-                                  : sli_solve(F, &P->query, X, ldx, B, ldb, nrhs, W);
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    return P == NULL || F == NULL ? SL_ERR_ARGUMENT : sli_solve(F, &P->query, &rhs, W);
 }
 
 #endif

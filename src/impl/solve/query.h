@@ -166,21 +166,51 @@ SLI_INLINE int sli_dense_spans(size_t ld, sl_int rows, sl_int columns) {
     return (ld & ~SL_ROW_MAJOR) >= (size_t)(ld & SL_ROW_MAJOR ? columns : rows);
 }
 
-/* Checks the dense arguments of a solve, in any layout. */
-static sl_status sli_check_dense(const double *X, size_t ldx, sl_int nx, const double *B,
-                                 size_t ldb, sl_int nb, sl_int nrhs) {
-    const int bad_x = nx > 0 && (X == NULL || !sli_dense_spans(ldx, nx, nrhs));
-    const int bad_b = nb > 0 && (B == NULL || !sli_dense_spans(ldb, nb, nrhs));
+/* The right-hand sides of a call and their solutions, in the caller's arrays, or some of them. */
+typedef struct sli_rhs {
+    double *X;
+    const double *B; /* may be X */
+    size_t ldx, ldb; /* as the caller gives them */
+    sl_int nrhs;
+} sli_rhs;
+
+SLI_INLINE sli_rhs sli_rhs_of(double *X, size_t ldx, const double *B, size_t ldb, sl_int nrhs) {
+    sli_rhs r;
+    r.X = X;
+    r.B = B;
+    r.ldx = ldx;
+    r.ldb = ldb;
+    r.nrhs = nrhs;
+    return r;
+}
+
+/* Right-hand sides first .. first+count-1. X or B is NULL if it has no rows. */
+SLI_INLINE sli_rhs sli_rhs_part(const sli_rhs *all, sl_int first, sl_int count) {
+    sli_rhs r = *all;
+    if (r.X != NULL) {
+        r.X += (size_t)first * sli_dense_of(r.ldx).column;
+    }
+    if (r.B != NULL) {
+        r.B += (size_t)first * sli_dense_of(r.ldb).column;
+    }
+    r.nrhs = count;
+    return r;
+}
+
+/* Checks the right-hand sides of a call, in any layout, for nx rows of X and nb of B. */
+static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
+    const int bad_x = nx > 0 && (r->X == NULL || !sli_dense_spans(r->ldx, nx, r->nrhs));
+    const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
     /* in place, but with different leading dimensions or layouts */
-    const int is_misaligned = X == B && ldx != ldb && nx > 0 && nb > 0;
-    return nrhs < 0 || (nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT : SL_OK;
+    const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
+    return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
+                                                                            : SL_OK;
 }
 
 /* The same for calls that take columns only. */
-static sl_status sli_check_dense_columns(const double *X, size_t ldx, sl_int nx, const double *B,
-                                         size_t ldb, sl_int nb, sl_int nrhs) {
-    return nrhs > 0 && ((ldx | ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
-                                                    : sli_check_dense(X, ldx, nx, B, ldb, nb, nrhs);
+static sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
+    return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                                                             : sli_rhs_check(r, nx, nb);
 }
 
 /* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which
@@ -188,46 +218,63 @@ static sl_status sli_check_dense_columns(const double *X, size_t ldx, sl_int nx,
  * n = 1e6 2 times faster; with one it costs 3 percent of a solve. */
 #define SLI_ROWS_AHEAD 32
 
-/* Copies the rows of M to the interleaved rows index[k] of v. Called with a constant number of
- * columns and with one of the two strides 1: moving rows in and out is a fifth of a full solve, and
- * an inner loop of variable length would double that. */
-SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sl_int lanes, const sl_int *index, sl_int count,
-                                     const double *M, sli_dense at, sl_int columns) {
+/* Rows of an interleaved block of vectors. */
+typedef struct sli_rows {
+    const sl_int *index; /* count */
+    sl_int count, lanes;
+} sli_rows;
+
+SLI_ALWAYS_INLINE sli_rows sli_rows_of(const sl_int *index, sl_int count, sl_int lanes) {
+    sli_rows rows;
+    rows.index = index;
+    rows.count = count;
+    rows.lanes = lanes;
+    return rows;
+}
+
+/* Copies the rows of M to the given rows of v. Called with a constant number of columns and with
+ * one of the two strides 1: moving rows in and out is a fifth of a full solve, and an inner loop of
+ * variable length would double that. */
+SLI_ALWAYS_INLINE void sli_pack_rows(double *v, sli_rows rows, const double *M, sli_dense at,
+                                     sl_int columns) {
     sl_int k, r;
-    for (k = 0; k < count; k++) {
-        if (lanes >= 4) { /* untested: constant */
-            SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
+    for (k = 0; k < rows.count; k++) {
+        if (rows.lanes >= 4) { /* untested: constant */
+            const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
+            SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
         }
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
-            v[(ptrdiff_t)index[k] * lanes + r] = M[(size_t)k * at.row + (size_t)r * at.column];
+            v[(ptrdiff_t)rows.index[k] * rows.lanes + r] =
+                M[(size_t)k * at.row + (size_t)r * at.column];
         }
     }
 }
 
-/* Adds the rows of M to the interleaved rows index[k] of v. Several rows may go to the same
- * index. */
-static void sli_pack_sums(double *v, sl_int lanes, const sl_int *index, sl_int count,
-                          const double *M, sli_dense at, sl_int columns) {
+/* Adds the rows of M to the given rows of v, which may repeat. */
+static void sli_pack_sums(double *v, sli_rows rows, const double *M, sli_dense at, sl_int columns) {
     sl_int k, r;
-    for (k = 0; k < count; k++) {
+    for (k = 0; k < rows.count; k++) {
         for (r = 0; r < columns; r++) {
-            v[(ptrdiff_t)index[k] * lanes + r] += M[(size_t)k * at.row + (size_t)r * at.column];
+            v[(ptrdiff_t)rows.index[k] * rows.lanes + r] +=
+                M[(size_t)k * at.row + (size_t)r * at.column];
         }
     }
 }
 
-/* Copies the interleaved rows index[k] of v to the rows of M. */
-SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v, sl_int lanes,
-                                       const sl_int *index, sl_int count, sl_int columns) {
+/* Copies the given rows of v to the rows of M. */
+SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v, sli_rows rows,
+                                       sl_int columns) {
     sl_int k, r;
-    for (k = 0; k < count; k++) {
-        if (lanes >= 4) { /* untested: constant */
-            SLI_PREFETCH(v + (ptrdiff_t)index[sli_min(k + SLI_ROWS_AHEAD, count - 1)] * lanes, 0);
+    for (k = 0; k < rows.count; k++) {
+        if (rows.lanes >= 4) { /* untested: constant */
+            const sl_int ahead = rows.index[sli_min(k + SLI_ROWS_AHEAD, rows.count - 1)];
+            SLI_PREFETCH(v + (ptrdiff_t)ahead * rows.lanes, 0);
         }
         SLI_UNROLL
         for (r = 0; r < columns; r++) {
-            M[(size_t)k * at.row + (size_t)r * at.column] = v[(ptrdiff_t)index[k] * lanes + r];
+            M[(size_t)k * at.row + (size_t)r * at.column] =
+                v[(ptrdiff_t)rows.index[k] * rows.lanes + r];
         }
     }
 }
@@ -244,22 +291,24 @@ SLI_ALWAYS_INLINE void sli_unpack_rows(double *M, sli_dense at, const double *v,
 #define SLI_STREAMED 4000000
 #endif
 
-/* Moves b into the forward vector. Rows that are not given, and unused columns of the block, are
- * 0. */
-static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, const double *B,
-                     sli_dense at, sl_int lanes, sl_int nrhs) {
+/* Moves a block of b into the forward vector. Rows that are not given, and unused columns of the
+ * block, are 0. */
+static void sli_pack(const sl_factor *F, const sli_query *q, double *y, const sli_rhs *rhs) {
+    const double *B = rhs->B;
+    const sli_dense at = sli_dense_of(rhs->ldb);
+    const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const sl_int *index = q->b_index, count = q->nb;
     if (q->b_repeats || q->nb < q->forward.columns || nrhs < lanes) {
         memset(y, 0, (size_t)q->forward.columns * (size_t)lanes * sizeof(double));
     }
     if (q->b_repeats) {
-        sli_pack_sums(y, lanes, index, count, B, at, nrhs);
+        sli_pack_sums(y, sli_rows_of(index, count, lanes), B, at, nrhs);
     } else if (nrhs % 8 == 0 && at.row == 1) {
         const int is_streamed = (size_t)count * (size_t)lanes > SLI_STREAMED;
         sl_int first, r;
         for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
             for (r = 0; r < nrhs; r += 8) {
-                kernels->interleave(
+                F->kernels->interleave(
                     y + r, lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first),
                     B + (size_t)first + (size_t)r * at.column, at.column, is_streamed);
             }
@@ -267,40 +316,45 @@ static void sli_pack(const sli_query *q, const sli_kernels *kernels, double *y, 
     } else if (nrhs % 8 == 0) {
         sl_int r;
         for (r = 0; r < nrhs; r += 8) {
-            sli_pack_rows(y + r, lanes, index, count, B + r, sli_dense_by_rows(at.row), 8);
+            sli_pack_rows(y + r, sli_rows_of(index, count, lanes), B + r, sli_dense_by_rows(at.row),
+                          8);
         }
     } else if (nrhs == 3) {
-        sli_pack_rows(y, 4, index, count, B, at, 3);
+        sli_pack_rows(y, sli_rows_of(index, count, 4), B, at, 3);
     } else if (nrhs == 1) {
-        sli_pack_rows(y, 1, index, count, B, at, 1);
+        sli_pack_rows(y, sli_rows_of(index, count, 1), B, at, 1);
     } else {
-        sli_pack_rows(y, lanes, index, count, B, at, nrhs);
+        sli_pack_rows(y, sli_rows_of(index, count, lanes), B, at, nrhs);
     }
 }
 
-/* Moves the wanted rows out of the backward vector. */
-static void sli_unpack(const sli_query *q, const sli_kernels *kernels, double *X, sli_dense at,
-                       const double *x, sl_int lanes, sl_int nrhs) {
+/* Moves the wanted rows of a block out of the backward vector. */
+static void sli_unpack(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                       const double *x) {
+    double *X = rhs->X;
+    const sli_dense at = sli_dense_of(rhs->ldx);
+    const sl_int nrhs = rhs->nrhs, lanes = (sl_int)1 << sli_lanes_kind(nrhs);
     const sl_int *index = q->x_index, count = q->nx;
     if (nrhs % 8 == 0 && at.row == 1) {
         sl_int first, r;
         for (first = 0; first < count; first += sli_min(SLI_PACK_CHUNK, count - first)) {
             for (r = 0; r < nrhs; r += 8) {
-                kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
-                                  lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
+                F->kernels->separate(X + (size_t)first + (size_t)r * at.column, at.column, x + r,
+                                     lanes, index + first, sli_min(SLI_PACK_CHUNK, count - first));
             }
         }
     } else if (nrhs % 8 == 0) {
         sl_int r;
         for (r = 0; r < nrhs; r += 8) {
-            sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r, lanes, index, count, 8);
+            sli_unpack_rows(X + r, sli_dense_by_rows(at.row), x + r,
+                            sli_rows_of(index, count, lanes), 8);
         }
     } else if (nrhs == 3) {
-        sli_unpack_rows(X, at, x, 4, index, count, 3);
+        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 4), 3);
     } else if (nrhs == 1) {
-        sli_unpack_rows(X, at, x, 1, index, count, 1);
+        sli_unpack_rows(X, at, x, sli_rows_of(index, count, 1), 1);
     } else {
-        sli_unpack_rows(X, at, x, lanes, index, count, nrhs);
+        sli_unpack_rows(X, at, x, sli_rows_of(index, count, lanes), nrhs);
     }
 }
 

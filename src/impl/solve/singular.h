@@ -73,14 +73,31 @@ static void sli_chains_add(double *chains, const double *v, const double *row, s
 #undef SLI_CALL
 }
 
-/* norms(r) := the sum of |b| in a packed block of right-hand sides. */
-static void sli_norms(const sli_reach *R, const double *b, sl_int lanes, double *norms) {
+/* A packed block of vectors over a reach: columns x lanes. */
+typedef struct sli_packed {
+    const sli_reach *R;
+    double *v;
+    sl_int lanes;
+} sli_packed;
+
+SLI_INLINE sli_packed sli_packed_of(const sli_reach *R, double *v, sl_int lanes) {
+    sli_packed b;
+    b.R = R;
+    b.v = v;
+    b.lanes = lanes;
+    return b;
+}
+
+/* norms(r) := the sum of |b|. */
+static void sli_norms(const sli_packed *b, double *norms) {
+    const sli_reach *R = b->R;
+    const sl_int lanes = b->lanes;
     double chains[SLI_TILE];
     sl_int s;
     memset(chains, 0, sizeof chains);
     for (s = 0; s < R->count; s++) {
         const sl_int columns = sli_step_columns(&R->steps[s]);
-        const double *row = b + (ptrdiff_t)R->steps[s].base * lanes;
+        const double *row = b->v + (ptrdiff_t)R->steps[s].base * lanes;
 #define SLI_CALL(constant) sli_chains_norm(chains, row, columns, constant)
         SLI_FOR_LANES(lanes, SLI_CALL)
 #undef SLI_CALL
@@ -105,20 +122,23 @@ SLI_INLINE sli_tree_range sli_tree_range_of(const sl_symbolic *S, const sli_step
 typedef struct sli_null_dot {
     sl_int null;
     sl_int number; /* among the null pivots */
+    sl_int next;   /* the number that the search continues with */
     double sums[SLI_TILE];
 } sli_null_dot;
 
-/* Finds the next null pivot of a tree, from number *m on, whose null vector is known, and computes
- * z' b before the forward sweep of the tree's steps first .. root. Returns 0 if there is none. */
-static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
-                             const double *b, sl_int lanes, sl_int *m, sli_null_dot *dot) {
-    const sl_int last = sli_tree_range_of(F->S, &R->steps[root]).root;
+/* Finds the next null pivot of a tree, from number dot->next on, whose null vector is known, and
+ * computes z' b before the forward sweep of the tree's steps first .. root. Returns 0 if there is
+ * none. */
+static int sli_null_dot_next(const sl_factor *F, const sli_packed *b, sl_int first, sl_int root,
+                             sli_null_dot *dot) {
+    const sl_int last = sli_tree_range_of(F->S, &b->R->steps[root]).root, lanes = b->lanes;
     double chains[SLI_TILE];
     const double *z;
     sl_int column = -1, r;
-    for (; *m < F->null.count && F->null.pivots[*m] <= last && column == -1; ++*m) {
-        dot->number = *m;
-        dot->null = F->null.pivots[*m];
+    for (; dot->next < F->null.count && F->null.pivots[dot->next] <= last && column == -1;
+         dot->next++) {
+        dot->number = dot->next;
+        dot->null = F->null.pivots[dot->next];
         column = sli_null_column(F, dot->null);
     }
     if (column == -1) {
@@ -127,8 +147,8 @@ static int sli_null_dot_next(const sl_factor *F, const sli_reach *R, sl_int firs
     z = F->null.g + (size_t)column * (size_t)F->S->n;
     memset(chains, 0, sizeof chains);
     for (; first <= root; first++) {
-        const sli_step *step = &R->steps[first];
-        const double *v = z + step->column, *row = b + (ptrdiff_t)step->base * lanes;
+        const sli_step *step = &b->R->steps[first];
+        const double *v = z + step->column, *row = b->v + (ptrdiff_t)step->base * lanes;
         const sl_int columns = sli_step_columns(step);
         sli_chains_add(chains, v, row, columns, lanes);
     }
@@ -147,16 +167,17 @@ SLI_INLINE sl_int sli_null_first(const sl_factor *F, const sli_reach *R, sl_int 
 
 /* Before the forward sweep, where components have several null vectors: Y := z' b for all that are
  * known or, if Y is NULL, is |z' b| small? Their null pivots need not be in the reach. */
-static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b, sl_int lanes,
-                         const double *norms, double *Y, size_t ldy, sl_int nrhs) {
-    sl_int first = 0, s, m, r;
+static int sli_null_dots(const sl_factor *F, const sli_packed *b, const double *norms, double *Y,
+                         size_t ldy, sl_int nrhs) {
+    const sli_reach *R = b->R;
+    sl_int first = 0, s, r;
     for (s = 0; s < R->count; s++) {
         sli_null_dot dot;
         if (R->steps[s].up != -1) {
             continue;
         }
-        m = sli_null_first(F, R, s);
-        while (sli_null_dot_next(F, R, first, s, b, lanes, &m, &dot)) {
+        dot.next = sli_null_first(F, R, s);
+        while (sli_null_dot_next(F, b, first, s, &dot)) {
             for (r = 0; r < nrhs; r++) {
                 if (Y != NULL) {
                     Y[(size_t)dot.number + (size_t)r * ldy] = dot.sums[r];
@@ -172,8 +193,9 @@ static int sli_null_dots(const sl_factor *F, const sli_reach *R, const double *b
 
 /* After the forward sweep: is |z' b| small at every null pivot? NaN and overflow pass: they show in
  * x. Where components have several null vectors, those that are known have been judged already. */
-static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const double *y, sl_int lanes,
-                             const double *norms) {
+static int sli_is_consistent(const sl_factor *F, const sli_packed *y, const double *norms) {
+    const sli_reach *R = y->R;
+    const sl_int lanes = y->lanes;
     sl_int s, m, r;
     for (s = 0; s < R->count; s++) {
         sli_tree_range tree;
@@ -187,7 +209,7 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
                 F->null.vectors > 1 && sli_null_column(F, F->null.pivots[m]) != -1;
             const sl_int at = is_judged ? -1 : sli_reach_index_of(R, F->null.pivots[m]);
             for (r = 0; at != -1 && r < lanes; r++) {
-                if (fabs(y[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
+                if (fabs(y->v[(ptrdiff_t)at * lanes + r]) > F->null.consistency * norms[r]) {
                     return 0;
                 }
             }
@@ -199,27 +221,28 @@ static int sli_is_consistent(const sl_factor *F, const sli_reach *R, const doubl
 /* For one tree and each right-hand side: c' and t of nullspace.h; with several null vectors
  * (null_center.h) c is U' y for the columns of V, and V' y for those of U. */
 typedef struct sli_center_terms {
+    sl_int count; /* columns of c */
     double c[2 * SLI_NULL_VECTORS_MAX][SLI_TILE], t[SLI_TILE];
 } sli_center_terms;
 
-/* Computes the terms of the tree of steps first .. root, for `count` columns. m: the number of its
- * anchor, if it has only one. */
-static void sli_center_tree_terms(const sl_factor *F, const sli_reach *R, sl_int first, sl_int root,
-                                  const double *y, sl_int lanes, sl_int m, sl_int count,
-                                  sli_center_terms *terms) {
+/* Computes the terms of the tree of steps first .. root. m: the number of its anchor, if it has
+ * only one. */
+static void sli_center_tree_terms(const sl_factor *F, const sli_packed *y, sl_int first,
+                                  sl_int root, sl_int m, sli_center_terms *terms) {
+    const sl_int lanes = y->lanes, count = terms->count;
     sl_int s, j, r, at;
     for (j = 0; j < count; j++) {
         double chains[SLI_TILE] = {0.0};
         for (s = first; s <= root; s++) {
-            const sli_step *step = &R->steps[s];
+            const sli_step *step = &y->R->steps[s];
             sli_chains_add(chains, F->null.center + (size_t)j * (size_t)F->S->n + step->column,
-                           y + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
+                           y->v + (ptrdiff_t)step->base * lanes, sli_step_columns(step), lanes);
         }
         sli_chains_sum(chains, lanes, terms->c[(j + count / 2) % count]);
     }
-    at = count == 1 ? sli_reach_index_of(R, F->null.anchors[m]) : -1;
+    at = count == 1 ? sli_reach_index_of(y->R, F->null.anchors[m]) : -1;
     for (r = 0; r < lanes && count == 1; r++) {
-        const double c = at != -1 ? y[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
+        const double c = at != -1 ? y->v[(ptrdiff_t)at * lanes + r] * F->null.ratios[m] : 0.0;
         terms->t[r] = c * F->null.squares[m] - terms->c[0][r];
         terms->c[0][r] = c;
     }
@@ -238,50 +261,66 @@ SLI_ALWAYS_INLINE void sli_center_columns(double *row, const double *v, const do
     }
 }
 
-/* Centers between the sweeps. y holds the columns of the reach `from`; x, which may be y, those of
- * the reach `to`. Trees ascend in both. Trees without a row of b need nothing. uses: how many pins
- * hold each null pivot, which is then left alone; NULL: none. Where components have several null
+/* x(j) := 0 at the null pivots from number m on of a tree with several null vectors. */
+static void sli_center_clear(const sl_factor *F, const sli_packed *x, sl_int m, sl_int root) {
+    for (; m < F->null.count && F->null.pivots[m] <= root; m++) {
+        const sl_int null = F->null.pivots[m], j = sli_reach_index_of(x->R, null);
+        if (j != -1 && F->rule.kinds[null] == SLI_PIVOT_NULL) {
+            memset(x->v + (ptrdiff_t)j * x->lanes, 0, (size_t)x->lanes * sizeof(double));
+        }
+    }
+}
+
+/* Subtracts the terms of a tree in one step of the backward vector. */
+static void sli_center_step(const sl_factor *F, const sli_packed *x, const sli_step *step,
+                            const sli_center_terms *terms) {
+    double *row = x->v + (ptrdiff_t)step->base * x->lanes;
+    const sl_int columns = sli_step_columns(step);
+    sl_int j;
+    for (j = 0; j < terms->count; j++) {
+        const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
+        const double *D = F->divisors + step->column;
+#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms->c[j], constant)
+        SLI_FOR_LANES(x->lanes, SLI_CALL)
+#undef SLI_CALL
+    }
+}
+
+/* Centers between the sweeps. y is the forward vector and x, which may be the same, the backward
+ * vector. Trees ascend in both. Trees without a row of b need nothing. uses: how many pins hold
+ * each null pivot, which is then left alone; NULL: none. Where components have several null
  * vectors, x is 0 at their null pivots before, also if there are no weights: the columns of L are 0
  * there, and a local solve may reach some of them with b only, or with x. */
-static void sli_center(const sl_factor *F, const sli_reach *from, const double *y,
-                       const sli_reach *to, double *x, sl_int lanes, const sl_int *uses) {
+static void sli_center(const sl_factor *F, const sli_packed *y, const sli_packed *x,
+                       const sl_int *uses) {
     const int is_one = F->null.vectors == 1;
     const sl_int *list = is_one ? F->null.anchors : F->null.pivots;
     const sl_int listed = is_one ? F->null.n_anchors : F->null.count;
-    const sl_int count = F->null.is_centered ? sli_center_count(F) : 0;
+    const sli_reach *to = x->R;
+    sli_center_terms terms;
     sl_int first = 0, at = 0, root, m, j;
-    for (root = 0; root < from->count; root++) {
-        sli_center_terms terms;
+    terms.count = F->null.is_centered ? sli_center_count(F) : 0;
+    for (root = 0; root < y->R->count; root++) {
         sli_tree_range tree;
-        if (from->steps[root].up != -1) {
+        if (y->R->steps[root].up != -1) {
             continue;
         }
-        tree = sli_tree_range_of(F->S, &from->steps[root]);
+        tree = sli_tree_range_of(F->S, &y->R->steps[root]);
         m = sli_lower_bound(list, listed, tree.first);
         if (m < listed && list[m] <= tree.root &&
             (uses == NULL || uses[sli_lower_bound(F->null.pivots, F->null.count, list[m])] == 0)) {
-            sli_center_tree_terms(F, from, first, root, y, lanes, m, count, &terms);
-            for (; m < listed && list[m] <= tree.root && !is_one; m++) {
-                j = sli_reach_index_of(to, list[m]);
-                if (j != -1 && F->rule.kinds[list[m]] == SLI_PIVOT_NULL) {
-                    memset(x + (ptrdiff_t)j * lanes, 0, (size_t)lanes * sizeof(double));
-                }
+            sli_center_tree_terms(F, y, first, root, m, &terms);
+            if (!is_one) {
+                sli_center_clear(F, x, m, tree.root);
             }
             for (; at < to->count && to->steps[at].column <= tree.root; at++) {
-                const sli_step *step = &to->steps[at];
-                double *row = x + (ptrdiff_t)step->base * lanes;
-                const sl_int columns = sli_step_columns(step);
-                for (j = 0; j < count && step->column >= tree.first; j++) {
-                    const double *v = F->null.center + (size_t)j * (size_t)F->S->n + step->column;
-                    const double *D = F->divisors + step->column;
-#define SLI_CALL(constant) sli_center_columns(row, v, D, columns, terms.c[j], constant)
-                    SLI_FOR_LANES(lanes, SLI_CALL)
-#undef SLI_CALL
+                if (to->steps[at].column >= tree.first) {
+                    sli_center_step(F, x, &to->steps[at], &terms);
                 }
             }
             j = is_one ? sli_reach_index_of(to, list[m]) : -1;
             if (j != -1) { /* the backward sweep divides by 1 there */
-                memcpy(x + (ptrdiff_t)j * lanes, terms.t, (size_t)lanes * sizeof(double));
+                memcpy(x->v + (ptrdiff_t)j * x->lanes, terms.t, (size_t)x->lanes * sizeof(double));
             }
         }
         first = root + 1;

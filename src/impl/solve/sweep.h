@@ -24,28 +24,33 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
                               sl_int nrhs) {
     const int kind = sli_lanes_kind(nrhs);
     const sli_reach *R = &q->forward;
-    const sl_int *rows = R->rows;
+    sli_packed b;
+    sli_reach tree;
     sl_int first = 0, s;
     if (F->null.count == 0 || F->null.vectors > 1) {
-        sli_forward_sweep(F, kind, R->count, R->steps, rows, v->y, v->scratch);
+        sli_forward_sweep(F, kind, R, v->y, v->scratch);
         return;
     }
+    b = sli_packed_of(R, v->y, (sl_int)1 << kind);
+    tree = *R;
     for (s = 0; s < R->count; s++) {
         sli_null_dot dot;
-        sl_int m, at = -1;
+        sl_int at = -1;
         if (R->steps[s].up != -1) {
             continue;
         }
-        m = sli_null_first(F, R, s);
-        if (sli_null_dot_next(F, R, first, s, v->y, (sl_int)1 << kind, &m, &dot)) {
+        dot.next = sli_null_first(F, R, s);
+        if (sli_null_dot_next(F, &b, first, s, &dot)) {
             at = sli_reach_index_of(R, dot.null);
         }
-        sli_forward_sweep(F, kind, s + 1 - first, R->steps + first, rows, v->y, v->scratch);
+        tree.count = s + 1 - first;
+        tree.steps = R->steps + first;
+        sli_forward_sweep(F, kind, &tree, v->y, v->scratch);
         if (at != -1) {
             memcpy(v->y + ((ptrdiff_t)at << kind), dot.sums, sizeof(double) << kind);
         }
         for (; first <= s; first++) {
-            rows += R->steps[first].below;
+            tree.rows += R->steps[first].below;
         }
     }
 }
@@ -53,19 +58,22 @@ static void sli_sweep_forward(const sl_factor *F, const sli_query *q, const sli_
 /* y := L^-1 P b for a block of right-hand sides. Returns 0 if F checks consistency and one is
  * inconsistent. */
 static int sli_sweep_load(const sl_factor *F, const sli_query *q, const sli_vectors *v,
-                          const double *B, sli_dense at, sl_int nrhs) {
-    const sl_int lanes = (sl_int)1 << sli_lanes_kind(nrhs);
-    double norms[SLI_TILE];
-    sli_pack(q, F->kernels, v->y, B, at, lanes, nrhs);
+                          const sli_rhs *rhs) {
+    sli_pack(F, q, v->y, rhs);
     if (F->null.checks) {
-        sli_norms(&q->forward, v->y, lanes, norms);
+        const sl_int lanes = (sl_int)1 << sli_lanes_kind(rhs->nrhs);
+        const sli_packed b = sli_packed_of(&q->forward, v->y, lanes);
+        double norms[SLI_TILE];
+        sli_norms(&b, norms);
         if (F->null.vectors > 1 && (q->ending == NULL || q->ending->rows == 0) &&
-            !sli_null_dots(F, &q->forward, v->y, lanes, norms, NULL, 0, lanes)) {
+            !sli_null_dots(F, &b, norms, NULL, 0, lanes)) {
             return 0;
         }
+        sli_sweep_forward(F, q, v, rhs->nrhs);
+        return sli_is_consistent(F, &b, norms);
     }
-    sli_sweep_forward(F, q, v, nrhs);
-    return !F->null.checks || sli_is_consistent(F, &q->forward, v->y, lanes, norms);
+    sli_sweep_forward(F, q, v, rhs->nrhs);
+    return 1;
 }
 
 /* P x := L'^-1 D^-1 y in the backward vector. */
@@ -80,19 +88,21 @@ static void sli_sweep_backward(const sl_factor *F, const sli_query *q, const sli
         q->ending->calls->apply(F, q, kind, v);
     }
     if (F->null.is_centered || F->null.vectors > 1) {
-        sli_center(F, &q->forward, v->y, &q->backward, v->x, lanes, NULL);
+        const sli_packed y = sli_packed_of(&q->forward, v->y, lanes);
+        const sli_packed x = sli_packed_of(&q->backward, v->x, lanes);
+        sli_center(F, &y, &x, NULL);
     }
     sli_backward(F, &q->backward, kind, v->x, v->scratch);
 }
 
 /* Checks that A x = b has a solution for every right-hand side. Writes only to `memory`. */
-static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const double *B,
-                                 sli_dense b_at, sl_int nrhs, void *memory) {
+static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                                 void *memory) {
     sl_int r;
-    for (r = 0; r < nrhs; r += sli_min(8, nrhs - r)) {
-        const sl_int block = sli_min(8, nrhs - r);
-        const sli_vectors v = sli_vectors_of(q, block, memory);
-        if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+    for (r = 0; r < rhs->nrhs; r += sli_min(8, rhs->nrhs - r)) {
+        const sli_rhs block = sli_rhs_part(rhs, r, sli_min(8, rhs->nrhs - r));
+        const sli_vectors v = sli_vectors_of(q, block.nrhs, memory);
+        if (!sli_sweep_load(F, q, &v, &block)) {
             return SL_ERR_INCONSISTENT;
         }
     }
@@ -101,90 +111,85 @@ static sl_status sli_sweep_check(const sl_factor *F, const sli_query *q, const d
 
 /* Solves A x = b on the rows of a query, in blocks: y = L^-1 P b, z = D^-1 y, P x = L'^-1 z. F is
  * valid and memory is large enough. Stops at the first block that is inconsistent. */
-static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                                  const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
-    sl_int r, block;
-    for (r = 0; r < nrhs; r += block) {
+static sl_status sli_sweep_blocks(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                                  void *memory) {
+    sl_int r, count;
+    for (r = 0; r < rhs->nrhs; r += count) {
+        sli_rhs block;
         sli_vectors v;
-        block = sli_block_size(nrhs - r, sli_block_most(F));
-        v = sli_vectors_of(q, block, memory);
-        if (!sli_sweep_load(F, q, &v, B + (size_t)r * b_at.column, b_at, block)) {
+        count = sli_block_size(rhs->nrhs - r, sli_block_most(F));
+        block = sli_rhs_part(rhs, r, count);
+        v = sli_vectors_of(q, count, memory);
+        if (!sli_sweep_load(F, q, &v, &block)) {
             return SL_ERR_INCONSISTENT;
         }
-        sli_sweep_backward(F, q, &v, block);
-        sli_unpack(q, F->kernels, X + (size_t)r * x_at.column, x_at, v.x,
-                   (sl_int)1 << sli_lanes_kind(block), block);
+        sli_sweep_backward(F, q, &v, count);
+        sli_unpack(F, q, &block, v.x);
     }
     return SL_OK;
 }
 
 /* Like sli_sweep_blocks, but writes nothing to X unless all blocks are consistent. */
-static sl_status sli_sweep(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                           const double *B, sli_dense b_at, sl_int nrhs, void *memory) {
+static sl_status sli_sweep(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                           void *memory) {
     sl_status status = SL_OK;
-    if (F->null.checks && nrhs > 8 && q->nb > 0) {
-        status = sli_sweep_check(F, q, B + 8 * b_at.column, b_at, nrhs - 8, memory);
+    if (F->null.checks && rhs->nrhs > 8 && q->nb > 0) {
+        const sli_rhs later = sli_rhs_part(rhs, 8, rhs->nrhs - 8);
+        status = sli_sweep_check(F, q, &later, memory);
     }
-    return status == SL_OK ? sli_sweep_blocks(F, q, X, x_at, B, b_at, nrhs, memory) : status;
+    return status == SL_OK ? sli_sweep_blocks(F, q, rhs, memory) : status;
 }
 
 /* Item m of a solve by several workers: t->share right-hand sides. */
 static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
     const sli_sweep_tasks *t = (const sli_sweep_tasks *)data;
-    const sl_int first = m * t->share, count = sli_min(t->share, t->nrhs - first);
-    (void)sli_sweep_blocks(t->F, t->q, t->X + (size_t)first * t->x_at.column, t->x_at,
-                           t->B + (size_t)first * t->b_at.column, t->b_at, count,
+    const sl_int first = m * t->share;
+    const sli_rhs part = sli_rhs_part(&t->rhs, first, sli_min(t->share, t->rhs.nrhs - first));
+    (void)sli_sweep_blocks(t->F, t->q, &part,
                            (unsigned char *)t->memory + (size_t)worker * t->bytes);
 }
 
 /* Solves a query in the caller's workspace, or in one of its own. */
-static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, double *X, sli_dense x_at,
-                                 const double *B, sli_dense b_at, sl_int nrhs, sl_work *W) {
+static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
+                                 sl_work *W) {
     sl_work own;
     sl_status status;
     sli_sweep_tasks t;
-    if (nrhs == 0 || q->nx == 0) {
+    if (rhs->nrhs == 0 || q->nx == 0) {
         return SL_OK;
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    sli_sweep_tasks_plan(&t, F, q, nrhs, &W->threads);
-    status =
-        sli_work_grow(W, t.workers > 1 ? t.total : sli_vectors_bytes(q, nrhs, sli_block_most(F)));
+    sli_sweep_tasks_plan(&t, F, q, rhs, &W->threads);
+    status = sli_work_grow(
+        W, t.workers > 1 ? t.total : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
     if (status == SL_OK && t.workers > 1) {
-        t.X = X;
-        t.x_at = x_at;
-        t.B = B;
-        t.b_at = b_at;
         sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
     } else if (status == SL_OK) {
-        status = sli_sweep(F, q, X, x_at, B, b_at, nrhs, W->block);
+        status = sli_sweep(F, q, rhs, W->block);
     }
     sli_free(&own.allocator, own.block);
     return status;
 }
 
 /* Checks the arguments, then solves a query. */
-static sl_status sli_solve(const sl_factor *F, const sli_query *q, double *X, size_t ldx,
-                           const double *B, size_t ldb, sl_int nrhs, sl_work *W) {
-    const sl_status status = sli_check_dense(X, ldx, q->nx, B, ldb, q->nb, nrhs);
+static sl_status sli_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs, sl_work *W) {
+    const sl_status status = sli_rhs_check(rhs, q->nx, q->nb);
     if (status != SL_OK) {
         return status;
     }
-    if (!sli_query_fits(q, F)) {
-        return SL_ERR_STATE;
-    }
-    return sli_query_solve(F, q, X, sli_dense_of(ldx), B, sli_dense_of(ldb), nrhs, W);
+    return sli_query_fits(q, F) ? sli_query_solve(F, q, rhs, W) : SL_ERR_STATE;
 }
 
 SL_API sl_status sl_factor_solve(const sl_factor *F, double *X, size_t ldx, const double *B,
                                  size_t ldb, sl_int nrhs, sl_work *W) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
     sli_query q;
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
     q = sli_query_all(F->S);
-    return sli_solve(F, &q, X, ldx, B, ldb, nrhs, W);
+    return sli_solve(F, &q, &rhs, W);
 }
 
 #endif

@@ -31,15 +31,13 @@ typedef struct sli_sweep_task {
 typedef struct sli_sweep_tasks {
     const sl_factor *F;
     const sli_query *q;
-    sl_int nrhs, workers;
+    sli_rhs rhs;
+    sl_int workers;
     sl_int share; /* right-hand sides of a block that is distributed */
     sl_int n_tasks, n_tops, n_slots;
     sli_sweep_task tasks[SLI_SOLVE_TASKS]; /* ascending */
     sl_int order[SLI_SOLVE_TASKS];         /* the largest first */
     sl_int tops[SLI_SOLVE_TASKS];          /* supernodes above the tasks */
-    double *X;
-    const double *B;
-    sli_dense x_at, b_at;
     void (*run_block)(void *data, sl_int item, sl_int worker);
     void *memory;
     size_t bytes, total; /* of one worker's vectors where blocks are distributed; of everything */
@@ -187,8 +185,9 @@ static void sli_sweep_tasks_layout(sli_sweep_tasks *t, sli_block *b) {
 /* Plans a solve by several workers. workers := 1 where one is as fast, or where rounding would
  * differ. */
 static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
-                                 sl_int nrhs, const sl_threads *threads) {
+                                 const sli_rhs *rhs, const sl_threads *threads) {
     const sl_symbolic *S = F->S;
+    const sl_int nrhs = rhs->nrhs;
     sl_off entries = S->panel_begin[S->n_supers] / SLI_SOLVE_ENTRIES;
     sli_block b = {NULL, 0, 0};
     sl_int workers;
@@ -205,7 +204,7 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
     }
     t->F = F;
     t->q = q;
-    t->nrhs = nrhs;
+    t->rhs = *rhs;
     if (nrhs > 8) {
         t->share = 8;
         while (2 * t->share * workers <= nrhs && t->share < SLI_BLOCK_MOST) {
@@ -232,17 +231,19 @@ static void sli_sweep_tasks_plan(sli_sweep_tasks *t, const sl_factor *F, const s
 /* y := P b in the columns of supernodes first .. last. */
 static void sli_sweep_tasks_pack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
     const sl_symbolic *S = t->F->S;
+    const size_t row = sli_dense_of(t->rhs.ldb).row;
     sl_int k;
     for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-        t->y[k] = t->B[(size_t)S->perm[k] * t->b_at.row];
+        t->y[k] = t->rhs.B[(size_t)S->perm[k] * row];
     }
 }
 
 static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_int last) {
     const sl_symbolic *S = t->F->S;
+    const size_t row = sli_dense_of(t->rhs.ldx).row;
     sl_int k;
     for (k = S->super_first[first]; k < S->super_first[last + 1]; k++) {
-        t->X[(size_t)S->perm[k] * t->x_at.row] = t->y[k];
+        t->rhs.X[(size_t)S->perm[k] * row] = t->y[k];
     }
 }
 
@@ -250,9 +251,12 @@ static void sli_sweep_tasks_unpack(const sli_sweep_tasks *t, sl_int first, sl_in
 static void sli_sweep_tasks_steps(const sli_sweep_tasks *t, sl_int first, sl_int last,
                                   const sl_int *rows, double *scratch) {
     const sl_symbolic *S = t->F->S;
+    sli_reach R = t->q->forward;
     if (first <= last) {
-        sli_forward_sweep(t->F, SLI_NRHS_1, last + 1 - first, S->steps + first,
-                          rows == NULL ? S->rows + S->rows_begin[first] : rows, t->y, scratch);
+        R.count = last + 1 - first;
+        R.steps = S->steps + first;
+        R.rows = rows == NULL ? S->rows + S->rows_begin[first] : rows;
+        sli_forward_sweep(t->F, SLI_NRHS_1, &R, t->y, scratch);
     }
 }
 
@@ -338,8 +342,8 @@ static void sli_sweep_tasks_backward_item(void *data, sl_int item, sl_int worker
 
 static void sli_sweep_tasks_lead(sli_team *team, void *data) {
     sli_sweep_tasks *t = (sli_sweep_tasks *)data;
-    if (t->nrhs > 8) {
-        sli_team_loop(team, (t->nrhs - 1) / t->share + 1, NULL, t->run_block, t);
+    if (t->rhs.nrhs > 8) {
+        sli_team_loop(team, (t->rhs.nrhs - 1) / t->share + 1, NULL, t->run_block, t);
         return;
     }
     sli_team_loop(team, t->n_tasks, NULL, sli_sweep_tasks_forward_item, t);
@@ -353,7 +357,7 @@ static void sli_sweep_tasks_run(sli_sweep_tasks *t, const sl_threads *threads, v
     sli_block b = {NULL, 0, 0};
     t->memory = memory;
     t->run_block = run_block;
-    if (t->nrhs <= 8) {
+    if (t->rhs.nrhs <= 8) {
         b.base = (unsigned char *)memory;
         sli_sweep_tasks_layout(t, &b);
     }
