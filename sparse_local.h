@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: fafff430bdbad09a
+ * FNV-1a of the lines after this comment, without the license: cfe554d87fca4c66
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,50 +9,50 @@
  *    275 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    445 options.h    options of all calls, threads, and the allocator
  *    584 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    781 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    879 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    953 factor.h     the numerical factorization P A P' = L D L'
- *   1074 solve.h      full solves, and the workspace of all solves
- *   1167 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1245 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1344 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1461 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1540 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1634 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1740 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1779 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   1907 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   1939 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2127 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2237 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2364 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2404 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2492 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2601 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2638 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2711 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2751 impl/ base: the compiler, status, memory, sorting, threads
- *   3721 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4556 impl/ matrix: sparse matrices of the caller and of the library
- *   5082 impl/ ordering: fill-reducing orderings of a graph
- *   9460 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11380 impl/ factor: the numbers of L and D
- *  14140 impl/ solve: full and local solves
- *  15712 impl/ accuracy: refinement, condition, defects, half solves
- *  16544 impl/ pivots: the order of the pivots by the values of a matrix
- *  16962 impl/ float: L and fronts in single precision
- *  17413 impl/ inverse: entries of the inverse, regions
- *  19929 impl/ change: a factor that follows changes of its matrix
- *  26454 impl/ io: files that are written and mapped
- *  26764 impl/ files: Matrix Market files, 64-bit indices
- *  27286 impl/ save: factors in files
- *  29109 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29765 impl/ batch: diagonals of many inverses
- *  29907 impl/ complex: complex Hermitian systems over real factors
- *  30418 impl/ complex: entries of the inverse
- *  30476 impl/ packs: the tables through which the core calls packs
- *  30503 impl/ last: undefine every internal macro
- *  30790 impl/ templates: the header includes them from itself, once for each instruction set
+ *    783 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    881 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    955 factor.h     the numerical factorization P A P' = L D L'
+ *   1076 solve.h      full solves, and the workspace of all solves
+ *   1169 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1247 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1346 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1463 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1542 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1636 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1742 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1781 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   1909 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   1941 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2129 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2239 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2366 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2406 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2494 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2603 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2640 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2713 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2753 impl/ base: the compiler, status, memory, sorting, threads
+ *   3731 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4566 impl/ matrix: sparse matrices of the caller and of the library
+ *   5092 impl/ ordering: fill-reducing orderings of a graph
+ *   9470 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11390 impl/ factor: the numbers of L and D
+ *  14151 impl/ solve: full and local solves
+ *  15723 impl/ accuracy: refinement, condition, defects, half solves
+ *  16555 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16973 impl/ float: L and fronts in single precision
+ *  17424 impl/ inverse: entries of the inverse, regions
+ *  19940 impl/ change: a factor that follows changes of its matrix
+ *  26465 impl/ io: files that are written and mapped
+ *  26775 impl/ files: Matrix Market files, 64-bit indices
+ *  27297 impl/ save: factors in files
+ *  29120 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29776 impl/ batch: diagonals of many inverses
+ *  29918 impl/ complex: complex Hermitian systems over real factors
+ *  30429 impl/ complex: entries of the inverse
+ *  30487 impl/ packs: the tables through which the core calls packs
+ *  30519 impl/ last: undefine every internal macro
+ *  30806 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -589,6 +589,8 @@ typedef struct sl_error {
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
     double value;  /* the pivot or entry that was refused; 0 if none */
+    /* static text: the option that needs a pack which is not compiled in; NULL: does not apply */
+    const char *what;
 } sl_error;
 
 /** An analysis: sl_symbolic_create, _create_pivoted, sl_symbolic_stats. */
@@ -3071,7 +3073,7 @@ SL_API const char *sl_status_string(sl_status status) {
   case SL_ERR_TOO_LARGE:
     return "too large for the integer type";
   case SL_ERR_UNSUPPORTED:
-    return "not supported";
+    return "not supported, or not compiled in: a pack (SL_WITH_...), METIS, an instruction set";
   case SL_ERR_IO:
     return "file cannot be read, parsed or written";
   case SL_ERR_ORDERING:
@@ -3096,7 +3098,15 @@ SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
     stats->error.column = -1;
     stats->error.line = -1;
     stats->error.value = 0.0;
+    stats->error.what = NULL;
   }
+}
+
+SLI_INLINE sl_status sli_unsupported(sl_stats *stats, const char *what) {
+  if (stats != NULL) {
+    stats->error.what = what;
+  }
+  return SL_ERR_UNSUPPORTED;
 }
 
 SLI_NOINLINE static sl_status sli_fail_at(sl_stats *stats, sl_status status, sl_int row,
@@ -11612,6 +11622,7 @@ struct sli_storage_type {
 };
 
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
+static const char *sli_storage_needs(sl_storage storage);
 
 SLI_INLINE int sli_is_float(const sl_factor *F) {
   return F->type->value_bytes == sizeof(float);
@@ -13763,8 +13774,8 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.kernels = kernels;
   draft.analysis = S->identity;
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-  if (draft.type == NULL) {
-    return SL_ERR_UNSUPPORTED;
+  if (draft.type == NULL) { /* untested: all packs are there */
+    return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
   }
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, opt);
@@ -30497,6 +30508,11 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
   default:
     return NULL;
   }
+}
+
+static const char *sli_storage_needs(sl_storage storage) {
+  return storage == SL_STORAGE_COMPLEX ? "options.storage needs SL_WITH_COMPLEX"
+                     : "options.storage needs SL_WITH_FLOAT";
 }
 
 /* last: undefine every internal macro */

@@ -38,6 +38,7 @@ cat >"$dir/user.c" <<'C'
 #define SPARSE_LOCAL_IMPLEMENTATION
 #include HEADER
 #include <math.h>
+#include <string.h>
 #define OR_FAIL(call) \
     if ((call) != SL_OK) return 1
 int main(void) {
@@ -49,6 +50,7 @@ int main(void) {
     sl_symbolic *S = NULL;
     sl_factor *F = NULL;
     sl_plan *P = NULL;
+    sl_stats stats;
     int failed;
     A.n_rows = A.n_cols = 3;
     A.p = p;
@@ -57,19 +59,22 @@ int main(void) {
     OR_FAIL(sl_symbolic_create(&S, &A, NULL, NULL));
 #ifndef SL_WITH_FLOAT
     options.storage = SL_STORAGE_FLOAT;
-    if (sl_factor_create(&F, S, &A, &options, NULL) != SL_ERR_UNSUPPORTED) return 2;
+    if (sl_factor_create(&F, S, &A, &options, &stats) != SL_ERR_UNSUPPORTED) return 2;
+    if (strcmp(stats.error.what, "options.storage needs SL_WITH_FLOAT") != 0) return 2;
     options.storage = SL_STORAGE_FLOAT_FRONTS;
     if (sl_factor_create(&F, S, &A, &options, NULL) != SL_ERR_UNSUPPORTED) return 3;
 #endif
 #ifndef SL_WITH_COMPLEX
     options.storage = SL_STORAGE_COMPLEX;
-    if (sl_factor_create(&F, S, &A, &options, NULL) != SL_ERR_UNSUPPORTED) return 4;
+    if (sl_factor_create(&F, S, &A, &options, &stats) != SL_ERR_UNSUPPORTED) return 4;
+    if (strcmp(stats.error.what, "options.storage needs SL_WITH_COMPLEX") != 0) return 4;
 #endif
     options.storage = SL_STORAGE_DOUBLE;
     OR_FAIL(sl_factor_create(&F, S, &A, &options, NULL));
     OR_FAIL(sl_factor_solve(F, full, 3, b, 3, 1, NULL));
     OR_FAIL(sl_plan_create(&P, S, bset, 1, xset, 1, NULL, NULL));
     OR_FAIL(sl_plan_solve(P, F, &one_x, 1, &one_b, 1, 1, NULL));
+    (void)stats;
     failed = fabs(full[0] - 1) > 1e-12 || fabs(full[2] - 3) > 1e-12 || fabs(one_x - 1) > 1e-12;
     sl_plan_free(P);
     sl_factor_free(F);

@@ -26,7 +26,7 @@ SL_API const char *sl_status_string(sl_status status) {
     case SL_ERR_TOO_LARGE:
         return "too large for the integer type";
     case SL_ERR_UNSUPPORTED:
-        return "not supported";
+        return "not supported, or not compiled in: a pack (SL_WITH_...), METIS, an instruction set";
     case SL_ERR_IO:
         return "file cannot be read, parsed or written";
     case SL_ERR_ORDERING:
@@ -52,7 +52,16 @@ SLI_INLINE void sli_stats_clear_error(sl_stats *stats) {
         stats->error.column = -1;
         stats->error.line = -1;
         stats->error.value = 0.0;
+        stats->error.what = NULL;
     }
+}
+
+/* Names the option that cannot be served in stats; returns the status. */
+SLI_INLINE sl_status sli_unsupported(sl_stats *stats, const char *what) {
+    if (stats != NULL) {
+        stats->error.what = what;
+    }
+    return SL_ERR_UNSUPPORTED;
 }
 
 /* Reports the entry at fault in stats; returns the status. */

@@ -190,8 +190,8 @@ static int sli_pins_hold(const sli_pins_solve *w, const double *x) {
     return 1;
 }
 
-/* y := L^-1 P b for the block, and f := K f. Returns 0 if b is inconsistent. norms := of b, if there
- * are null pivots. */
+/* y := L^-1 P b for the block, and f := K f. Returns 0 if b is inconsistent. norms := of b, if
+ * there are null pivots. */
 static int sli_pins_forward(const sli_pins_solve *w, const sli_vectors *v, double *norms) {
     const sl_pins *P = w->P;
     const sl_factor *F = P->base;

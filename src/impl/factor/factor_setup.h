@@ -334,8 +334,8 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.kernels = kernels;
     draft.analysis = S->identity;
     draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
-    if (draft.type == NULL) {
-        return SL_ERR_UNSUPPORTED;
+    if (draft.type == NULL) { /* untested: all packs are there */
+        return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
     }
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, opt);

@@ -29,4 +29,9 @@ static const sli_storage_type *sli_storage_type_of(sl_storage storage) {
     }
 }
 
+static const char *sli_storage_needs(sl_storage storage) {
+    return storage == SL_STORAGE_COMPLEX ? "options.storage needs SL_WITH_COMPLEX"
+                                         : "options.storage needs SL_WITH_FLOAT";
+}
+
 #endif

@@ -43,7 +43,8 @@ def _struct(name, fields):
     return type(name, (ctypes.Structure,), {"_fields_": fields})
 
 
-_Error = _struct("_Error", [("row", _INT), ("column", _INT), ("line", _OFF), ("value", _REAL)])
+_Error = _struct("_Error", [("row", _INT), ("column", _INT), ("line", _OFF), ("value", _REAL),
+    ("what", ctypes.c_char_p)])
 _Symbolic = _struct("_Symbolic", [
     ("n", _INT), ("triangle", _ENUM), ("nnz_a", _OFF), ("nnz_l", _OFF), ("nnz_panels", _OFF),
     ("flops", _REAL), ("supernodes", _INT), ("supernodes_fundamental", _INT),
