@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cfe554d87fca4c66
+ * FNV-1a of the lines after this comment, without the license: 206a8194f12820fb
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -3073,7 +3073,7 @@ SL_API const char *sl_status_string(sl_status status) {
   case SL_ERR_TOO_LARGE:
     return "too large for the integer type";
   case SL_ERR_UNSUPPORTED:
-    return "not supported, or not compiled in: a pack (SL_WITH_...), METIS, an instruction set";
+    return "not supported, or not compiled in: a pack, METIS or an instruction set";
   case SL_ERR_IO:
     return "file cannot be read, parsed or written";
   case SL_ERR_ORDERING:

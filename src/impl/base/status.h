@@ -26,7 +26,7 @@ SL_API const char *sl_status_string(sl_status status) {
     case SL_ERR_TOO_LARGE:
         return "too large for the integer type";
     case SL_ERR_UNSUPPORTED:
-        return "not supported, or not compiled in: a pack (SL_WITH_...), METIS, an instruction set";
+        return "not supported, or not compiled in: a pack, METIS or an instruction set";
     case SL_ERR_IO:
         return "file cannot be read, parsed or written";
     case SL_ERR_ORDERING:
