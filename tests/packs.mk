@@ -34,24 +34,25 @@ build/packs/small.ok: tests/core/check_packs.sh tools/build/layers.awk build/ama
 # ---- tests ----
 
 # The core and each pack, with -DSL_NO_SIMD: which kernels run is not what these tests are about. A pack is alone but for those of
-# PACK_ALSO, which its tests use. Tests that use tools or many packs, or take long, are left to `make test`.
+# PACK_ALSO, which its tests use. Of tools they have only the list of a folder's files. Tests of many packs are left to `make test`.
 PACK_TESTS_core = checks csc csc_products csc_triplets factor factor_fail levels mindeg order_hashes order_kkt ordering peel plan relaxation \
 	rigid_mass_cases solve subnormal symbolic symbolic_order zero_mean_cases
 PACK_TESTS_inverse = inverse inverse_diagonal region selected selected_use stats
-PACK_TESTS_change = change change_rare pins pins_rigid pins_trust pins_ways refactor_changed regularize restrict supernodal
+PACK_TESTS_change = change change_rare pins pins_rigid pins_trust pins_ways refactor_changed restrict supernodal
 PACK_TESTS_save = save save_file saved_set save_lies
-PACK_ALSO_save = accuracy pivots
+PACK_ALSO_save = accuracy complex float pivots
 PACK_TESTS_batch = batch matrix_sum scatter
-PACK_TESTS_complex = complex complex_use threads_solve
+PACK_TESTS_complex = complex complex_use
 PACK_ALSO_complex = inverse
 PACK_TESTS_float = storage
 PACK_ALSO_float = accuracy inverse
 PACK_TESTS_accuracy = condition refine refine_local reserve
 PACK_TESTS_files = csc64 csc_write locale matrix_market matrix_market_file
 PACK_TESTS_pivots = pivots_rare
+PACK_ALSO_pivots = float
 
 $(PACK_NAMES:%=test-pack-%) test-pack-core: test-pack-%: deps sparse_local.h
-	@+$(SUB_MAKE) run-tests B=build/pack_$* LIBRARY= REPLAYS= OPT='-O1 -DSL_NO_SIMD' \
+	@+$(SUB_MAKE) run-tests B=build/pack_$* TOOLS=tools/io/dataset.c PAGE= REPLAYS= OPT='-O1 -DSL_NO_SIMD' \
 	PACK_FLAGS='$(patsubst %,-DSL_WITH_%,$(shell echo $(filter-out core,$*) $(PACK_ALSO_$*) | tr a-z A-Z))' \
 	TEST_PROGRAMS='$(PACK_TESTS_$*:%=build/pack_$*/tests/core/test_%)'
 
