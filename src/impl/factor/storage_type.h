@@ -43,8 +43,8 @@ struct sli_storage_type {
     int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
 };
 
-/* The table of a storage; NULL: it is not compiled in, and what it needs. Both are defined where all
- * packs are known. */
+/* The table of a storage; NULL: it is not compiled in, and what it needs. Both are defined where
+ * all packs are known. */
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
 static const char *sli_storage_needs(sl_storage storage);
 

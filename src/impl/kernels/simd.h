@@ -4,11 +4,21 @@
 
 #include "panel.h"
 
-/* A template *.inl.h is compiled once for each instruction set. It uses two groups of macros, which
- * the files simd_*.h define. words_undef.inl.h undefines them, lanes_undef.inl.h those of SLW_.
+/* A template *.inl.h is compiled once for each instruction set. It uses two groups of words:
+ * words_*.inl.h define SLV_, and lanes_*.inl.h define SLW_ for SLW_NRHS right-hand sides.
+ * words_undef.inl.h and lanes_undef.inl.h undefine them, with the parameters. Who includes
+ * templates defines the parameters before the words:
  *
- * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile. In the files
- * simd_*_single.h they are vectors of floats.
+ *  SLV_SINGLE             1: L is in float, and so are fronts in float; 0: double. In sweeps all
+ *                         else is double
+ *  SLV_COMPLEX            1: a column of a front is the first one of a pair of real columns; else 0
+ *  SLW_NRHS               the number of right-hand sides of the lanes
+ *  SLW_GROUPS             defined: sweeps take several groups of SLW_NRHS right-hand sides, up to
+ *                         SLW_GROUPS in all: the largest SLW_NRHS of an instruction set, and those
+ *                         of complex matrices
+ *
+ * SLV_: a, b, c are vectors of 8 doubles, the lanes: one column of a row tile. In
+ * float/simd_*_single.h they are vectors of floats.
  *
  *  SLV_NAME(f)            name of function f in this instruction set
  *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
@@ -42,11 +52,8 @@
  *  SLV_DUP_LOW(e, l)      e = l[0] l[0] l[1] l[1] l[2] l[2] l[3] l[3]. SLV_DUP_HIGH: from l[4] on
  *  SLV_PAIR(b, p)         b = p[0] p[1] p[0] p[1] p[0] p[1] p[0] p[1]
  *
- *  Sweeps read L in the type in which it is stored. Their templates are included twice, for double
- *  and for float; multi_rhs.inl.h, the last of them, flips SLV_SINGLE at its end. The templates of
- *  fronts compute in that type.
+ *  What depends on the type of L:
  *
- *  SLV_SINGLE             0: L is stored in double; 1: in float. In sweeps all else is double
  *  SLV_VALUE              the type of an entry of L, and of a front
  *  SLV_OF(f, array)       an array of front f in that type
  *  SLV_LEAST, SLV_MOST    the reciprocal of a number between them neither overflows nor underflows
@@ -59,10 +66,8 @@
  *                         from l on, their first 4 or 8 rows, as doubles, [column][8]. For scalars
  *                         of L; L in double is not copied. SLV_WIDEN_ROWS(v, l, rows): one column
  *
- *  Fronts of complex matrices keep every other column (panel.h). Their templates are included a
- *  second time for them, and flip SLV_COMPLEX at their end.
+ *  Fronts of complex matrices keep every other column (panel.h):
  *
- *  SLV_COMPLEX            1: a column of a front is the first one of a pair of real columns; else 0
  *  SLV_PARTS              the real columns that a column of a front is kept for: 1 or 2
  *  SLV_FRONT(f)           SLV_NAME of a function of fronts
  *
@@ -77,12 +82,11 @@
  *  SLV_EACH_COLUMN(op, t)             op(0, t) op(1, t) .. over the columns of that block
  *
  * SLW_: a, b are vectors of SLW_NRHS doubles: one row of as many right-hand sides; s is a scalar.
- * With SLW_GROUPS defined, sweeps take several groups of SLW_NRHS right-hand sides, up to
- * SLW_GROUPS in all: those of the largest SLW_NRHS of an instruction set, 8 or 16, and those of
- * complex matrices, which SLW_COMPLEX asks for.
  *
- *  SLW_NAME(f), SLW_NRHS  name of function f; the number of right-hand sides
- *  SLW_ROWS               rows that are kept in registers, 4 or 8
+ *  SLW_NAME(f)            name of function f
+ *  SLW_ROWS               rows that are kept in registers, 4 or 8: a0, a1, ..
+ *  SLW_EACH(op, k)        op(0, k) op(1, k) .. over these rows. SLW_EACH_AGAIN: the same inside
+ *                         SLW_EACH. SLW_HIGH, SLW_LOW: its halves in descending order
  *  SLW_HALF(f)            defined where 8 rows do not fit in the registers: name of f for half as
  *                         many right-hand sides
  *  SLW_DECLARE, SLW_ZERO, SLW_ADD     as above; SLW_LOAD and SLW_STORE need no alignment
