@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 206a8194f12820fb
+ * FNV-1a of the lines after this comment, without the license: a94f89fe4e47f7b1
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,24 +35,24 @@
  *   3731 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4566 impl/ matrix: sparse matrices of the caller and of the library
  *   5092 impl/ ordering: fill-reducing orderings of a graph
- *   9470 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11390 impl/ factor: the numbers of L and D
- *  14151 impl/ solve: full and local solves
- *  15723 impl/ accuracy: refinement, condition, defects, half solves
- *  16555 impl/ pivots: the order of the pivots by the values of a matrix
- *  16973 impl/ float: L and fronts in single precision
- *  17424 impl/ inverse: entries of the inverse, regions
- *  19940 impl/ change: a factor that follows changes of its matrix
- *  26465 impl/ io: files that are written and mapped
- *  26775 impl/ files: Matrix Market files, 64-bit indices
- *  27297 impl/ save: factors in files
- *  29120 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29776 impl/ batch: diagonals of many inverses
- *  29918 impl/ complex: complex Hermitian systems over real factors
- *  30429 impl/ complex: entries of the inverse
- *  30487 impl/ packs: the tables through which the core calls packs
- *  30519 impl/ last: undefine every internal macro
- *  30806 impl/ templates: the header includes them from itself, once for each instruction set
+ *   9469 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11389 impl/ factor: the numbers of L and D
+ *  14150 impl/ solve: full and local solves
+ *  15722 impl/ accuracy: refinement, condition, defects, half solves
+ *  16554 impl/ pivots: the order of the pivots by the values of a matrix
+ *  16972 impl/ float: L and fronts in single precision
+ *  17423 impl/ inverse: entries of the inverse, regions
+ *  19939 impl/ change: a factor that follows changes of its matrix
+ *  26464 impl/ io: files that are written and mapped
+ *  26774 impl/ files: Matrix Market files, 64-bit indices
+ *  27296 impl/ save: factors in files
+ *  29119 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29775 impl/ batch: diagonals of many inverses
+ *  29917 impl/ complex: complex Hermitian systems over real factors
+ *  30428 impl/ complex: entries of the inverse
+ *  30486 impl/ packs: the tables through which the core calls packs
+ *  30518 impl/ last: undefine every internal macro
+ *  30805 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5297,8 +5297,7 @@ typedef struct sli_order_job {
   sl_int block;
   const sli_graph *G;
   int is_peeled;
-  const sl_int
-    *weight;
+  const sl_int *weight;
 } sli_order_job;
 
 /* src/impl/ordering/reduce.h: rows ordered apart: those with few neighbors first, constraints last */

@@ -2,6 +2,7 @@
 #ifndef SLI_ORDERING_DISSECT_H
 #define SLI_ORDERING_DISSECT_H
 
+#include "dissection.h"
 #include "separator.h"
 
 /* Leaves of at most this many vertices are not dissected: minimum degree is about as good there as

@@ -40,8 +40,7 @@ typedef struct sli_order_job {
     sl_int block;         /* rows of a vertex of the first graph */
     const sli_graph *G;   /* the graph that is left */
     int is_peeled;        /* rows with few neighbors are gone from it */
-    const sl_int
-        *weight; /* G->n: rows of each vertex, for the balance of bisections; NULL: 1 each */
+    const sl_int *weight; /* G->n: rows of each vertex, which bisections balance; NULL: 1 each */
 } sli_order_job;
 
 #endif

@@ -33,7 +33,7 @@ static sl_status sli_order_given(const sli_order_job *job) {
     return SL_OK;
 }
 
-/* Orders the graph of a job by minimum degree, into the other order if it is only tried. */
+/* Orders the graph of a job by minimum degree, and adds to the facts what that costs. */
 static sl_status sli_order_by_mindeg(const sli_order_job *job, sli_graph_facts *f, sl_int *perm) {
     const sl_status status = sli_order_mindeg(job->G, perm, &f->cost, job->a);
     sli_graph_describe_mindeg(job->G, f);
