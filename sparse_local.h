@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a94f89fe4e47f7b1
+ * FNV-1a of the lines after this comment, without the license: e3360fc9ae27b64b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -34,25 +34,25 @@
  *   2753 impl/ base: the compiler, status, memory, sorting, threads
  *   3731 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4566 impl/ matrix: sparse matrices of the caller and of the library
- *   5092 impl/ ordering: fill-reducing orderings of a graph
- *   9469 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11389 impl/ factor: the numbers of L and D
- *  14150 impl/ solve: full and local solves
- *  15722 impl/ accuracy: refinement, condition, defects, half solves
- *  16554 impl/ pivots: the order of the pivots by the values of a matrix
- *  16972 impl/ float: L and fronts in single precision
- *  17423 impl/ inverse: entries of the inverse, regions
- *  19939 impl/ change: a factor that follows changes of its matrix
- *  26464 impl/ io: files that are written and mapped
- *  26774 impl/ files: Matrix Market files, 64-bit indices
- *  27296 impl/ save: factors in files
- *  29119 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29775 impl/ batch: diagonals of many inverses
- *  29917 impl/ complex: complex Hermitian systems over real factors
- *  30428 impl/ complex: entries of the inverse
- *  30486 impl/ packs: the tables through which the core calls packs
- *  30518 impl/ last: undefine every internal macro
- *  30805 impl/ templates: the header includes them from itself, once for each instruction set
+ *   5113 impl/ ordering: fill-reducing orderings of a graph
+ *   9490 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11437 impl/ factor: the numbers of L and D
+ *  14200 impl/ solve: full and local solves
+ *  15775 impl/ accuracy: refinement, condition, defects, half solves
+ *  16607 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17025 impl/ float: L and fronts in single precision
+ *  17476 impl/ inverse: entries of the inverse, regions
+ *  19998 impl/ change: a factor that follows changes of its matrix
+ *  26602 impl/ io: files that are written and mapped
+ *  26912 impl/ files: Matrix Market files, 64-bit indices
+ *  27440 impl/ save: factors in files
+ *  29263 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29924 impl/ batch: diagonals of many inverses
+ *  30066 impl/ complex: complex Hermitian systems over real factors
+ *  30590 impl/ complex: entries of the inverse
+ *  30642 impl/ packs: the tables through which the core calls packs
+ *  30674 impl/ last: undefine every internal macro
+ *  30961 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4743,9 +4743,17 @@ static void sli_matrix_sum_duplicates(sl_matrix *M) {
   }
 }
 
-static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count,
-                   const sl_int *i, const sl_int *j, const double *x,
+typedef struct sli_triplet_list {
+  sl_int n_rows, n_cols, count;
+  const sl_int *i, *j;
+  const double *x;
+} sli_triplet_list;
+
+static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
                    const sl_allocator *a) {
+  const sl_int n_rows = t->n_rows, n_cols = t->n_cols, count = t->count;
+  const sl_int *i = t->i, *j = t->j;
+  const double *x = t->x;
   sl_matrix *M = NULL;
   sli_block b = {NULL, 0, 0};
   sl_int *start = NULL, *order = NULL, k;
@@ -4783,6 +4791,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
                      sl_off count, const sl_int *i, const sl_int *j,
                      const double *x, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
+  sli_triplet_list t;
   sl_off k;
   sli_stats_clear_error(stats);
   if (out == NULL) {
@@ -4801,7 +4810,13 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
       return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], 0.0);
     }
   }
-  return sli_from_triplets(out, n_rows, n_cols, (sl_int)count, i, j, x, &a);
+  t.n_rows = n_rows;
+  t.n_cols = n_cols;
+  t.count = (sl_int)count;
+  t.i = i;
+  t.j = j;
+  t.x = x;
+  return sli_from_triplets(out, &t, &a);
 }
 
 SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {
@@ -5080,8 +5095,14 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
       status = SL_ERR_ARGUMENT;
     } else {
       sli_permute_entries(A, iperm, row, column);
-      status =
-        sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
+      sli_triplet_list t;
+      t.n_rows = A->n_rows;
+      t.n_cols = A->n_cols;
+      t.count = sli_nnz(A);
+      t.i = row;
+      t.j = column;
+      t.x = A->x;
+      status = sli_from_triplets(out, &t, &a);
     }
     sli_free(&a, b.base);
   }
@@ -9775,7 +9796,9 @@ static void sli_relabel(const sl_int *order, sl_int n, sl_int *old_of, sl_int *n
 /* src/impl/analysis/supernodes.h: fundamental supernodes, and relaxed amalgamation over the whole assembly tree */
 
 typedef struct sli_amalgamation {
+  sl_int n;
   sl_int count;
+  sl_int *super_of;
   sl_int *first;
   sl_int *parent;
   sl_int *width;
@@ -9807,6 +9830,8 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
     s += ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1))) != 0;
     super_of[j] = s;
   }
+  g->n = n;
+  g->super_of = super_of;
   g->count = s + 1;
   g->first[g->count] = n;
   for (s = 0; s < g->count; s++) {
@@ -9889,8 +9914,8 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
   }
 }
 
-static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequence,
-              const sl_int *super_of, sl_int *top, sl_int *tree, sl_int *number) {
+static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int *top, sl_int *tree,
+              sl_int *number) {
   sl_int s, k, count = 0;
   for (s = g->count - 1; s >= 0; s--) {
     g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
@@ -9900,8 +9925,8 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
     number[s] = count;
     count += g->merged_into[s] == s;
   }
-  for (k = 0; k < n && sequence != NULL; k++) {
-    s = super_of[sequence[k]];
+  for (k = 0; k < g->n && sequence != NULL; k++) {
+    s = g->super_of[sequence[k]];
     if (g->merged_into[s] == s && sequence[k] == g->first[s + 1] - 1) {
       number[s] = count;
       top[count++] = s;
@@ -9917,11 +9942,12 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
   return count;
 }
 
-static int sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
-                 sl_int *order, sl_int *super_of, sl_int *scratch) {
-  sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
+static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
+                 sl_int *scratch) {
+  const sl_int n = g->n;
+  sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
        *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
-  const sl_int count = sli_find_tops(g, n, sequence, super_of, top, tree, at);
+  const sl_int count = sli_find_tops(g, sequence, top, tree, at);
   sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
   sli_postorder(tree, NULL, count, post, at, number);
   for (k = 0; k < count; k++) {
@@ -9984,10 +10010,11 @@ static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_
   return count;
 }
 
-static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
-               const unsigned char *is_first, sl_int *super_of, sl_int *earlier,
-               sl_int *order, sl_int *scratch) {
-  sl_int *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
+static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent,
+               const unsigned char *is_first, sl_int *earlier, sl_int *order,
+               sl_int *scratch) {
+  const sl_int n = g->n;
+  sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
   sl_int *first = g->merged_into;
   const sl_int count = sli_find_parts(g, is_first, first, below, order);
   sl_int s, k, c, column = 0;
@@ -10707,8 +10734,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
   for (k = w->n - 1; k >= 0; k--) {
     w->counts[k] = w->is_first[k] ? w->counts[k + 1] + 1 : w->counts[k];
   }
-  if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
-            order, w->scratch)) {
+  if (sli_split_pairs(&w->amalgamation, w->parent, w->is_first, w->earlier, order, w->scratch)) {
     sli_analysis_reorder(w, order);
     for (k = 0; k < w->n; k++) {
       w->is_first[k] = w->pairs[w->old_of[k]];
@@ -10766,7 +10792,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
   if (w->amalgamation.relaxes || w->pairs != NULL) {
     sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
   }
-  if (sli_number_supernodes(&w->amalgamation, n, sequence, order, w->super_of, w->scratch)) {
+  if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
     sli_analysis_reorder(w, order);
   }
   if (w->pairs != NULL) {
@@ -11215,16 +11241,23 @@ SLI_INLINE void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, s
   sli_reach_measure_within(S, NULL, seeds, count, R);
 }
 
-static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
-              sl_int end, sl_int *pending) {
-  const sl_int first = S->super_first[s];
-  sli_step *step = &steps[at];
+typedef struct sli_reach_draft {
+  const sl_symbolic *S;
+  sli_step *steps;
+  sl_int count;
+  sl_int pending;
+} sli_reach_draft;
+
+SLI_INLINE void sli_reach_enter(sli_reach_draft *d, sl_int s, sl_int seed, sl_int end) {
+  const sl_symbolic *S = d->S;
+  const sl_int first = S->super_first[s], at = d->count++;
+  sli_step *step = &d->steps[at];
   sl_int column = seed;
-  while (*pending != -1 && S->super_parent[S->super_of[steps[*pending].column]] == s) {
-    sli_step *child = &steps[*pending];
+  while (d->pending != -1 && S->super_parent[S->super_of[d->steps[d->pending].column]] == s) {
+    sli_step *child = &d->steps[d->pending];
     const sl_int c = S->super_of[child->column];
     column = sli_min(column, S->rows[S->rows_begin[c]]);
-    *pending = child->up;
+    d->pending = child->up;
     child->up = at;
   }
   step->panel = S->panel_begin[s];
@@ -11234,8 +11267,8 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
   step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
   step->up = -1;
   if (S->super_parent[s] != -1 && S->super_parent[s] < end) {
-    step->up = *pending;
-    *pending = at;
+    step->up = d->pending;
+    d->pending = at;
   }
 }
 
@@ -11279,10 +11312,22 @@ static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, co
   }
 }
 
+typedef struct sli_reach_arrays {
+  sli_step *steps;
+  sl_int *rows;
+} sli_reach_arrays;
+
 static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
-                  const uint64_t *seeds, sl_int count, sli_step *steps,
-                  sl_int *rows, sli_reach *R) {
-  sl_int k = 0, at = 0, pending = -1, s, next, end;
+                  const uint64_t *seeds, sl_int count,
+                  const sli_reach_arrays *arrays, sli_reach *R) {
+  sli_step *steps = arrays->steps;
+  sl_int *rows = arrays->rows;
+  sl_int k = 0, at, s, next, end;
+  sli_reach_draft draft;
+  draft.S = S;
+  draft.steps = steps;
+  draft.count = 0;
+  draft.pending = -1;
   memset(R, 0, sizeof *R);
   while (k < count) {
     sl_int seed = sli_key(seeds[k]);
@@ -11290,11 +11335,11 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
     end = sli_extent_end(S, extent, s);
     next = sli_min(sli_next_seed(S, seeds, count, &k), end);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
-      sli_reach_enter(S, steps, at++, s, seed, end, &pending);
+      sli_reach_enter(&draft, s, seed, end);
       seed = INT32_MAX;
     }
   }
-  R->count = at;
+  R->count = draft.count;
   for (at = 0; at < R->count; at++) {
     const sli_step *step = &steps[at];
     steps[at].base = R->columns;
@@ -11322,7 +11367,10 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
 
 SLI_INLINE void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                  sli_step *steps, sl_int *rows, sli_reach *R) {
-  sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
+  sli_reach_arrays arrays;
+  arrays.steps = steps;
+  arrays.rows = rows;
+  sli_reach_fill_within(S, NULL, seeds, count, &arrays, R);
 }
 
 SLI_INLINE sl_int sli_reach_index(const sli_reach *R, sl_int *at, sl_int column) {
@@ -11883,6 +11931,8 @@ static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_tr
 }
 
 typedef struct sli_null_map_state {
+  const sl_symbolic *S;
+  sl_int s, tile;
   double *diagonal;
   sl_off to;
   sl_int k, j;
@@ -11895,15 +11945,15 @@ SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_sta
   }
 }
 
-static void sli_null_add_entries(const sli_null_walk *w, const sl_symbolic *S, sl_int s,
-                 sl_off first, sl_int count, const double *values,
-                 const sl_int *scatter_from, sl_int *tile, sli_null_map_state *p) {
+static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p, sl_off first,
+                 sl_int count, const double *values, const sl_int *from) {
+  const sl_symbolic *S = p->S;
   sl_int m;
   for (m = count - 1; m >= 0; m--) {
-    const double a = values[scatter_from != NULL ? scatter_from[first + m] : m];
+    const double a = values[from != NULL ? from[first + m] : m];
     if (S->scatter_to[first + m] != p->to) {
       sli_null_map_join(w, p);
-      sli_scatter_map_pivots(S, s, first + m, tile, &p->k, &p->j);
+      sli_scatter_map_pivots(S, p->s, first + m, &p->tile, &p->k, &p->j);
       p->to = S->scatter_to[first + m];
       p->value = 0.0;
     }
@@ -11921,23 +11971,23 @@ static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const
                double *diagonal) {
   double sums[SLI_SUM_ENTRIES];
   sli_null_map_state p;
-  sl_int s;
   memset(&p, 0, sizeof p);
+  p.S = S;
   p.diagonal = diagonal;
   p.to = -1;
-  for (s = S->n_supers - 1; s >= 0; s--) {
-    const sl_off begin = S->scatter_begin[s];
-    sl_off end = S->scatter_begin[s + 1];
-    sl_int tile = sli_last_tile(S, s);
+  for (p.s = S->n_supers - 1; p.s >= 0; p.s--) {
+    const sl_off begin = S->scatter_begin[p.s];
+    sl_off end = S->scatter_begin[p.s + 1];
+    p.tile = sli_last_tile(S, p.s);
     while (end > begin) {
       const sl_int count =
         (sl_int)(end - begin < SLI_SUM_ENTRIES ? end - begin : SLI_SUM_ENTRIES);
       end -= count;
       if (from->A != NULL) {
-        sli_null_add_entries(w, S, s, end, count, from->A->x, S->scatter_from, &tile, &p);
+        sli_null_add_entries(w, &p, end, count, from->A->x, S->scatter_from);
       } else {
         sli_source_sum(from, end, count, sums);
-        sli_null_add_entries(w, S, s, end, count, sums, NULL, &tile, &p);
+        sli_null_add_entries(w, &p, end, count, sums, NULL);
       }
     }
   }
@@ -15464,12 +15514,15 @@ static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach 
 }
 
 static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **index) {
+  sli_reach_arrays arrays;
   sl_int k, at = 0;
   if (set->rows == NULL) {
     *index = S->iperm;
     return;
   }
-  sli_reach_fill_within(S, set->extent, set->seeds, set->inside, set->steps, set->row_index, R);
+  arrays.steps = set->steps;
+  arrays.rows = set->row_index;
+  sli_reach_fill_within(S, set->extent, set->seeds, set->inside, &arrays, R);
   for (k = 0; k < set->inside; k++) {
     set->index[sli_value(set->seeds[k])] = sli_reach_index(R, &at, sli_key(set->seeds[k]));
   }
@@ -18693,42 +18746,45 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
   return SL_OK;
 }
 
-static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_int *rows,
-                   const sl_int *columns, sl_int count, sl_work *W,
-                   sl_stats *stats) {
+static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats) {
+  const sli_requests *r = &q->requests;
   sl_work own;
-  sli_entries q;
   sl_status status;
-  if (count < 0 || (count > 0 && out == NULL)) {
+  if (r->count < 0 || (r->count > 0 && q->out == NULL)) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_check_entries(F, rows, count, columns, count, stats);
+  status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
   if (status != SL_OK) {
     return status;
   }
   sli_inverse_clear_stats(stats);
-  q = sli_entries_of(F, out, rows, columns, count);
-  own = sli_work_own(&F->allocator);
-  status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
+  own = sli_work_own(&q->F->allocator);
+  status = r->count > 0 ? sli_entries_run(q, W == NULL ? &own : W, stats) : SL_OK;
   sli_free(&own.allocator, own.block);
   return status;
 }
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
                    sl_int count, sl_work *W, sl_stats *stats) {
+  sli_entries q;
   sli_stats_clear_error(stats);
-  return F == NULL
-         ? SL_ERR_ARGUMENT
-         : sli_inverse_entries(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
+  if (F == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
+  return sli_inverse_entries(&q, W, stats);
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
                   const sl_int *columns, sl_int count, sl_work *W,
                   sl_stats *stats) {
+  sli_entries q;
   sli_stats_clear_error(stats);
-  return F == NULL || (count > 0 && (rows == NULL || columns == NULL))
-         ? SL_ERR_ARGUMENT
-         : sli_inverse_entries(F, out, rows, columns, count, W, stats);
+  if (F == NULL || (count > 0 && (rows == NULL || columns == NULL))) {
+    return SL_ERR_ARGUMENT;
+  }
+  q = sli_entries_of(F, out, rows, columns, count);
+  return sli_inverse_entries(&q, W, stats);
 }
 
 /* src/impl/inverse/block.h: dense blocks of A^-1: forward sweeps of all rows and columns, sums between sweeps */
@@ -19325,30 +19381,30 @@ SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
 }
 
 static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
-               const sli_kernels *kernels, int kind, const double *u, double *x,
-               double *vectors, double *scratch) {
+               const sli_kernels *kernels, int kind, const sli_vectors *v) {
   static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
   const sli_sweeps *sweeps = &kernels->sweeps;
   const sl_int n = R->extent.n_rows;
   const size_t size = (size_t)n << kind;
+  double *vectors = v->product;
   sl_int first;
   if (n == 0) {
     return;
   }
-  memcpy(vectors, u, size * sizeof(double));
+  memcpy(vectors, v->y, size * sizeof(double));
   memset(vectors + size, 0, size * sizeof(double));
-  memcpy(vectors + 2 * size, u, size * sizeof(double));
+  memcpy(vectors + 2 * size, v->y, size * sizeof(double));
   for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
     const sli_step step = sli_region_step(R, first);
     if (boundary->b[first / SLI_REGION_COLUMNS]) {
-      sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
+      sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, v->scratch);
     }
     if (boundary->x[first / SLI_REGION_COLUMNS]) {
       sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                   scratch);
+                   v->scratch);
     }
   }
-  memcpy(x, vectors + size, size * sizeof(double));
+  memcpy(v->x, vectors + size, size * sizeof(double));
 }
 
 /* src/impl/inverse/region_choose.h: chooses the subtrees and the boundary of a region for the cheapest solves */
@@ -19357,6 +19413,7 @@ typedef struct sli_choice {
   const sl_symbolic *S;
   uint64_t *seeds, *scratch;
   sl_int count;
+  int may_copy;
   size_t bytes_max;
   sli_reach reach;
   sli_step *steps;
@@ -19680,9 +19737,10 @@ static size_t sli_region_scratch_of(const sli_ending *e, sl_int lanes) {
 static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,
                const sli_vectors *v) {
   const ptrdiff_t n = q->ending->rows;
-  sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind,
-           v->y + ((q->forward.columns - n) << kind),
-           v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
+  sli_vectors boundary = *v;
+  boundary.y += (q->forward.columns - n) << kind;
+  boundary.x += (q->backward.columns - n) << kind;
+  sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind, &boundary);
 }
 
 static const sli_ending_calls sli_region_calls = {
@@ -19741,19 +19799,15 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
   memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n_rows)] * sizeof *R->Z);
 }
 
-static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_int *set,
-                sl_int count, int may_copy, const sl_options *opt,
+static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
                 const sl_allocator *a, sl_stats *stats) {
+  const sl_symbolic *S = start->S;
   sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
-  sli_choice c;
+  sli_choice c = *start;
   sl_region draft;
   sl_status status = SL_OK;
   int pass;
-  memset(&c, 0, sizeof c);
   memset(&draft, 0, sizeof draft);
-  c.S = S;
-  c.count = set == NULL ? S->n : count;
-  c.bytes_max = opt == NULL ? 0 : opt->region_bytes;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
     c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
@@ -19771,7 +19825,7 @@ static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_
     sli_choice_init(&c);
     sli_choice_sweep(&c);
     sli_choice_improve(&c);
-    if (may_copy && c.boundary > 1) {
+    if (c.may_copy && c.boundary > 1) {
       sli_choice_single_subtree(&c);
     }
     draft.allocator = *a;
@@ -19854,6 +19908,7 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
   const double started = sli_seconds();
   const sl_allocator a = sli_allocator(opt);
   sl_region *R = NULL;
+  sli_choice start;
   sl_status status;
   sli_stats_clear_error(stats);
   if (out == NULL) {
@@ -19864,9 +19919,13 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     !sli_options_are_valid(opt, SLI_READS_REGION_BYTES)) {
     return SL_ERR_ARGUMENT;
   }
+  memset(&start, 0, sizeof start);
+  start.S = F->S;
+  start.count = set == NULL ? F->S->n : count;
+  start.may_copy = Z != NULL;
+  start.bytes_max = opt == NULL ? 0 : opt->region_bytes;
   status = sli_region_check_factor(F, Z);
-  status =
-    status == SL_OK ? sli_region_new(&R, F->S, set, count, Z != NULL, opt, &a, stats) : status;
+  status = status == SL_OK ? sli_region_new(&R, &start, set, &a, stats) : status;
   if (status == SL_OK) {
     status = sli_region_fill(R, F, Z, NULL);
     R->seconds = sli_seconds() - started;
@@ -20015,13 +20074,20 @@ typedef struct sli_left_work {
   sl_int *local;
   sl_int *relative;
   double *buffer;
+  const uint64_t *seeds;
+  sl_int n_seeds;
 } sli_left_work;
 
+typedef struct sli_descendant {
+  sl_int super, first, last;
+} sli_descendant;
+
 static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-              sl_int d, sl_int first, sl_int last, double *update) {
+              const sli_descendant *d, double *update) {
   const sl_symbolic *S = F->S;
-  const sl_int *rows = S->rows + S->rows_begin[d];
-  sli_front from = sli_front_of(F, d, 0);
+  const sl_int *rows = S->rows + S->rows_begin[d->super];
+  const sl_int first = d->first, last = d->last;
+  sli_front from = sli_front_of(F, d->super, 0);
   const sl_int w = from.width, tiles = sli_front_tiles(&from);
   const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
   sl_int t, r;
@@ -20039,13 +20105,13 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
 }
 
 static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-                sl_int d, sl_int first, sl_int last) {
-  const sli_front from = sli_front_of(F, d, 0);
+                const sli_descendant *d) {
+  const sli_front from = sli_front_of(F, d->super, 0);
   const sl_int w = from.width;
   sl_int r, j;
-  for (r = first; r < last; r++) {
+  for (r = d->first; r < d->last; r++) {
     const double *l = from.panel + sli_panel_at(w, w + r, 0);
-    double *magnitude = f->magnitude + p->relative[r - first];
+    double *magnitude = f->magnitude + p->relative[r - d->first];
     for (j = 0; j < w; j++, l += SLI_TILE) {
       if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
         const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
@@ -20158,7 +20224,11 @@ static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, cons
     p->relative[k] = f->width + k;
   }
   if (!has_one_sign) {
-    sli_left_magnitudes(G, p, f, s, 0, f->below);
+    sli_descendant all;
+    all.super = s;
+    all.first = 0;
+    all.last = f->below;
+    sli_left_magnitudes(G, p, f, &all);
   }
 }
 
@@ -20180,12 +20250,14 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
   sli_kept_update_own(G, p, &f, s, has_one_sign);
   for (d = s - 1; d >= S->first_descendant[s];) {
     const sl_int below = S->steps[d].below;
-    const sl_int first =
-      sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
-    if (first < below) {
-      sli_left_update(G, p, &f, d, first, below, update);
+    sli_descendant from;
+    from.super = d;
+    from.first = sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
+    from.last = below;
+    if (from.first < below) {
+      sli_left_update(G, p, &f, &from, update);
       if (!has_one_sign) {
-        sli_left_magnitudes(G, p, &f, d, first, below);
+        sli_left_magnitudes(G, p, &f, &from);
       }
       d--;
     } else {
@@ -20258,10 +20330,13 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
   for (d = s - 1; d >= S->first_descendant[s];) {
     const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
     const sl_int first = sli_lower_bound(of, below, start);
-    const sl_int last = first + sli_lower_bound(of + first, below - first, end);
-    if (first < last) {
-      sli_left_update(F, p, &f, d, first, last, F->work.stack);
-      sli_left_magnitudes(F, p, &f, d, first, last);
+    sli_descendant by;
+    by.super = d;
+    by.first = first;
+    by.last = first + sli_lower_bound(of + first, below - first, end);
+    if (first < by.last) {
+      sli_left_update(F, p, &f, &by, F->work.stack);
+      sli_left_magnitudes(F, p, &f, &by);
       d--;
     } else {
       d = S->first_descendant[d] - 1;
@@ -20272,13 +20347,13 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
 }
 
 static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                   const uint64_t *seeds, sl_int count, sli_failure *failure) {
+                   sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_status status = SL_OK;
   sl_int k = 0, s, next;
-  while (k < count && status == SL_OK) {
-    s = S->super_of[sli_key(seeds[k])];
-    next = sli_next_seed(S, seeds, count, &k);
+  while (k < p->n_seeds && status == SL_OK) {
+    s = S->super_of[sli_key(p->seeds[k])];
+    next = sli_next_seed(S, p->seeds, p->n_seeds, &k);
     for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
       status = sli_left_factor(F, p, from, s, failure);
     }
@@ -20305,8 +20380,7 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
 }
 
 static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                   const uint64_t *seeds, sl_int count, double started,
-                   sl_stats *stats) {
+                   double started, sl_stats *stats) {
   sli_failure failure;
   memset(&failure, 0, sizeof failure);
   if (F->null.mode == SL_NULL_PIVOT_SKIP) {
@@ -20316,7 +20390,7 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
     return sli_factor_numbers(F, from, started, stats);
   }
   if (failure.status == SL_OK) {
-    (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
+    (void)sli_left_factor_all(F, p, from, &failure);
   }
   if (failure.status == SL_OK && sli_null_is_suspected(F)) {
     return sli_factor_numbers(F, from, started, stats);
@@ -20324,8 +20398,34 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
   return sli_factor_done(F, from, &failure, started, stats);
 }
 
-static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                       sl_int count, const uint64_t *given, sl_int n_given,
+typedef struct sli_changes {
+  const sl_int *columns;
+  sl_int count;
+  const uint64_t *seeds;
+  sl_int n_seeds;
+} sli_changes;
+
+static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sli_changes *c,
+                   uint64_t *entries, sl_stats *stats) {
+  sl_status status;
+  sl_int k;
+  if (F == NULL || c->count < 0 || (c->count > 0 && c->columns == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+  if (status != SL_OK) {
+    return status;
+  }
+  for (k = 0, *entries = 0; k < c->count; k++) {
+    if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0);
+    }
+    *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
+  }
+  return SL_OK;
+}
+
+static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sli_changes *c,
                        sl_stats *stats) {
   const double started = sli_seconds();
   const sli_source from = sli_source_matrix(A);
@@ -20336,18 +20436,9 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
   sl_int k;
   int pass;
   sli_stats_clear_error(stats);
-  if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
-    return SL_ERR_ARGUMENT;
-  }
-  status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+  status = sli_changes_check(F, A, c, &entries, stats);
   if (status != SL_OK) {
     return status;
-  }
-  for (k = 0; k < count; k++) {
-    if (columns[k] < 0 || columns[k] >= F->S->n) {
-      return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
-    }
-    entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
   }
   if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
     entries >= (uint64_t)sli_nnz(A)) {
@@ -20365,14 +20456,18 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
   }
   work.buffer = F->work.buffer;
   sli_factor_begin(F);
-  for (k = 0; k < count; k++) {
-    const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
-    F->identity = sli_hash_ints(F->identity, &columns[k], 1);
+  for (k = 0; k < c->count; k++) {
+    const sl_int p = A->p[c->columns[k]], q = A->p[c->columns[k] + 1];
+    F->identity = sli_hash_ints(F->identity, &c->columns[k], 1);
     F->identity = sli_hash_words(F->identity, A->x + p, q - p);
   }
-  count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-  status =
-    sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started, stats);
+  work.seeds = c->seeds;
+  work.n_seeds = c->n_seeds;
+  if (c->seeds == NULL) {
+    work.seeds = seeds;
+    work.n_seeds = sli_changed_seeds(F->S, A, c->columns, c->count, seeds, scratch);
+  }
+  status = sli_left_refactor(F, &work, &from, started, stats);
   F->history.scale = F->history.lowest =
     fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
   sli_free(&F->allocator, b.base);
@@ -20381,7 +20476,12 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
 
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                       sl_int count, sl_stats *stats) {
-  return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
+  sli_changes c;
+  c.columns = columns;
+  c.count = count;
+  c.seeds = NULL;
+  c.n_seeds = 0;
+  return sli_left_refactor_columns(F, A, &c, stats);
 }
 
 /* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
@@ -21408,9 +21508,8 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
   return SL_OK;
 }
 
-static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
-              const double *deltas, sl_int count, sl_stats *stats) {
-  sli_rank_begin(q, F, stats);
+static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
+              const double *deltas, sl_int count) {
   q->entry_rows = rows;
   q->entry_columns = columns;
   q->deltas = deltas;
@@ -21429,7 +21528,8 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
   if (status != SL_OK) {
     return status;
   }
-  sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+  sli_rank_begin(&q, F, stats);
+  sli_edges_begin(&q, rows, columns, deltas, count);
   status = sli_rank_apply(&q, sli_edges_stages, 3, W);
   if (status == SL_OK) {
     sli_rank_report(&q, started, stats);
@@ -21563,6 +21663,7 @@ static void sli_way_seeds(sli_way *c, const sli_rank *q) {
 static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
   sl_factor *F = q->u.F;
   const int is_upper = F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
+  sli_changes changes;
   sl_int k, total = 0;
   for (k = 0; k < q->n_entries; k++) {
     const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
@@ -21573,7 +21674,11 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
   for (k = 0; k < total; k++) {
     c->columns[k] = sli_key(c->scratch[k]);
   }
-  return sli_left_refactor_columns(F, A, c->columns, total, c->seeds, c->n_seeds, q->stats);
+  changes.columns = c->columns;
+  changes.count = total;
+  changes.seeds = c->seeds;
+  changes.n_seeds = c->n_seeds;
+  return sli_left_refactor_columns(F, A, &changes, q->stats);
 }
 
 static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
@@ -21660,7 +21765,8 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     return status;
   }
   memset(&c, 0, sizeof c);
-  sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+  sli_rank_begin(&q, F, stats);
+  sli_edges_begin(&q, rows, columns, deltas, count);
   q.u.least = sli_rank_least(F);
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     c.seeds = SLI_TAKE(&b, uint64_t, count);
@@ -21776,31 +21882,40 @@ static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, 
   return has_known && F->rule.kinds[k] == SLI_PIVOT_NULL;
 }
 
-static int sli_pin_null(const sl_factor *F, const sli_pin *pin, sl_int first, sl_int last,
-            const sli_tree_range *tree, sl_int null, double *sum) {
+typedef struct sli_pin_part {
+  const sli_pin *pin;
+  sl_int first, last;
+  sli_tree_range tree;
+} sli_pin_part;
+
+static int sli_pin_null(const sl_factor *F, const sli_pin_part *part, sl_int null, double *sum) {
   const sl_int column = sli_null_column(F, null), *iperm = F->S->iperm;
   const double *g = F->null.g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+  sl_int i;
   *sum = 0.0;
-  for (; first < last; first++) {
-    const sl_int k = iperm[pin->rows[first]];
-    *sum += pin->values[first] * (column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0);
+  for (i = part->first; i < part->last; i++) {
+    const sl_int k = iperm[part->pin->rows[i]];
+    *sum += part->pin->values[i] * (column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0);
   }
-  return column != -1 || sli_null_is_zero_row(F, tree, null);
+  return column != -1 || sli_null_is_zero_row(F, &part->tree, null);
 }
 
 static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills, sl_int *row) {
-  sl_int first = 0, last;
+  const sl_int *iperm = F->S->iperm;
+  sli_pin_part p;
   pin->n_nulls = 0;
-  for (; first < pin->count; first = last) {
-    const sli_tree_range tree = sli_tree_of(F->S, F->S->iperm[pin->rows[first]]);
-    sl_int m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
-    for (last = first + 1; last < pin->count && F->S->iperm[pin->rows[last]] <= tree.root;) {
-      last++;
+  p.pin = pin;
+  for (p.first = 0; p.first < pin->count; p.first = p.last) {
+    sl_int m;
+    p.tree = sli_tree_of(F->S, iperm[pin->rows[p.first]]);
+    for (p.last = p.first + 1; p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
+      p.last++;
     }
-    for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++, pin->n_nulls++) {
+    m = sli_lower_bound(F->null.pivots, F->null.count, p.tree.first);
+    for (; m < F->null.count && F->null.pivots[m] <= p.tree.root; m++, pin->n_nulls++) {
       double z;
-      if (!sli_pin_null(F, pin, first, last, &tree, F->null.pivots[m], &z)) {
-        *row = pin->rows[first];
+      if (!sli_pin_null(F, &p, F->null.pivots[m], &z)) {
+        *row = pin->rows[p.first];
         return SL_ERR_UNSUPPORTED;
       }
       if (fills) {
@@ -21972,15 +22087,53 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
   sli_free(&P->allocator, pin);
 }
 
-static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
-                const double *values, sl_int count, int is_swept, sl_stats *stats) {
+typedef struct sli_equality {
+  const sl_int *rows;
+  const double *values;
+  sl_int count;
+} sli_equality;
+
+SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values, sl_int count) {
+  sli_equality e;
+  e.rows = rows;
+  e.values = values;
+  e.count = count;
+  return e;
+}
+
+static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
+               const sli_reach *R) {
+  sli_pin pin;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  int pass;
+  memset(&pin, 0, sizeof pin);
+  pin.count = count;
+  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    *out = (sli_pin *)sli_take(&b, 1, sizeof **out);
+    sli_set_layout_reach(set, &b, R);
+    pin.rows = SLI_TAKE(&b, sl_int, count);
+    pin.values = SLI_TAKE(&b, double, count);
+    pin.y = SLI_TAKE(&b, double, R->columns);
+    pin.u = SLI_TAKE(&b, double, R->columns);
+    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+  }
+  if (status == SL_OK) {
+    const sl_int *unused;
+    **out = pin;
+    sli_set_fill(P->base->S, set, &(*out)->R, &unused);
+  }
+  return status;
+}
+
+static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
+                int is_swept, sl_stats *stats) {
   const sl_symbolic *S = P->base->S;
-  sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
-  sli_set set = sli_set_of(S, rows, count);
+  sli_block seeds = {NULL, 0, 0};
+  sli_set set = sli_set_of(S, e->rows, e->count);
   sli_reach R;
   sli_pin *pin = NULL;
   double *scratch = NULL;
-  const sl_int *unused;
   sl_status status = SL_OK;
   sl_int k, row = -1;
   int pass;
@@ -21994,34 +22147,13 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
   status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
   if (status == SL_OK) {
     sli_set_measure(S, &set, &R);
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    pin = (sli_pin *)sli_take(&kept, 1, sizeof *pin);
-    sli_set_layout_reach(&set, &kept, &R);
-    if (pass == 1) {
-      memset(pin, 0, sizeof *pin);
-    }
-    {
-      sl_int *copy = SLI_TAKE(&kept, sl_int, count);
-      double *x = SLI_TAKE(&kept, double, count);
-      double *y = SLI_TAKE(&kept, double, R.columns);
-      double *u = SLI_TAKE(&kept, double, R.columns);
-      if (pass == 1) {
-        pin->rows = copy;
-        pin->values = x;
-        pin->y = y;
-        pin->u = u;
-      }
-    }
-    status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
+    status = sli_pin_new(&pin, P, &set, e->count, &R);
   }
   if (status == SL_OK) {
-    pin->count = count;
-    for (k = 0; k < count; k++) {
-      pin->rows[k] = rows[sli_value(set.seeds[k])];
-      pin->values[k] = values[sli_value(set.seeds[k])];
+    for (k = 0; k < e->count; k++) {
+      pin->rows[k] = e->rows[sli_value(set.seeds[k])];
+      pin->values[k] = e->values[sli_value(set.seeds[k])];
     }
-    sli_set_fill(S, &set, &pin->R, &unused);
     status = sli_pin_find_nulls(P, pin, &row);
     if (status == SL_OK) {
       *out = pin;
@@ -22141,13 +22273,12 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
   return SL_OK;
 }
 
-static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
-                 sl_int count, sl_stats *stats) {
+static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, sl_stats *stats) {
   const sl_int at = P->n_pins;
   sli_pin *pin = NULL;
   sl_status status = sli_pins_grow(P, 1);
   sl_int i;
-  status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, 1, stats) : status;
+  status = status == SL_OK ? sli_pin_create(&pin, P, e, 1, stats) : status;
   if (status != SL_OK) {
     return status;
   }
@@ -22160,7 +22291,7 @@ static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, con
   status = sli_pins_factor(P, at);
   if (status != SL_OK) {
     sli_pin_free(P, pin);
-    return sli_fail_at(stats, status, rows[0], -1, 0.0);
+    return sli_fail_at(stats, status, e->rows[0], -1, 0.0);
   }
   pin->index = index;
   sli_pins_count_nulls(P, pin, 1);
@@ -22214,10 +22345,11 @@ static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k
   sli_swept_block_make(&q->sweeps[k], q->F, &q->kept, first, (sl_int)q->kept.block_size[k], NULL);
   for (j = 0; j < q->sweeps[k].block_size && status == SL_OK; j++) {
     const sl_int *row = &q->kept.rows[sli_value(order[j])];
+    const sli_equality e = sli_equality_of(row, &one, 1);
     sli_pin **pin = &P->pins[P->n_pins + sli_value(order[j])];
     status = j > 0 && sli_key(order[j]) == sli_key(order[j - 1])
            ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0)
-           : sli_pin_create(pin, P, row, &one, 1, 0, stats);
+           : sli_pin_create(pin, P, &e, 0, stats);
     if (status == SL_OK) {
       sli_pin_clear_nulls(P, *pin, &f->reach, f->y, f->lanes);
     }
@@ -22288,7 +22420,8 @@ static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows
     sl_int m = sli_min(count - done, SLI_LANES_MAX * SLI_BLOCK_KEPT);
     sli_inverse_block q;
     if (m <= SLI_PINS_SINGLY) {
-      status = sli_pins_push(P, index + done, &rows[done], &one, 1, stats);
+      const sli_equality e = sli_equality_of(&rows[done], &one, 1);
+      status = sli_pins_push(P, index + done, &e, stats);
       done++;
       continue;
     }
@@ -22619,6 +22752,8 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
   sli_left_work left = h->left;
   sli_source from;
   left.buffer = G->work.buffer;
+  left.seeds = h->seeds;
+  left.n_seeds = h->n_seeds;
   from.A = NULL;
   from.values = &values;
   from.coefficients = &one;
@@ -22633,7 +22768,7 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
     memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
   }
   sli_factor_identify(G, &from);
-  return sli_left_refactor(G, &left, &from, h->seeds, h->n_seeds, started, NULL);
+  return sli_left_refactor(G, &left, &from, started, NULL);
 }
 
 static int sli_held_is_loose(const sl_pins *P) {
@@ -22915,7 +23050,8 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_targ
     last = k + 1;
     if (t->rows[k] == -1) {
       const sli_pin *pin = P->pins[t->from[k]];
-      status = sli_pins_push(D, k, pin->rows, pin->values, pin->count, stats);
+      const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
+      status = sli_pins_push(D, k, &e, stats);
     } else {
       while (last < t->count && t->rows[last] != -1) {
         last++;
@@ -23222,6 +23358,7 @@ static void sli_pins_drop(sl_pins *P, sl_int index) {
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                     sl_int count, sl_stats *stats) {
   const double started = stats == NULL ? 0.0 : sli_seconds();
+  const sli_equality e = sli_equality_of(rows, values, count);
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
@@ -23237,7 +23374,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
     }
   }
   status = sli_pins_reserve(P, P->count + 1);
-  status = status == SL_OK ? sli_pins_push(P, P->count, rows, values, count, stats) : status;
+  status = status == SL_OK ? sli_pins_push(P, P->count, &e, stats) : status;
   if (status == SL_OK) {
     P->rows[P->count++] = -1;
     sli_pins_report(P, started, stats);
@@ -23741,6 +23878,7 @@ typedef struct sli_subset {
   sl_int count;
   sl_int *columns;
   sl_int *row_of;
+  uint64_t *list, *scratch;
   sl_int n_words;
   uint64_t *words;
   sl_int *before;
@@ -23764,6 +23902,8 @@ static void sli_subset_layout(sli_subset *R, sli_block *b, sl_int n) {
   R->n_words = R->is_hashed ? R->count : words;
   R->columns = SLI_TAKE(b, sl_int, R->count);
   R->row_of = SLI_TAKE(b, sl_int, R->count);
+  R->list = SLI_TAKE(b, uint64_t, R->count);
+  R->scratch = SLI_TAKE(b, uint64_t, R->count);
   R->words = SLI_TAKE(b, uint64_t, R->n_words);
   R->before = SLI_TAKE(b, sl_int, R->n_words);
   R->slots = SLI_TAKE(b, sl_int, R->is_hashed ? (uint64_t)R->mask + 1 : 0);
@@ -23788,7 +23928,8 @@ SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
   return R->before[w] + (sl_int)sli_popcount(R->words[w] & (bit - 1));
 }
 
-static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
+static void sli_subset_hash(sli_subset *R) {
+  const uint64_t *list = R->list;
   sl_int k, w = -1;
   memset(R->slots, 0xff, ((size_t)R->mask + 1) * sizeof(sl_int));
   for (k = 0; k < R->count; k++) {
@@ -23806,8 +23947,7 @@ static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
 }
 
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                 sl_int *rank_of, uint64_t *list, uint64_t *scratch,
-                 sl_stats *stats) {
+                 sl_int *rank_of, sl_stats *stats) {
   sl_int k, rank = 0;
   if (!R->is_hashed) {
     memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
@@ -23822,7 +23962,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
       SLI_PREFETCH(S->iperm + ahead, 0);
     }
     if (R->is_hashed) {
-      list[k] = sli_keyed(S->iperm[row], k);
+      R->list[k] = sli_keyed(S->iperm[row], k);
     } else {
       const sl_int column = rank_of[k] = S->iperm[row];
       uint64_t *word = &R->words[column / SLI_SUBSET_BITS];
@@ -23834,8 +23974,8 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
     }
   }
   if (R->is_hashed) {
-    sli_sort(list, R->count, scratch);
-    sli_subset_hash(R, list);
+    sli_sort(R->list, R->count, R->scratch);
+    sli_subset_hash(R);
     for (k = 0; k < R->count; k++) {
       rank_of[R->row_of[k]] = k;
       if (k > 0 && R->columns[k] == R->columns[k - 1]) {
@@ -24023,8 +24163,8 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   }
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
     sli_subset_layout(&r->R, &b, r->S->n);
-    r->list = SLI_TAKE(&b, uint64_t, count);
-    r->scratch = SLI_TAKE(&b, uint64_t, count);
+    r->list = r->R.list;
+    r->scratch = r->R.scratch;
     r->number_of = SLI_TAKE(&b, sl_int, count);
     r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
     r->number_at = is_many ? SLI_TAKE(&b, sl_int, r->S->n) : NULL;
@@ -24032,9 +24172,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   }
   r->blocks[0] = b.base;
   r->n_fresh = r->R.count;
-  status = status == SL_OK
-         ? sli_subset_fill(&r->R, r->S, r->rows, r->number_of, r->list, r->scratch, stats)
-         : status;
+  status = status == SL_OK ? sli_subset_fill(&r->R, r->S, r->rows, r->number_of, stats) : status;
   if (status != SL_OK || !r->may_keep || !sli_restriction_has_runs(r)) {
     return status;
   }
@@ -27145,8 +27283,14 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
   status = sli_triplets_grow(&t, room, has_values, a);
   status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
   if (status == SL_OK) {
-    status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], t.i, t.j,
-                   t.x, a);
+    sli_triplet_list list;
+    list.n_rows = (sl_int)size[0];
+    list.n_cols = (sl_int)size[1];
+    list.count = (sl_int)size[2];
+    list.i = t.i;
+    list.j = t.j;
+    list.x = t.x;
+    status = sli_from_triplets(out, &list, a);
   }
   sli_free(a, t.block);
   return status;
@@ -29191,8 +29335,13 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     }
   }
   if (status == SL_OK) {
-    const sl_int n = terms[0].n_cols;
-    status = sli_from_triplets(out, n, n, all.count, all.row, all.column, all.x, &a);
+    sli_triplet_list list;
+    list.n_rows = list.n_cols = terms[0].n_cols;
+    list.count = all.count;
+    list.i = all.row;
+    list.j = all.column;
+    list.x = all.x;
+    status = sli_from_triplets(out, &list, &a);
   }
   sli_free(&a, b.base);
   return status;
@@ -30339,36 +30488,52 @@ static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_
   return -1;
 }
 
-static sl_status sli_complex_sets(sl_int n, sli_complex_set *first, sli_complex_set *second,
-                  int is_block, sli_block *b, const sl_allocator *a,
+typedef struct sli_complex_sets {
+  sli_complex_set first, second;
+  int is_block;
+  unsigned char *memory;
+} sli_complex_sets;
+
+static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
+                      const sl_int *second, sl_int n_second, int is_block) {
+  sli_complex_sets c;
+  memset(&c, 0, sizeof c);
+  c.first.rows = first;
+  c.first.count = n_first;
+  c.second.rows = second;
+  c.second.count = n_second;
+  c.is_block = is_block;
+  return c;
+}
+
+static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_columns,
                   sl_stats *stats) {
-  sl_status status = sli_complex_check(n, first);
-  sl_int bad;
+  const sl_int bad =
+    set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
+  return bad == -1 ? SL_OK
+           : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
+                   is_columns ? set->rows[bad] : -1, 0.0);
+}
+
+static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
+                     sl_stats *stats) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status = sli_complex_check(n, &c->first);
   int pass;
-  status = status == SL_OK ? sli_complex_check(n, second) : status;
+  status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
   for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    sli_complex_layout(first, b);
-    sli_complex_layout(second, b);
-    status = pass == 0 ? sli_block_alloc(b, a) : SL_OK;
+    sli_complex_layout(&c->first, &b);
+    sli_complex_layout(&c->second, &b);
+    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
   }
-  bad = first->rows == NULL ? -1
-                : sli_complex_expand(first->rows, first->count, n / 2, first->real);
-  if (bad != -1) {
-    status = sli_fail_at(stats, SL_ERR_ARGUMENT, first->rows[bad], -1, 0.0);
-  } else {
-    bad = second->rows == NULL
-          ? -1
-          : sli_complex_expand(second->rows, second->count, n / 2, second->real);
-    if (bad != -1) {
-      status = sli_fail_at(stats, SL_ERR_ARGUMENT, is_block ? -1 : second->rows[bad],
-                 is_block ? second->rows[bad] : -1, 0.0);
-    }
-  }
+  c->memory = b.base;
+  status = sli_complex_fill(&c->first, n / 2, 0, stats);
+  status = status == SL_OK ? sli_complex_fill(&c->second, n / 2, c->is_block, stats) : status;
   if (status != SL_OK) {
-    sli_free(a, b->base);
+    sli_free(a, c->memory);
   }
   return status;
 }
@@ -30388,8 +30553,7 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
                     sl_int nb, const sl_int *xset, sl_int nx,
                     const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  sli_complex_set b, x;
-  sli_block block = {NULL, 0, 0};
+  sli_complex_sets c;
   sl_status status;
   sli_stats_clear_error(stats);
   if (out == NULL) {
@@ -30399,15 +30563,13 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   if (S == NULL || !sli_options_are_valid(opt, SLI_READS_REGION)) {
     return SL_ERR_ARGUMENT;
   }
-  b.rows = bset;
-  b.count = nb;
-  x.rows = xset;
-  x.count = nx;
-  status = sli_complex_sets(S->n, &b, &x, 0, &block, &a, stats);
+  c = sli_complex_sets_of(bset, nb, xset, nx, 0);
+  status = sli_complex_sets_create(&c, S->n, &a, stats);
   if (status == SL_OK) {
-    status = sl_plan_create(out, S, sli_complex_real(&b), bset == NULL ? 0 : 2 * nb,
-                sli_complex_real(&x), xset == NULL ? 0 : 2 * nx, opt, stats);
-    sli_free(&a, block.base);
+    status =
+      sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
+               sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+    sli_free(&a, c.memory);
   }
   return status;
 }
@@ -30430,8 +30592,7 @@ SL_API sl_status sl_complex_logdet(const sl_factor *F, double *log_abs_det, doub
 SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
                       const sl_int *rows, sl_int n_rows, const sl_int *columns,
                       sl_int n_columns, sl_work *W, sl_stats *stats) {
-  sli_complex_set r, c;
-  sli_block block = {NULL, 0, 0};
+  sli_complex_sets c;
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
@@ -30439,18 +30600,16 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
     (columns == NULL && n_columns != 0)) {
     return SL_ERR_ARGUMENT;
   }
-  r.rows = rows;
-  r.count = n_rows;
-  c.rows = columns;
-  c.count = n_columns;
-  status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+  c = sli_complex_sets_of(rows, n_rows, columns, n_columns, 1);
+  status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
   if (status == SL_OK) {
     for (k = 0; k < n_columns;
        k++) {
-      c.real[k] = 2 * columns[k];
+      c.second.real[k] = 2 * columns[k];
     }
-    status = sl_inverse_block(F, Z, 2 * ldz, r.real, 2 * n_rows, c.real, n_columns, W, stats);
-    sli_free(&F->allocator, block.base);
+    status = sl_inverse_block(F, Z, 2 * ldz, c.first.real, 2 * n_rows, c.second.real, n_columns,
+                  W, stats);
+    sli_free(&F->allocator, c.memory);
   }
   return status;
 }
@@ -30458,25 +30617,22 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
 SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
                       const sl_int *columns, sl_int count, sl_work *W,
                       sl_stats *stats) {
-  sli_complex_set r, c;
-  sli_block block = {NULL, 0, 0};
+  sli_complex_sets c;
   sl_status status;
   sl_int k;
   sli_stats_clear_error(stats);
   if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
     return SL_ERR_ARGUMENT;
   }
-  r.rows = rows;
-  c.rows = columns;
-  r.count = c.count = count;
-  status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+  c = sli_complex_sets_of(rows, count, columns, count, 1);
+  status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
   if (status == SL_OK) {
     for (k = 0; k < count;
        k++) {
-      c.real[2 * (size_t)k + 1] = c.real[2 * (size_t)k];
+      c.second.real[2 * (size_t)k + 1] = c.second.real[2 * (size_t)k];
     }
-    status = sl_inverse_pairs(F, out, r.real, c.real, 2 * count, W, stats);
-    sli_free(&F->allocator, block.base);
+    status = sl_inverse_pairs(F, out, c.first.real, c.second.real, 2 * count, W, stats);
+    sli_free(&F->allocator, c.memory);
   }
   return status;
 }
@@ -30931,22 +31087,13 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
-SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
-                          const double *d, const double *w, double *c) {
-  SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
-  SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
-  SLI_ALIGNED(double b[SLI_TILE]);
-  const sl_int ranks = u->ranks, lanes = u->lanes;
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
+                           sl_int columns, double *f, double *y) {
+  const sl_int ranks = u->ranks;
   sl_int i, j, r;
   SLV_DECLARE(a)
   SLV_DECLARE(x)
   SLV_DECLARE(s)
-  SLV_DECLARE(t)
-  SLV_DECLARE(p)
-  if (lanes < SLI_TILE) {
-    memset(f, 0, sizeof f);
-  }
-  memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
   for (j = 0; j < columns && l != NULL; j++) {
     SLV_LOAD_PINNED(a, l + SLI_TILE * j)
     for (r = 0; r < ranks; r++) {
@@ -30967,6 +31114,25 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     }
     SLV_STORE(f + SLI_TILE * r, x)
   }
+}
+
+SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
+                          const double *d, const double *w, double *c) {
+  SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
+  SLI_ALIGNED(double b[SLI_TILE]);
+  const sl_int ranks = u->ranks, lanes = u->lanes;
+  sl_int j, r;
+  SLV_DECLARE(a)
+  SLV_DECLARE(x)
+  SLV_DECLARE(s)
+  SLV_DECLARE(t)
+  SLV_DECLARE(p)
+  if (lanes < SLI_TILE) {
+    memset(f, 0, sizeof f);
+  }
+  memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
+  SLV_NAME(change_rows)(u, l, columns, f, y);
   for (j = 0; j < columns; j++) {
     double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
     SLV_ZERO(s)
@@ -31051,9 +31217,9 @@ SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #define SLI_BEFORE(k) (k)
 #define SLI_AFTER(k) ((k) + 1)
 
-SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
-                           double *e, double *b, double *w, double *sum,
-                           int is_trial) {
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l, sl_int j,
+                           sl_int columns) {
+  double *const b = u->b + j, *const w = u->w + j;
   SLI_ALIGNED(double z[SLI_TILE]);
   double g[SLI_TILE + 1];
   sl_int k;
@@ -31072,24 +31238,24 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, 
     }
   }
   SLV_LOAD_PART(y, w, columns, 0.0)
-  SLV_LOAD_PART(s, d, columns, 1.0)
+  SLV_LOAD_PART(s, u->D + j, columns, 1.0)
   SLV_DIVIDE(q, y, s)
   SLV_MULTIPLY(y, y, q)
   SLV_STORE(z, y)
-  g[0] = *sum;
+  g[0] = u->sum;
   SLI_UNROLL
   for (k = 0; k < SLI_TILE; k++) {
     g[k + 1] = g[k] - z[k];
   }
-  *sum = g[SLI_TILE];
+  u->sum = g[SLI_TILE];
   SLV_GATHER(y, g, SLI_AFTER)
   SLV_DIVIDE(q, q, y)
   SLV_STORE(b, q)
   SLV_GATHER(q, g, SLI_BEFORE)
   SLV_DIVIDE(y, y, q)
   SLV_MULTIPLY(s, s, y)
-  SLV_STORE(e, s)
-  for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
+  SLV_STORE(u->e + j, s)
+  for (k = 0; k < columns && !u->is_trial; k++, l += SLI_TILE) {
     SLV_LOAD_PINNED(y, l)
     SLV_BROADCAST(s, w + k)
     SLV_FNMA(x, y, s)
@@ -31126,8 +31292,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
     }
     for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
       const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
-      SLV_NAME(change_pivots)
-      (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
+      SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
       for (k = t + 1; k < count; k++) {
         SLV_NAME(change_tile)
         (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);

@@ -130,19 +130,27 @@ SLI_INLINE void sli_reach_measure(const sl_symbolic *S, const uint64_t *seeds, s
     sli_reach_measure_within(S, NULL, seeds, count, R);
 }
 
-/* Adds supernode s as step `at`. It is entered by a seed or by children on the pending list; its
- * parent is in the reach only if it is below supernode `end`. The list links, through `up`, the
- * steps whose parent has not been added yet, the one with the smallest parent on top. */
-static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl_int s, sl_int seed,
-                            sl_int end, sl_int *pending) {
-    const sl_int first = S->super_first[s];
-    sli_step *step = &steps[at];
+/* A reach that is being compiled. The pending list links, through `up`, the steps whose parent has
+ * not been added yet, the one with the smallest parent on top. */
+typedef struct sli_reach_draft {
+    const sl_symbolic *S;
+    sli_step *steps;
+    sl_int count;   /* steps so far */
+    sl_int pending; /* the top of the list, or -1 */
+} sli_reach_draft;
+
+/* Adds supernode s as the next step. It is entered by a seed or by children on the pending list;
+ * its parent is in the reach only if it is below supernode `end`. */
+SLI_INLINE void sli_reach_enter(sli_reach_draft *d, sl_int s, sl_int seed, sl_int end) {
+    const sl_symbolic *S = d->S;
+    const sl_int first = S->super_first[s], at = d->count++;
+    sli_step *step = &d->steps[at];
     sl_int column = seed;
-    while (*pending != -1 && S->super_parent[S->super_of[steps[*pending].column]] == s) {
-        sli_step *child = &steps[*pending];
+    while (d->pending != -1 && S->super_parent[S->super_of[d->steps[d->pending].column]] == s) {
+        sli_step *child = &d->steps[d->pending];
         const sl_int c = S->super_of[child->column];
         column = sli_min(column, S->rows[S->rows_begin[c]]);
-        *pending = child->up;
+        d->pending = child->up;
         child->up = at;
     }
     step->panel = S->panel_begin[s];
@@ -152,8 +160,8 @@ static void sli_reach_enter(const sl_symbolic *S, sli_step *steps, sl_int at, sl
     step->below = (sl_int)(S->rows_begin[s + 1] - S->rows_begin[s]);
     step->up = -1;
     if (S->super_parent[s] != -1 && S->super_parent[s] < end) {
-        step->up = *pending;
-        *pending = at;
+        step->up = d->pending;
+        d->pending = at;
     }
 }
 
@@ -205,12 +213,25 @@ static void sli_extent_map_rows(const sli_region_extent *extent, sl_int base, co
     }
 }
 
-/* Compiles the reach of seeds; sli_reach_measure_within gives the sizes. O(reach), with a
- * logarithmic factor where rows skip many ancestors and for rows in the boundary. */
+/* The arrays of a reach, of the sizes that sli_reach_measure_within gives. */
+typedef struct sli_reach_arrays {
+    sli_step *steps;
+    sl_int *rows;
+} sli_reach_arrays;
+
+/* Compiles the reach of seeds. O(reach), with a logarithmic factor where rows skip many ancestors
+ * and for rows in the boundary. */
 static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent *extent,
-                                  const uint64_t *seeds, sl_int count, sli_step *steps,
-                                  sl_int *rows, sli_reach *R) {
-    sl_int k = 0, at = 0, pending = -1, s, next, end;
+                                  const uint64_t *seeds, sl_int count,
+                                  const sli_reach_arrays *arrays, sli_reach *R) {
+    sli_step *steps = arrays->steps;
+    sl_int *rows = arrays->rows;
+    sl_int k = 0, at, s, next, end;
+    sli_reach_draft draft;
+    draft.S = S;
+    draft.steps = steps;
+    draft.count = 0;
+    draft.pending = -1;
     memset(R, 0, sizeof *R);
     while (k < count) {
         sl_int seed = sli_key(seeds[k]);
@@ -218,11 +239,11 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
         end = sli_extent_end(S, extent, s);
         next = sli_min(sli_next_seed(S, seeds, count, &k), end);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
-            sli_reach_enter(S, steps, at++, s, seed, end, &pending);
+            sli_reach_enter(&draft, s, seed, end);
             seed = INT32_MAX;
         }
     }
-    R->count = at;
+    R->count = draft.count;
     for (at = 0; at < R->count; at++) {
         const sli_step *step = &steps[at];
         steps[at].base = R->columns;
@@ -250,7 +271,10 @@ static void sli_reach_fill_within(const sl_symbolic *S, const sli_region_extent 
 
 SLI_INLINE void sli_reach_fill(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
                                sli_step *steps, sl_int *rows, sli_reach *R) {
-    sli_reach_fill_within(S, NULL, seeds, count, steps, rows, R);
+    sli_reach_arrays arrays;
+    arrays.steps = steps;
+    arrays.rows = rows;
+    sli_reach_fill_within(S, NULL, seeds, count, &arrays, R);
 }
 
 /* The index of a column in the compact vector. *at, 0 at first, keeps the step for the next call,

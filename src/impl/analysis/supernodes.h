@@ -10,7 +10,9 @@
 /* Supernodes during amalgamation; all arrays have n entries. A merged supernode is identified by
  * the fundamental supernode on its top. */
 typedef struct sli_amalgamation {
+    sl_int n;            /* columns */
     sl_int count;        /* fundamental supernodes */
+    sl_int *super_of;    /* the supernode of each column */
     sl_int *first;       /* n + 1: first column of each */
     sl_int *parent;      /* parent supernode, -1 at a root */
     sl_int *width;       /* columns so far */
@@ -47,6 +49,8 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
         s += ((parent[last] ^ j) | (other[j] + 1) | (counts[last] ^ (counts[j] + 1))) != 0;
         super_of[j] = s;
     }
+    g->n = n;
+    g->super_of = super_of;
     g->count = s + 1;
     g->first[g->count] = n;
     for (s = 0; s < g->count; s++) {
@@ -149,8 +153,8 @@ static void sli_amalgamate(sli_amalgamation *g, sl_int *child, sl_int *sibling, 
  * tree[k] := its parent, merged_into[s] := the k that s now belongs to. Returns their number.
  * sequence: the columns in the order that numbers the supernodes, by their last columns; NULL: 0,
  * 1, ... number: n of scratch. */
-static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequence,
-                            const sl_int *super_of, sl_int *top, sl_int *tree, sl_int *number) {
+static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int *top, sl_int *tree,
+                            sl_int *number) {
     sl_int s, k, count = 0;
     for (s = g->count - 1; s >= 0; s--) { /* parents first, so that theirs is final */
         g->merged_into[s] = g->merged_into[s] == s ? s : g->merged_into[g->merged_into[s]];
@@ -160,8 +164,8 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
         number[s] = count;
         count += g->merged_into[s] == s;
     }
-    for (k = 0; k < n && sequence != NULL; k++) {
-        s = super_of[sequence[k]];
+    for (k = 0; k < g->n && sequence != NULL; k++) {
+        s = g->super_of[sequence[k]];
         if (g->merged_into[s] == s && sequence[k] == g->first[s + 1] - 1) {
             number[s] = count;
             top[count++] = s;
@@ -178,19 +182,20 @@ static sl_int sli_find_tops(sli_amalgamation *g, sl_int n, const sl_int *sequenc
 }
 
 /* Numbers the supernodes in a postorder of their tree and makes their columns consecutive: order[k]
- * = the old number of the new column k. On return super_of and the arrays of g refer to the new
- * numbers, and g->count is the number of supernodes. Returns whether columns move; if not, there is
+ * = the old number of the new column k. On return the arrays of g refer to the new numbers, and
+ * g->count is the number of supernodes. Returns whether columns move; if not, there is
  * no order.
  *
  * sequence: the columns in the caller's order; NULL: 0, 1, ... Sibling subtrees follow each other
  * by their last columns in the sequence, and the columns of a supernode keep its order. So a
  * sequence that is a postorder of the supernodes is kept as it is. scratch: 5n.
  */
-static int sli_number_supernodes(sli_amalgamation *g, sl_int n, const sl_int *sequence,
-                                 sl_int *order, sl_int *super_of, sl_int *scratch) {
-    sl_int *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
+static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
+                                 sl_int *scratch) {
+    const sl_int n = g->n;
+    sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
            *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
-    const sl_int count = sli_find_tops(g, n, sequence, super_of, top, tree, at);
+    const sl_int count = sli_find_tops(g, sequence, top, tree, at);
     sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
     sli_postorder(tree, NULL, count, post, at, number);
     for (k = 0; k < count; k++) {
@@ -262,10 +267,11 @@ static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_
  * supernode, and the next part is its parent. earlier[s] := the part before s in its supernode, or
  * -1. Returns 0 if nothing is to be split. parent: the elimination tree; is_first: by column, is it
  * the first of a pair? scratch: 5n. */
-static int sli_split_pairs(sli_amalgamation *g, sl_int n, const sl_int *parent,
-                           const unsigned char *is_first, sl_int *super_of, sl_int *earlier,
-                           sl_int *order, sl_int *scratch) {
-    sl_int *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
+static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent,
+                           const unsigned char *is_first, sl_int *earlier, sl_int *order,
+                           sl_int *scratch) {
+    const sl_int n = g->n;
+    sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
     sl_int *first = g->merged_into; /* free now */
     const sl_int count = sli_find_parts(g, is_first, first, below, order);
     sl_int s, k, c, column = 0;

@@ -103,8 +103,7 @@ static void sli_analysis_split(sli_analysis *w, sl_int *order) {
     for (k = w->n - 1; k >= 0; k--) {
         w->counts[k] = w->is_first[k] ? w->counts[k + 1] + 1 : w->counts[k];
     }
-    if (sli_split_pairs(&w->amalgamation, w->n, w->parent, w->is_first, w->super_of, w->earlier,
-                        order, w->scratch)) {
+    if (sli_split_pairs(&w->amalgamation, w->parent, w->is_first, w->earlier, order, w->scratch)) {
         sli_analysis_reorder(w, order);
         for (k = 0; k < w->n; k++) {
             w->is_first[k] = w->pairs[w->old_of[k]];
@@ -164,7 +163,7 @@ static void sli_analyze_tree(sli_analysis *w, const sl_options *opt, sl_stats *s
     if (w->amalgamation.relaxes || w->pairs != NULL) {
         sli_amalgamate(&w->amalgamation, child, more, w->list, w->list + n);
     }
-    if (sli_number_supernodes(&w->amalgamation, n, sequence, order, w->super_of, w->scratch)) {
+    if (sli_number_supernodes(&w->amalgamation, sequence, order, w->scratch)) {
         sli_analysis_reorder(w, order);
     }
     if (w->pairs != NULL) {

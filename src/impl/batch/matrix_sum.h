@@ -81,8 +81,13 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
         }
     }
     if (status == SL_OK) {
-        const sl_int n = terms[0].n_cols;
-        status = sli_from_triplets(out, n, n, all.count, all.row, all.column, all.x, &a);
+        sli_triplet_list list;
+        list.n_rows = list.n_cols = terms[0].n_cols;
+        list.count = all.count;
+        list.i = all.row;
+        list.j = all.column;
+        list.x = all.x;
+        status = sli_from_triplets(out, &list, &a);
     }
     sli_free(&a, b.base);
     return status;

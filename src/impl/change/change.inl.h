@@ -33,24 +33,15 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CARRY
 #undef SLI_CHANGE
 
-/* See sli_ranks_kernel. Lanes are columns of the tile. f(r) is row r of U' Y'. Each vector changes
- * a pivot, and with it f and U, as in a rank-one change: f(r) -= q s, s += beta f(r). */
-SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
-                                                  const double *d, const double *w, double *c) {
-    SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
-    SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
-    SLI_ALIGNED(double b[SLI_TILE]);
-    const sl_int ranks = u->ranks, lanes = u->lanes;
+/* The rows of a tile before its pivots change: y := what a forward sweep makes of W', transposed;
+ * f(r) := row r of U' Y'. f has W' on entry. l: the diagonal part of the tile; NULL: the unit. */
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
+                                                   sl_int columns, double *f, double *y) {
+    const sl_int ranks = u->ranks;
     sl_int i, j, r;
     SLV_DECLARE(a)
     SLV_DECLARE(x)
     SLV_DECLARE(s)
-    SLV_DECLARE(t)
-    SLV_DECLARE(p)
-    if (lanes < SLI_TILE) {
-        memset(f, 0, sizeof f);
-    }
-    memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
     for (j = 0; j < columns && l != NULL; j++) { /* Y' := what a forward sweep makes of W' */
         SLV_LOAD_PINNED(a, l + SLI_TILE * j)
         for (r = 0; r < ranks; r++) {
@@ -71,6 +62,27 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
         }
         SLV_STORE(f + SLI_TILE * r, x)
     }
+}
+
+/* See sli_ranks_kernel. Lanes are columns of the tile. f(r) is row r of U' Y'. Each vector changes
+ * a pivot, and with it f and U, as in a rank-one change: f(r) -= q s, s += beta f(r). */
+SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l, sl_int columns,
+                                                  const double *d, const double *w, double *c) {
+    SLI_ALIGNED(double f[SLI_TILE * SLI_TILE]);
+    SLI_ALIGNED(double y[SLI_TILE * SLI_TILE]);
+    SLI_ALIGNED(double b[SLI_TILE]);
+    const sl_int ranks = u->ranks, lanes = u->lanes;
+    sl_int j, r;
+    SLV_DECLARE(a)
+    SLV_DECLARE(x)
+    SLV_DECLARE(s)
+    SLV_DECLARE(t)
+    SLV_DECLARE(p)
+    if (lanes < SLI_TILE) {
+        memset(f, 0, sizeof f);
+    }
+    memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
+    SLV_NAME(change_rows)(u, l, columns, f, y);
     for (j = 0; j < columns; j++) {
         double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
         SLV_ZERO(s)
@@ -157,12 +169,12 @@ SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #define SLI_BEFORE(k) (k)
 #define SLI_AFTER(k) ((k) + 1)
 
-/* The pivots of one column tile. y is what a forward sweep makes of w, whatever the pivots become;
+/* The pivots of the column tile from column j on. y is what a forward sweep makes of w, whatever the pivots become;
  * with q = y / d and the sums g of y q, the new pivots are d g(after) / g(before), and
  * b = q / g(after). So there is no chain of divisions. l: diagonal part of the tile. */
-SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, const double *d,
-                                                     double *e, double *b, double *w, double *sum,
-                                                     int is_trial) {
+SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l, sl_int j,
+                                                     sl_int columns) {
+    double *const b = u->b + j, *const w = u->w + j;
     SLI_ALIGNED(double z[SLI_TILE]);
     double g[SLI_TILE + 1];
     sl_int k;
@@ -181,24 +193,24 @@ SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(double *l, sl_int columns, 
         }
     }
     SLV_LOAD_PART(y, w, columns, 0.0)
-    SLV_LOAD_PART(s, d, columns, 1.0)
+    SLV_LOAD_PART(s, u->D + j, columns, 1.0)
     SLV_DIVIDE(q, y, s)
     SLV_MULTIPLY(y, y, q)
     SLV_STORE(z, y)
-    g[0] = *sum;
+    g[0] = u->sum;
     SLI_UNROLL
     for (k = 0; k < SLI_TILE; k++) {
         g[k + 1] = g[k] - z[k];
     }
-    *sum = g[SLI_TILE];
+    u->sum = g[SLI_TILE];
     SLV_GATHER(y, g, SLI_AFTER) /* in registers: 8 stores are not forwarded to one load */
     SLV_DIVIDE(q, q, y)
     SLV_STORE(b, q)
     SLV_GATHER(q, g, SLI_BEFORE)
     SLV_DIVIDE(y, y, q)
     SLV_MULTIPLY(s, s, y)
-    SLV_STORE(e, s)
-    for (k = 0; k < columns && !is_trial; k++, l += SLI_TILE) {
+    SLV_STORE(u->e + j, s)
+    for (k = 0; k < columns && !u->is_trial; k++, l += SLI_TILE) {
         SLV_LOAD_PINNED(y, l)
         SLV_BROADCAST(s, w + k)
         SLV_FNMA(x, y, s)
@@ -235,8 +247,7 @@ SLV_FUNCTION static void SLV_NAME(change_panel)(sli_rank_one *u) {
         }
         for (t = 0; t < count && row + SLI_TILE * t < width; t++) {
             const sl_int j = row + SLI_TILE * t, columns = sli_min(SLI_TILE, width - j);
-            SLV_NAME(change_pivots)
-            (at[t] + SLI_TILE * j, columns, u->D + j, u->e + j, b + j, w + j, &u->sum, u->is_trial);
+            SLV_NAME(change_pivots)(u, at[t] + SLI_TILE * j, j, columns);
             for (k = t + 1; k < count; k++) {
                 SLV_NAME(change_tile)
                 (at + k, j, j + columns, w, b, w + row + SLI_TILE * k, u->is_trial);

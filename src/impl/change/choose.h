@@ -143,6 +143,7 @@ static void sli_way_seeds(sli_way *c, const sli_rank *q) {
 static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
     sl_factor *F = q->u.F;
     const int is_upper = F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
+    sli_changes changes;
     sl_int k, total = 0;
     for (k = 0; k < q->n_entries; k++) {
         const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
@@ -153,7 +154,11 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
     for (k = 0; k < total; k++) {
         c->columns[k] = sli_key(c->scratch[k]);
     }
-    return sli_left_refactor_columns(F, A, c->columns, total, c->seeds, c->n_seeds, q->stats);
+    changes.columns = c->columns;
+    changes.count = total;
+    changes.seeds = c->seeds;
+    changes.n_seeds = c->n_seeds;
+    return sli_left_refactor_columns(F, A, &changes, q->stats);
 }
 
 /* Seconds of rank-one changes. */
@@ -244,7 +249,8 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
         return status;
     }
     memset(&c, 0, sizeof c);
-    sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+    sli_rank_begin(&q, F, stats);
+    sli_edges_begin(&q, rows, columns, deltas, count);
     q.u.least = sli_rank_least(F); /* A decides */
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         c.seeds = SLI_TAKE(&b, uint64_t, count);

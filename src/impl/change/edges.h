@@ -135,10 +135,9 @@ static sl_status sli_edges_check(const sl_factor *F, const sl_int *rows, const s
     return SL_OK;
 }
 
-/* Starts a change of F by entries. */
-static void sli_edges_begin(sli_rank *q, sl_factor *F, const sl_int *rows, const sl_int *columns,
-                            const double *deltas, sl_int count, sl_stats *stats) {
-    sli_rank_begin(q, F, stats);
+/* Gives a change that has begun its entries. */
+static void sli_edges_begin(sli_rank *q, const sl_int *rows, const sl_int *columns,
+                            const double *deltas, sl_int count) {
     q->entry_rows = rows;
     q->entry_columns = columns;
     q->deltas = deltas;
@@ -157,7 +156,8 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
     if (status != SL_OK) {
         return status;
     }
-    sli_edges_begin(&q, F, rows, columns, deltas, count, stats);
+    sli_rank_begin(&q, F, stats);
+    sli_edges_begin(&q, rows, columns, deltas, count);
     status = sli_rank_apply(&q, sli_edges_stages, 3, W);
     if (status == SL_OK) {
         sli_rank_report(&q, started, stats);

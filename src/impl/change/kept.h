@@ -114,7 +114,11 @@ static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, cons
         p->relative[k] = f->width + k;
     }
     if (!has_one_sign) {
-        sli_left_magnitudes(G, p, f, s, 0, f->below);
+        sli_descendant all;
+        all.super = s;
+        all.first = 0;
+        all.last = f->below;
+        sli_left_magnitudes(G, p, f, &all);
     }
 }
 
@@ -139,12 +143,14 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
     sli_kept_update_own(G, p, &f, s, has_one_sign);
     for (d = s - 1; d >= S->first_descendant[s];) {
         const sl_int below = S->steps[d].below;
-        const sl_int first =
-            sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
-        if (first < below) {
-            sli_left_update(G, p, &f, d, first, below, update);
+        sli_descendant from;
+        from.super = d;
+        from.first = sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
+        from.last = below;
+        if (from.first < below) {
+            sli_left_update(G, p, &f, &from, update);
             if (!has_one_sign) {
-                sli_left_magnitudes(G, p, &f, d, first, below);
+                sli_left_magnitudes(G, p, &f, &from);
             }
             d--;
         } else { /* no descendant of d has a row below s either */

@@ -24,7 +24,7 @@ static int sli_nulls_remain(const sl_factor *F) {
     return 1;
 }
 
-/* All but p->buffer, which is the buffer of the factor. */
+/* All but p->buffer, which is the buffer of the factor, and the seeds. */
 static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
     p->local = SLI_TAKE(b, sl_int, S->n);
     p->relative = SLI_TAKE(b, sl_int, S->tallest);
@@ -55,11 +55,14 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
     for (d = s - 1; d >= S->first_descendant[s];) {
         const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
         const sl_int first = sli_lower_bound(of, below, start);
-        const sl_int last = first + sli_lower_bound(of + first, below - first, end);
-        if (first < last) {
+        sli_descendant by;
+        by.super = d;
+        by.first = first;
+        by.last = first + sli_lower_bound(of + first, below - first, end);
+        if (first < by.last) {
             /* the update stack is empty: no other update matrix exists now */
-            sli_left_update(F, p, &f, d, first, last, F->work.stack);
-            sli_left_magnitudes(F, p, &f, d, first, last);
+            sli_left_update(F, p, &f, &by, F->work.stack);
+            sli_left_magnitudes(F, p, &f, &by);
             d--;
         } else {
             d = S->first_descendant[d] - 1;
@@ -69,16 +72,15 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
     return sli_double_front_check(F, &f, failure);
 }
 
-/* Recomputes every supernode on the paths from the seeds to the roots. Seeds are columns of L in
- * ascending order. */
+/* Recomputes every supernode on the paths from the seeds to the roots. */
 static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                                     const uint64_t *seeds, sl_int count, sli_failure *failure) {
+                                     sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_status status = SL_OK;
     sl_int k = 0, s, next;
-    while (k < count && status == SL_OK) {
-        s = S->super_of[sli_key(seeds[k])];
-        next = sli_next_seed(S, seeds, count, &k);
+    while (k < p->n_seeds && status == SL_OK) {
+        s = S->super_of[sli_key(p->seeds[k])];
+        next = sli_next_seed(S, p->seeds, p->n_seeds, &k);
         for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
             status = sli_left_factor(F, p, from, s, failure);
         }
@@ -106,11 +108,10 @@ static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_
     return total;
 }
 
-/* Refactors F, where the values of `from` differ from those of F in the columns `seeds` of L alone.
- * If the null pivots do not remain, all of L is computed. */
+/* Refactors F, where the values of `from` differ from those of F in the seeds alone. If the null
+ * pivots do not remain, all of L is computed. */
 static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                                   const uint64_t *seeds, sl_int count, double started,
-                                   sl_stats *stats) {
+                                   double started, sl_stats *stats) {
     sli_failure failure;
     memset(&failure, 0, sizeof failure);
     if (F->null.mode == SL_NULL_PIVOT_SKIP) {
@@ -120,7 +121,7 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
         return sli_factor_numbers(F, from, started, stats);
     }
     if (failure.status == SL_OK) {
-        (void)sli_left_factor_all(F, p, from, seeds, count, &failure);
+        (void)sli_left_factor_all(F, p, from, &failure);
     }
     if (failure.status == SL_OK && sli_null_is_suspected(F)) {
         return sli_factor_numbers(F, from, started, stats);
@@ -128,10 +129,38 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
     return sli_factor_done(F, from, &failure, started, stats);
 }
 
-/* sl_factor_refactor_changed. given: the columns of L that hold what changed, ascending; NULL: all
- * entries of the columns of A. */
-static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sl_int *columns,
-                                           sl_int count, const uint64_t *given, sl_int n_given,
+/* What has changed in a matrix: columns, and the columns of L that hold the changed entries,
+ * ascending; NULL: all entries of the columns. */
+typedef struct sli_changes {
+    const sl_int *columns; /* count */
+    sl_int count;
+    const uint64_t *seeds; /* n_seeds */
+    sl_int n_seeds;
+} sli_changes;
+
+/* Checks the columns. *entries := how many A has there. */
+static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sli_changes *c,
+                                   uint64_t *entries, sl_stats *stats) {
+    sl_status status;
+    sl_int k;
+    if (F == NULL || c->count < 0 || (c->count > 0 && c->columns == NULL)) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+    if (status != SL_OK) {
+        return status;
+    }
+    for (k = 0, *entries = 0; k < c->count; k++) {
+        if (c->columns[k] < 0 || c->columns[k] >= F->S->n) {
+            return sli_fail_at(stats, SL_ERR_ARGUMENT, c->columns[k], -1, 0.0);
+        }
+        *entries += (uint64_t)(A->p[c->columns[k] + 1] - A->p[c->columns[k]]);
+    }
+    return SL_OK;
+}
+
+/* sl_factor_refactor_changed. */
+static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sli_changes *c,
                                            sl_stats *stats) {
     const double started = sli_seconds();
     const sli_source from = sli_source_matrix(A);
@@ -142,18 +171,9 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
     sl_int k;
     int pass;
     sli_stats_clear_error(stats);
-    if (F == NULL || count < 0 || (count > 0 && columns == NULL)) {
-        return SL_ERR_ARGUMENT;
-    }
-    status = F->is_immutable ? SL_ERR_STATE : sli_factor_fits(F, A);
+    status = sli_changes_check(F, A, c, &entries, stats);
     if (status != SL_OK) {
         return status;
-    }
-    for (k = 0; k < count; k++) {
-        if (columns[k] < 0 || columns[k] >= F->S->n) {
-            return sli_fail_at(stats, SL_ERR_ARGUMENT, columns[k], -1, 0.0);
-        }
-        entries += (uint64_t)(A->p[columns[k] + 1] - A->p[columns[k]]);
     }
     if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
         entries >= (uint64_t)sli_nnz(A)) {
@@ -171,14 +191,18 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
     }
     work.buffer = F->work.buffer;
     sli_factor_begin(F);
-    for (k = 0; k < count; k++) {
-        const sl_int p = A->p[columns[k]], q = A->p[columns[k] + 1];
-        F->identity = sli_hash_ints(F->identity, &columns[k], 1);
+    for (k = 0; k < c->count; k++) {
+        const sl_int p = A->p[c->columns[k]], q = A->p[c->columns[k] + 1];
+        F->identity = sli_hash_ints(F->identity, &c->columns[k], 1);
         F->identity = sli_hash_words(F->identity, A->x + p, q - p);
     }
-    count = given != NULL ? n_given : sli_changed_seeds(F->S, A, columns, count, seeds, scratch);
-    status =
-        sli_left_refactor(F, &work, &from, given != NULL ? given : seeds, count, started, stats);
+    work.seeds = c->seeds;
+    work.n_seeds = c->n_seeds;
+    if (c->seeds == NULL) {
+        work.seeds = seeds;
+        work.n_seeds = sli_changed_seeds(F->S, A, c->columns, c->count, seeds, scratch);
+    }
+    status = sli_left_refactor(F, &work, &from, started, stats);
     F->history.scale = F->history.lowest =
         fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
     sli_free(&F->allocator, b.base);
@@ -187,7 +211,12 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
 
 SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const sl_int *columns,
                                             sl_int count, sl_stats *stats) {
-    return sli_left_refactor_columns(F, A, columns, count, NULL, 0, stats);
+    sli_changes c;
+    c.columns = columns;
+    c.count = count;
+    c.seeds = NULL;
+    c.n_seeds = 0;
+    return sli_left_refactor_columns(F, A, &c, stats);
 }
 
 #endif

@@ -70,6 +70,7 @@ static void sli_pins_drop(sl_pins *P, sl_int index) {
 SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const double *values,
                                       sl_int count, sl_stats *stats) {
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+    const sli_equality e = sli_equality_of(rows, values, count);
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
@@ -85,7 +86,7 @@ SL_API sl_status sl_pins_add_equality(sl_pins *P, const sl_int *rows, const doub
         }
     }
     status = sli_pins_reserve(P, P->count + 1);
-    status = status == SL_OK ? sli_pins_push(P, P->count, rows, values, count, stats) : status;
+    status = status == SL_OK ? sli_pins_push(P, P->count, &e, stats) : status;
     if (status == SL_OK) {
         P->rows[P->count++] = -1;
         sli_pins_report(P, started, stats);

@@ -42,16 +42,56 @@ static void sli_pin_free(const sl_pins *P, sli_pin *pin) {
     sli_free(&P->allocator, pin);
 }
 
+/* An equality as it is given: c has `count` entries, `values` in these rows of A. */
+typedef struct sli_equality {
+    const sl_int *rows;
+    const double *values;
+    sl_int count;
+} sli_equality;
+
+SLI_INLINE sli_equality sli_equality_of(const sl_int *rows, const double *values, sl_int count) {
+    sli_equality e;
+    e.rows = rows;
+    e.values = values;
+    e.count = count;
+    return e;
+}
+
+/* Makes the object of an equality whose sorted rows are `set` and reach R, without y and u. */
+static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_int count,
+                             const sli_reach *R) {
+    sli_pin pin;
+    sli_block b = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    int pass;
+    memset(&pin, 0, sizeof pin);
+    pin.count = count;
+    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        *out = (sli_pin *)sli_take(&b, 1, sizeof **out);
+        sli_set_layout_reach(set, &b, R);
+        pin.rows = SLI_TAKE(&b, sl_int, count);
+        pin.values = SLI_TAKE(&b, double, count);
+        pin.y = SLI_TAKE(&b, double, R->columns);
+        pin.u = SLI_TAKE(&b, double, R->columns);
+        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
+    }
+    if (status == SL_OK) {
+        const sl_int *unused;
+        **out = pin;
+        sli_set_fill(P->base->S, set, &(*out)->R, &unused);
+    }
+    return status;
+}
+
 /* Makes an equality; without y and u if is_swept is 0. */
-static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *rows,
-                                const double *values, sl_int count, int is_swept, sl_stats *stats) {
+static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equality *e,
+                                int is_swept, sl_stats *stats) {
     const sl_symbolic *S = P->base->S;
-    sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
-    sli_set set = sli_set_of(S, rows, count);
+    sli_block seeds = {NULL, 0, 0};
+    sli_set set = sli_set_of(S, e->rows, e->count);
     sli_reach R;
     sli_pin *pin = NULL;
     double *scratch = NULL;
-    const sl_int *unused;
     sl_status status = SL_OK;
     sl_int k, row = -1;
     int pass;
@@ -65,34 +105,13 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sl_int *r
     status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
     if (status == SL_OK) {
         sli_set_measure(S, &set, &R);
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        pin = (sli_pin *)sli_take(&kept, 1, sizeof *pin);
-        sli_set_layout_reach(&set, &kept, &R);
-        if (pass == 1) {
-            memset(pin, 0, sizeof *pin);
-        }
-        {
-            sl_int *copy = SLI_TAKE(&kept, sl_int, count);
-            double *x = SLI_TAKE(&kept, double, count);
-            double *y = SLI_TAKE(&kept, double, R.columns);
-            double *u = SLI_TAKE(&kept, double, R.columns);
-            if (pass == 1) {
-                pin->rows = copy;
-                pin->values = x;
-                pin->y = y;
-                pin->u = u;
-            }
-        }
-        status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
+        status = sli_pin_new(&pin, P, &set, e->count, &R);
     }
     if (status == SL_OK) {
-        pin->count = count;
-        for (k = 0; k < count; k++) {
-            pin->rows[k] = rows[sli_value(set.seeds[k])];
-            pin->values[k] = values[sli_value(set.seeds[k])];
+        for (k = 0; k < e->count; k++) {
+            pin->rows[k] = e->rows[sli_value(set.seeds[k])];
+            pin->values[k] = e->values[sli_value(set.seeds[k])];
         }
-        sli_set_fill(S, &set, &pin->R, &unused);
         status = sli_pin_find_nulls(P, pin, &row);
         if (status == SL_OK) {
             *out = pin;
@@ -221,13 +240,12 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
 }
 
 /* Adds an equality, number `index` of the set. On error P is as before. */
-static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, const double *values,
-                               sl_int count, sl_stats *stats) {
+static sl_status sli_pins_push(sl_pins *P, sl_int index, const sli_equality *e, sl_stats *stats) {
     const sl_int at = P->n_pins;
     sli_pin *pin = NULL;
     sl_status status = sli_pins_grow(P, 1);
     sl_int i;
-    status = status == SL_OK ? sli_pin_create(&pin, P, rows, values, count, 1, stats) : status;
+    status = status == SL_OK ? sli_pin_create(&pin, P, e, 1, stats) : status;
     if (status != SL_OK) {
         return status;
     }
@@ -240,7 +258,7 @@ static sl_status sli_pins_push(sl_pins *P, sl_int index, const sl_int *rows, con
     status = sli_pins_factor(P, at);
     if (status != SL_OK) {
         sli_pin_free(P, pin);
-        return sli_fail_at(stats, status, rows[0], -1, 0.0);
+        return sli_fail_at(stats, status, e->rows[0], -1, 0.0);
     }
     pin->index = index;
     sli_pins_count_nulls(P, pin, 1);

@@ -142,7 +142,7 @@ static int sli_held_is_local(const sl_factor *F, int is_new) {
            (F->null.mode == SL_NULL_PIVOT_REFUSE || !is_new);
 }
 
-/* Computes G: from its present numbers, which are those of F if it is new, or anew. */
+/* Computes G: from its present numbers, which are those of F if it is new, or from A alone. */
 static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_holding *h) {
     const double started = sli_seconds(), one = 1.0;
     const double *const values = h->values;
@@ -150,6 +150,8 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
     sli_left_work left = h->left;
     sli_source from;
     left.buffer = G->work.buffer;
+    left.seeds = h->seeds;
+    left.n_seeds = h->n_seeds;
     from.A = NULL;
     from.values = &values;
     from.coefficients = &one;
@@ -164,7 +166,7 @@ static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_ho
         memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
     }
     sli_factor_identify(G, &from);
-    return sli_left_refactor(G, &left, &from, h->seeds, h->n_seeds, started, NULL);
+    return sli_left_refactor(G, &left, &from, started, NULL);
 }
 
 /* Was a null pivot skipped in a component that is coupled to held rows? Where the couplings are as

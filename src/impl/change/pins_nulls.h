@@ -28,35 +28,44 @@ static int sli_null_is_zero_row(const sl_factor *F, const sli_tree_range *tree, 
     return has_known && F->rule.kinds[k] == SLI_PIVOT_NULL;
 }
 
-/* z' c for the rows first .. last-1 of an equality, which are those in a tree. Returns 0 if the
- * null vector is not known. */
-static int sli_pin_null(const sl_factor *F, const sli_pin *pin, sl_int first, sl_int last,
-                        const sli_tree_range *tree, sl_int null, double *sum) {
+/* The rows first .. last-1 of an equality, which are those in one tree. */
+typedef struct sli_pin_part {
+    const sli_pin *pin;
+    sl_int first, last;
+    sli_tree_range tree;
+} sli_pin_part;
+
+/* z' c for the rows of a part. Returns 0 if the null vector is not known. */
+static int sli_pin_null(const sl_factor *F, const sli_pin_part *part, sl_int null, double *sum) {
     const sl_int column = sli_null_column(F, null), *iperm = F->S->iperm;
     const double *g = F->null.g + (size_t)sli_max(column, 0) * (size_t)F->S->n;
+    sl_int i;
     *sum = 0.0;
-    for (; first < last; first++) {
-        const sl_int k = iperm[pin->rows[first]];
-        *sum += pin->values[first] * (column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0);
+    for (i = part->first; i < part->last; i++) {
+        const sl_int k = iperm[part->pin->rows[i]];
+        *sum += part->pin->values[i] * (column != -1 ? g[k] / g[null] : k == null ? 1.0 : 0.0);
     }
-    return column != -1 || sli_null_is_zero_row(F, tree, null);
+    return column != -1 || sli_null_is_zero_row(F, &part->tree, null);
 }
 
 /* Visits the null pivots of an equality's trees. `fills`: stores them. Sets *row where a null
  * vector is not known. */
 static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills, sl_int *row) {
-    sl_int first = 0, last;
+    const sl_int *iperm = F->S->iperm;
+    sli_pin_part p;
     pin->n_nulls = 0;
-    for (; first < pin->count; first = last) {
-        const sli_tree_range tree = sli_tree_of(F->S, F->S->iperm[pin->rows[first]]);
-        sl_int m = sli_lower_bound(F->null.pivots, F->null.count, tree.first);
-        for (last = first + 1; last < pin->count && F->S->iperm[pin->rows[last]] <= tree.root;) {
-            last++;
+    p.pin = pin;
+    for (p.first = 0; p.first < pin->count; p.first = p.last) {
+        sl_int m;
+        p.tree = sli_tree_of(F->S, iperm[pin->rows[p.first]]);
+        for (p.last = p.first + 1; p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
+            p.last++;
         }
-        for (; m < F->null.count && F->null.pivots[m] <= tree.root; m++, pin->n_nulls++) {
+        m = sli_lower_bound(F->null.pivots, F->null.count, p.tree.first);
+        for (; m < F->null.count && F->null.pivots[m] <= p.tree.root; m++, pin->n_nulls++) {
             double z;
-            if (!sli_pin_null(F, pin, first, last, &tree, F->null.pivots[m], &z)) {
-                *row = pin->rows[first];
+            if (!sli_pin_null(F, &p, F->null.pivots[m], &z)) {
+                *row = pin->rows[p.first];
                 return SL_ERR_UNSUPPORTED;
             }
             if (fills) {

@@ -148,7 +148,8 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_targ
         last = k + 1;
         if (t->rows[k] == -1) {
             const sli_pin *pin = P->pins[t->from[k]];
-            status = sli_pins_push(D, k, pin->rows, pin->values, pin->count, stats);
+            const sli_equality e = sli_equality_of(pin->rows, pin->values, pin->count);
+            status = sli_pins_push(D, k, &e, stats);
         } else {
             while (last < t->count && t->rows[last] != -1) {
                 last++;

@@ -19,10 +19,11 @@ static sl_status sli_pins_sweep_block(sl_pins *P, sli_inverse_block *q, sl_int k
     sli_swept_block_make(&q->sweeps[k], q->F, &q->kept, first, (sl_int)q->kept.block_size[k], NULL);
     for (j = 0; j < q->sweeps[k].block_size && status == SL_OK; j++) {
         const sl_int *row = &q->kept.rows[sli_value(order[j])];
+        const sli_equality e = sli_equality_of(row, &one, 1);
         sli_pin **pin = &P->pins[P->n_pins + sli_value(order[j])];
         status = j > 0 && sli_key(order[j]) == sli_key(order[j - 1]) /* twice: no lane of its own */
                      ? sli_fail_at(stats, SL_ERR_PIVOT, *row, -1, 0.0)
-                     : sli_pin_create(pin, P, row, &one, 1, 0, stats);
+                     : sli_pin_create(pin, P, &e, 0, stats);
         if (status == SL_OK) {
             sli_pin_clear_nulls(P, *pin, &f->reach, f->y, f->lanes);
         }
@@ -96,7 +97,8 @@ static sl_status sli_pins_push_rows(sl_pins *P, sl_int index, const sl_int *rows
         sl_int m = sli_min(count - done, SLI_LANES_MAX * SLI_BLOCK_KEPT);
         sli_inverse_block q;
         if (m <= SLI_PINS_SINGLY) {
-            status = sli_pins_push(P, index + done, &rows[done], &one, 1, stats);
+            const sli_equality e = sli_equality_of(&rows[done], &one, 1);
+            status = sli_pins_push(P, index + done, &e, stats);
             done++;
             continue;
         }

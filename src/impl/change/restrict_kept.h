@@ -195,8 +195,8 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     }
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         sli_subset_layout(&r->R, &b, r->S->n);
-        r->list = SLI_TAKE(&b, uint64_t, count);
-        r->scratch = SLI_TAKE(&b, uint64_t, count);
+        r->list = r->R.list;
+        r->scratch = r->R.scratch;
         r->number_of = SLI_TAKE(&b, sl_int, count);
         r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
         r->number_at = is_many ? SLI_TAKE(&b, sl_int, r->S->n) : NULL;
@@ -204,9 +204,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     }
     r->blocks[0] = b.base;
     r->n_fresh = r->R.count;
-    status = status == SL_OK
-                 ? sli_subset_fill(&r->R, r->S, r->rows, r->number_of, r->list, r->scratch, stats)
-                 : status;
+    status = status == SL_OK ? sli_subset_fill(&r->R, r->S, r->rows, r->number_of, stats) : status;
     if (status != SL_OK || !r->may_keep || !sli_restriction_has_runs(r)) {
         return status;
     }

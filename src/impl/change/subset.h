@@ -48,6 +48,7 @@ typedef struct sli_subset {
     sl_int count;
     sl_int *columns; /* count: columns of L, ascending */
     sl_int *row_of;  /* count: the position of each column's row in the caller's list */
+    uint64_t *list, *scratch; /* count: for sorting; free once the set is filled */
     sl_int n_words;
     uint64_t *words; /* n_words: which columns are in the set */
     sl_int *before;  /* n_words: the columns of the set in earlier words */
@@ -71,6 +72,8 @@ static void sli_subset_layout(sli_subset *R, sli_block *b, sl_int n) {
     R->n_words = R->is_hashed ? R->count : words;
     R->columns = SLI_TAKE(b, sl_int, R->count);
     R->row_of = SLI_TAKE(b, sl_int, R->count);
+    R->list = SLI_TAKE(b, uint64_t, R->count);
+    R->scratch = SLI_TAKE(b, uint64_t, R->count);
     R->words = SLI_TAKE(b, uint64_t, R->n_words);
     R->before = SLI_TAKE(b, sl_int, R->n_words);
     R->slots = SLI_TAKE(b, sl_int, R->is_hashed ? (uint64_t)R->mask + 1 : 0);
@@ -97,8 +100,9 @@ SLI_INLINE sl_int sli_subset_find(const sli_subset *R, sl_int column) {
     return R->before[w] + (sl_int)sli_popcount(R->words[w] & (bit - 1));
 }
 
-/* Adds the columns of a sorted list to the words. */
-static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
+/* Adds the columns of the sorted list to the words. */
+static void sli_subset_hash(sli_subset *R) {
+    const uint64_t *list = R->list;
     sl_int k, w = -1;
     memset(R->slots, 0xff, ((size_t)R->mask + 1) * sizeof(sl_int)); /* -1 */
     for (k = 0; k < R->count; k++) {
@@ -116,10 +120,9 @@ static void sli_subset_hash(sli_subset *R, const uint64_t *list) {
 }
 
 /* Fills the set from rows of A, and rank_of: the rank of each. Refuses a row out of range or given
- * twice. list, scratch: count. */
+ * twice. */
 static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_int *rows,
-                                 sl_int *rank_of, uint64_t *list, uint64_t *scratch,
-                                 sl_stats *stats) {
+                                 sl_int *rank_of, sl_stats *stats) {
     sl_int k, rank = 0;
     if (!R->is_hashed) {
         memset(R->words, 0, (size_t)R->n_words * sizeof(uint64_t));
@@ -134,7 +137,7 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
             SLI_PREFETCH(S->iperm + ahead, 0);
         }
         if (R->is_hashed) {
-            list[k] = sli_keyed(S->iperm[row], k);
+            R->list[k] = sli_keyed(S->iperm[row], k);
         } else {
             const sl_int column = rank_of[k] = S->iperm[row];
             uint64_t *word = &R->words[column / SLI_SUBSET_BITS];
@@ -146,8 +149,8 @@ static sl_status sli_subset_fill(sli_subset *R, const sl_symbolic *S, const sl_i
         }
     }
     if (R->is_hashed) {
-        sli_sort(list, R->count, scratch);
-        sli_subset_hash(R, list);
+        sli_sort(R->list, R->count, R->scratch);
+        sli_subset_hash(R);
         for (k = 0; k < R->count; k++) {
             rank_of[R->row_of[k]] = k;
             if (k > 0 && R->columns[k] == R->columns[k - 1]) {

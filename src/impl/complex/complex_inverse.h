@@ -10,8 +10,7 @@
 SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t ldz,
                                           const sl_int *rows, sl_int n_rows, const sl_int *columns,
                                           sl_int n_columns, sl_work *W, sl_stats *stats) {
-    sli_complex_set r, c;
-    sli_block block = {NULL, 0, 0};
+    sli_complex_sets c;
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
@@ -19,18 +18,16 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
         (columns == NULL && n_columns != 0)) {
         return SL_ERR_ARGUMENT;
     }
-    r.rows = rows;
-    r.count = n_rows;
-    c.rows = columns;
-    c.count = n_columns;
-    status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+    c = sli_complex_sets_of(rows, n_rows, columns, n_columns, 1);
+    status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
     if (status == SL_OK) {
         for (k = 0; k < n_columns;
              k++) { /* the column of the real part has both parts of entries */
-            c.real[k] = 2 * columns[k];
+            c.second.real[k] = 2 * columns[k];
         }
-        status = sl_inverse_block(F, Z, 2 * ldz, r.real, 2 * n_rows, c.real, n_columns, W, stats);
-        sli_free(&F->allocator, block.base);
+        status = sl_inverse_block(F, Z, 2 * ldz, c.first.real, 2 * n_rows, c.second.real, n_columns,
+                                  W, stats);
+        sli_free(&F->allocator, c.memory);
     }
     return status;
 }
@@ -38,25 +35,22 @@ SL_API sl_status sl_complex_inverse_block(const sl_factor *F, double *Z, size_t 
 SL_API sl_status sl_complex_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
                                           const sl_int *columns, sl_int count, sl_work *W,
                                           sl_stats *stats) {
-    sli_complex_set r, c;
-    sli_block block = {NULL, 0, 0};
+    sli_complex_sets c;
     sl_status status;
     sl_int k;
     sli_stats_clear_error(stats);
     if (F == NULL || ((rows == NULL || columns == NULL) && count != 0)) {
         return SL_ERR_ARGUMENT;
     }
-    r.rows = rows;
-    c.rows = columns;
-    r.count = c.count = count;
-    status = sli_complex_sets(F->S->n, &r, &c, 1, &block, &F->allocator, stats);
+    c = sli_complex_sets_of(rows, count, columns, count, 1);
+    status = sli_complex_sets_create(&c, F->S->n, &F->allocator, stats);
     if (status == SL_OK) {
         for (k = 0; k < count;
              k++) { /* both parts of an entry are in the column of the real part */
-            c.real[2 * (size_t)k + 1] = c.real[2 * (size_t)k];
+            c.second.real[2 * (size_t)k + 1] = c.second.real[2 * (size_t)k];
         }
-        status = sl_inverse_pairs(F, out, r.real, c.real, 2 * count, W, stats);
-        sli_free(&F->allocator, block.base);
+        status = sl_inverse_pairs(F, out, c.first.real, c.second.real, 2 * count, W, stats);
+        sli_free(&F->allocator, c.memory);
     }
     return status;
 }

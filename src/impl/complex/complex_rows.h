@@ -37,38 +37,55 @@ static sl_int sli_complex_expand(const sl_int *rows, sl_int count, sl_int n, sl_
     return -1;
 }
 
-/* Allocates and expands two sets of rows of a real system of n rows. The second one is named as
- * columns if is_block. */
-static sl_status sli_complex_sets(sl_int n, sli_complex_set *first, sli_complex_set *second,
-                                  int is_block, sli_block *b, const sl_allocator *a,
+/* Two sets of complex rows. */
+typedef struct sli_complex_sets {
+    sli_complex_set first, second;
+    int is_block; /* the second one has columns */
+    unsigned char *memory;
+} sli_complex_sets;
+
+static sli_complex_sets sli_complex_sets_of(const sl_int *first, sl_int n_first,
+                                            const sl_int *second, sl_int n_second, int is_block) {
+    sli_complex_sets c;
+    memset(&c, 0, sizeof c);
+    c.first.rows = first;
+    c.first.count = n_first;
+    c.second.rows = second;
+    c.second.count = n_second;
+    c.is_block = is_block;
+    return c;
+}
+
+/* Checks and expands one of the sets of a system of n complex rows. */
+static sl_status sli_complex_fill(const sli_complex_set *set, sl_int n, int is_columns,
                                   sl_stats *stats) {
-    sl_status status = sli_complex_check(n, first);
-    sl_int bad;
+    const sl_int bad =
+        set->rows == NULL ? -1 : sli_complex_expand(set->rows, set->count, n, set->real);
+    return bad == -1 ? SL_OK
+                     : sli_fail_at(stats, SL_ERR_ARGUMENT, is_columns ? -1 : set->rows[bad],
+                                   is_columns ? set->rows[bad] : -1, 0.0);
+}
+
+/* Allocates and expands the sets, whose rows are those of a real system of n rows. */
+static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl_allocator *a,
+                                         sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sl_status status = sli_complex_check(n, &c->first);
     int pass;
-    status = status == SL_OK ? sli_complex_check(n, second) : status;
+    status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        sli_complex_layout(first, b);
-        sli_complex_layout(second, b);
-        status = pass == 0 ? sli_block_alloc(b, a) : SL_OK;
+        sli_complex_layout(&c->first, &b);
+        sli_complex_layout(&c->second, &b);
+        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
-    bad = first->rows == NULL ? -1
-                              : sli_complex_expand(first->rows, first->count, n / 2, first->real);
-    if (bad != -1) {
-        status = sli_fail_at(stats, SL_ERR_ARGUMENT, first->rows[bad], -1, 0.0);
-    } else {
-        bad = second->rows == NULL
-                  ? -1
-                  : sli_complex_expand(second->rows, second->count, n / 2, second->real);
-        if (bad != -1) {
-            status = sli_fail_at(stats, SL_ERR_ARGUMENT, is_block ? -1 : second->rows[bad],
-                                 is_block ? second->rows[bad] : -1, 0.0);
-        }
-    }
+    c->memory = b.base;
+    status = sli_complex_fill(&c->first, n / 2, 0, stats);
+    status = status == SL_OK ? sli_complex_fill(&c->second, n / 2, c->is_block, stats) : status;
     if (status != SL_OK) {
-        sli_free(a, b->base);
+        sli_free(a, c->memory);
     }
     return status;
 }
@@ -89,8 +106,7 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
                                         sl_int nb, const sl_int *xset, sl_int nx,
                                         const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    sli_complex_set b, x;
-    sli_block block = {NULL, 0, 0};
+    sli_complex_sets c;
     sl_status status;
     sli_stats_clear_error(stats);
     if (out == NULL) {
@@ -100,15 +116,13 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
     if (S == NULL || !sli_options_are_valid(opt, SLI_READS_REGION)) {
         return SL_ERR_ARGUMENT;
     }
-    b.rows = bset;
-    b.count = nb;
-    x.rows = xset;
-    x.count = nx;
-    status = sli_complex_sets(S->n, &b, &x, 0, &block, &a, stats);
+    c = sli_complex_sets_of(bset, nb, xset, nx, 0);
+    status = sli_complex_sets_create(&c, S->n, &a, stats);
     if (status == SL_OK) {
-        status = sl_plan_create(out, S, sli_complex_real(&b), bset == NULL ? 0 : 2 * nb,
-                                sli_complex_real(&x), xset == NULL ? 0 : 2 * nx, opt, stats);
-        sli_free(&a, block.base);
+        status =
+            sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
+                           sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+        sli_free(&a, c.memory);
     }
     return status;
 }

@@ -93,6 +93,8 @@ static void sli_null_join_columns(const sli_null_walk *w, const sl_csc *A, sl_tr
 
 /* A walk along the map, backward. */
 typedef struct sli_null_map_state {
+    const sl_symbolic *S;
+    sl_int s, tile;   /* of the entry: its supernode and its row tile */
     double *diagonal; /* n: the diagonal of A; NULL: not needed */
     sl_off to;        /* where the last entry goes in L; -1: none */
     sl_int k, j;      /* its pivots */
@@ -106,16 +108,17 @@ SLI_INLINE void sli_null_map_join(const sli_null_walk *w, const sli_null_map_sta
     }
 }
 
-/* Adds the map entries first .. first+count-1 of supernode s, whose values are a. Runs backward. */
-static void sli_null_add_entries(const sli_null_walk *w, const sl_symbolic *S, sl_int s,
-                                 sl_off first, sl_int count, const double *values,
-                                 const sl_int *scatter_from, sl_int *tile, sli_null_map_state *p) {
+/* Adds the map entries first .. first+count-1 of the current supernode. Runs backward. from: where
+ * each value is; NULL: values are those of the entries. */
+static void sli_null_add_entries(const sli_null_walk *w, sli_null_map_state *p, sl_off first,
+                                 sl_int count, const double *values, const sl_int *from) {
+    const sl_symbolic *S = p->S;
     sl_int m;
     for (m = count - 1; m >= 0; m--) {
-        const double a = values[scatter_from != NULL ? scatter_from[first + m] : m];
+        const double a = values[from != NULL ? from[first + m] : m];
         if (S->scatter_to[first + m] != p->to) {
             sli_null_map_join(w, p);
-            sli_scatter_map_pivots(S, s, first + m, tile, &p->k, &p->j);
+            sli_scatter_map_pivots(S, p->s, first + m, &p->tile, &p->k, &p->j);
             p->to = S->scatter_to[first + m];
             p->value = 0.0;
         }
@@ -134,23 +137,23 @@ static void sli_null_add_map(const sli_null_walk *w, const sl_symbolic *S, const
                              double *diagonal) {
     double sums[SLI_SUM_ENTRIES];
     sli_null_map_state p;
-    sl_int s;
     memset(&p, 0, sizeof p);
+    p.S = S;
     p.diagonal = diagonal;
     p.to = -1;
-    for (s = S->n_supers - 1; s >= 0; s--) {
-        const sl_off begin = S->scatter_begin[s];
-        sl_off end = S->scatter_begin[s + 1];
-        sl_int tile = sli_last_tile(S, s);
+    for (p.s = S->n_supers - 1; p.s >= 0; p.s--) {
+        const sl_off begin = S->scatter_begin[p.s];
+        sl_off end = S->scatter_begin[p.s + 1];
+        p.tile = sli_last_tile(S, p.s);
         while (end > begin) {
             const sl_int count =
                 (sl_int)(end - begin < SLI_SUM_ENTRIES ? end - begin : SLI_SUM_ENTRIES);
             end -= count;
             if (from->A != NULL) {
-                sli_null_add_entries(w, S, s, end, count, from->A->x, S->scatter_from, &tile, &p);
+                sli_null_add_entries(w, &p, end, count, from->A->x, S->scatter_from);
             } else {
                 sli_source_sum(from, end, count, sums);
-                sli_null_add_entries(w, S, s, end, count, sums, NULL, &tile, &p);
+                sli_null_add_entries(w, &p, end, count, sums, NULL);
             }
         }
     }

@@ -137,8 +137,14 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     status = sli_triplets_grow(&t, room, has_values, a);
     status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
     if (status == SL_OK) {
-        status = sli_from_triplets(out, (sl_int)size[0], (sl_int)size[1], (sl_int)size[2], t.i, t.j,
-                                   t.x, a);
+        sli_triplet_list list;
+        list.n_rows = (sl_int)size[0];
+        list.n_cols = (sl_int)size[1];
+        list.count = (sl_int)size[2];
+        list.i = t.i;
+        list.j = t.j;
+        list.x = t.x;
+        status = sli_from_triplets(out, &list, a);
     }
     sli_free(a, t.block);
     return status;

@@ -264,42 +264,46 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
     return SL_OK;
 }
 
-static sl_status sli_inverse_entries(const sl_factor *F, double *out, const sl_int *rows,
-                                     const sl_int *columns, sl_int count, sl_work *W,
-                                     sl_stats *stats) {
+/* Checks and runs a call. */
+static sl_status sli_inverse_entries(sli_entries *q, sl_work *W, sl_stats *stats) {
+    const sli_requests *r = &q->requests;
     sl_work own;
-    sli_entries q;
     sl_status status;
-    if (count < 0 || (count > 0 && out == NULL)) {
+    if (r->count < 0 || (r->count > 0 && q->out == NULL)) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_check_entries(F, rows, count, columns, count, stats);
+    status = sli_check_entries(q->F, r->rows, r->count, r->columns, r->count, stats);
     if (status != SL_OK) {
         return status;
     }
     sli_inverse_clear_stats(stats);
-    q = sli_entries_of(F, out, rows, columns, count);
-    own = sli_work_own(&F->allocator);
-    status = count > 0 ? sli_entries_run(&q, W == NULL ? &own : W, stats) : SL_OK;
+    own = sli_work_own(&q->F->allocator);
+    status = r->count > 0 ? sli_entries_run(q, W == NULL ? &own : W, stats) : SL_OK;
     sli_free(&own.allocator, own.block);
     return status;
 }
 
 SL_API sl_status sl_inverse_diagonal(const sl_factor *F, double *out, const sl_int *rows,
                                      sl_int count, sl_work *W, sl_stats *stats) {
+    sli_entries q;
     sli_stats_clear_error(stats);
-    return F == NULL
-               ? SL_ERR_ARGUMENT
-               : sli_inverse_entries(F, out, rows, rows, rows == NULL ? F->S->n : count, W, stats);
+    if (F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    q = sli_entries_of(F, out, rows, rows, rows == NULL ? F->S->n : count);
+    return sli_inverse_entries(&q, W, stats);
 }
 
 SL_API sl_status sl_inverse_pairs(const sl_factor *F, double *out, const sl_int *rows,
                                   const sl_int *columns, sl_int count, sl_work *W,
                                   sl_stats *stats) {
+    sli_entries q;
     sli_stats_clear_error(stats);
-    return F == NULL || (count > 0 && (rows == NULL || columns == NULL))
-               ? SL_ERR_ARGUMENT
-               : sli_inverse_entries(F, out, rows, columns, count, W, stats);
+    if (F == NULL || (count > 0 && (rows == NULL || columns == NULL))) {
+        return SL_ERR_ARGUMENT;
+    }
+    q = sli_entries_of(F, out, rows, columns, count);
+    return sli_inverse_entries(&q, W, stats);
 }
 
 #endif

@@ -54,20 +54,16 @@ static void sli_region_from_choice(sl_region *R, const sli_choice *c) {
     memset(R->Z, 0, (size_t)R->begin[sli_region_chunks(n_rows)] * sizeof *R->Z);
 }
 
-/* Chooses and makes the object, without its numbers. may_copy: there is a selected inverse. */
-static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_int *set,
-                                sl_int count, int may_copy, const sl_options *opt,
+/* Chooses and makes the object, without its numbers. start: the choice without its arrays. */
+static sl_status sli_region_new(sl_region **out, const sli_choice *start, const sl_int *set,
                                 const sl_allocator *a, sl_stats *stats) {
+    const sl_symbolic *S = start->S;
     sli_block seeds = {NULL, 0, 0}, rest = {NULL, 0, 0}, kept = {NULL, 0, 0};
-    sli_choice c;
+    sli_choice c = *start;
     sl_region draft;
     sl_status status = SL_OK;
     int pass;
-    memset(&c, 0, sizeof c);
     memset(&draft, 0, sizeof draft);
-    c.S = S;
-    c.count = set == NULL ? S->n : count;
-    c.bytes_max = opt == NULL ? 0 : opt->region_bytes;
     for (pass = 0; pass < 2 && status == SL_OK; pass++) {
         c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
         c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
@@ -85,7 +81,7 @@ static sl_status sli_region_new(sl_region **out, const sl_symbolic *S, const sl_
         sli_choice_init(&c);
         sli_choice_sweep(&c);
         sli_choice_improve(&c);
-        if (may_copy && c.boundary > 1) {
+        if (c.may_copy && c.boundary > 1) {
             sli_choice_single_subtree(&c);
         }
         draft.allocator = *a;
@@ -174,6 +170,7 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
     const double started = sli_seconds();
     const sl_allocator a = sli_allocator(opt);
     sl_region *R = NULL;
+    sli_choice start;
     sl_status status;
     sli_stats_clear_error(stats);
     if (out == NULL) {
@@ -184,9 +181,13 @@ SL_API sl_status sl_region_create(sl_region **out, const sl_factor *F, const sl_
         !sli_options_are_valid(opt, SLI_READS_REGION_BYTES)) {
         return SL_ERR_ARGUMENT;
     }
+    memset(&start, 0, sizeof start);
+    start.S = F->S;
+    start.count = set == NULL ? F->S->n : count;
+    start.may_copy = Z != NULL;
+    start.bytes_max = opt == NULL ? 0 : opt->region_bytes;
     status = sli_region_check_factor(F, Z);
-    status =
-        status == SL_OK ? sli_region_new(&R, F->S, set, count, Z != NULL, opt, &a, stats) : status;
+    status = status == SL_OK ? sli_region_new(&R, &start, set, &a, stats) : status;
     if (status == SL_OK) {
         status = sli_region_fill(R, F, Z, NULL);
         R->seconds = sli_seconds() - started;

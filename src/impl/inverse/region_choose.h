@@ -12,6 +12,7 @@ typedef struct sli_choice {
     const sl_symbolic *S;
     uint64_t *seeds, *scratch; /* count: columns of the set, ascending */
     sl_int count;
+    int may_copy;     /* the numbers can be those of a selected inverse */
     size_t bytes_max; /* of a region that has a boundary; 0: no limit */
     sli_reach reach;
     sli_step *steps;          /* of the reach */

@@ -112,9 +112,10 @@ static size_t sli_region_scratch_of(const sli_ending *e, sl_int lanes) {
 static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,
                              const sli_vectors *v) {
     const ptrdiff_t n = q->ending->rows;
-    sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind,
-                     v->y + ((q->forward.columns - n) << kind),
-                     v->x + ((q->backward.columns - n) << kind), v->product, v->scratch);
+    sli_vectors boundary = *v;
+    boundary.y += (q->forward.columns - n) << kind;
+    boundary.x += (q->backward.columns - n) << kind;
+    sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind, &boundary);
 }
 
 static const sli_ending_calls sli_region_calls = {

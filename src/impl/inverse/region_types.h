@@ -97,34 +97,34 @@ SLI_INLINE size_t sli_region_scratch(const sl_region *R, sl_int lanes) {
 /* boundary: 1 for each chunk with a row that the forward sweep may change or the backward sweep
  * reads.
  *
- * x := Z_SS u, interleaved, in the chunks that are used; x may be u. In the forward step the
- * columns of a chunk are u and its rows the result. In the backward step, where the vector begins
- * one boundary later, the columns are the result and the rows u. */
+ * x := Z_SS u, interleaved, in the chunks that are used; u is v->y, and x, which may be u, is v->x.
+ * In the forward step the columns of a chunk are u and its rows the result. In the backward step,
+ * where the vector begins one boundary later, the columns are the result and the rows u. */
 static void sli_region_apply(const sl_region *R, const sli_ending_use *boundary,
-                             const sli_kernels *kernels, int kind, const double *u, double *x,
-                             double *vectors, double *scratch) {
+                             const sli_kernels *kernels, int kind, const sli_vectors *v) {
     static const double sli_ones[SLI_REGION_COLUMNS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const sli_sweeps *sweeps = &kernels->sweeps; /* Z is in double */
     const sl_int n = R->extent.n_rows;
     const size_t size = (size_t)n << kind;
+    double *vectors = v->product;
     sl_int first;
     if (n == 0) {
         return;
     }
-    memcpy(vectors, u, size * sizeof(double));
+    memcpy(vectors, v->y, size * sizeof(double));
     memset(vectors + size, 0, size * sizeof(double));
-    memcpy(vectors + 2 * size, u, size * sizeof(double));
+    memcpy(vectors + 2 * size, v->y, size * sizeof(double));
     for (first = 0; first < n; first += SLI_REGION_COLUMNS) {
         const sli_step step = sli_region_step(R, first);
         if (boundary->b[first / SLI_REGION_COLUMNS]) {
-            sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, scratch);
+            sweeps->forward[kind](1, &step, R->relative + first, R->Z, vectors, v->scratch);
         }
         if (boundary->x[first / SLI_REGION_COLUMNS]) {
             sweeps->backward[kind](1, &step, R->relative + n, R->Z, sli_ones, vectors + size,
-                                   scratch);
+                                   v->scratch);
         }
     }
-    memcpy(x, vectors + size, size * sizeof(double));
+    memcpy(v->x, vectors + size, size * sizeof(double));
 }
 
 #endif

@@ -42,11 +42,20 @@ static void sli_matrix_sum_duplicates(sl_matrix *M) {
     }
 }
 
+/* Triplets: the entries of a matrix in any order. */
+typedef struct sli_triplet_list {
+    sl_int n_rows, n_cols, count;
+    const sl_int *i, *j; /* count */
+    const double *x;     /* count, or NULL */
+} sli_triplet_list;
+
 /* Makes columns of triplets in range: two stable counting sorts, by row and then by column, so that
  * rows ascend and duplicates keep their order. */
-static sl_status sli_from_triplets(sl_matrix **out, sl_int n_rows, sl_int n_cols, sl_int count,
-                                   const sl_int *i, const sl_int *j, const double *x,
+static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
                                    const sl_allocator *a) {
+    const sl_int n_rows = t->n_rows, n_cols = t->n_cols, count = t->count;
+    const sl_int *i = t->i, *j = t->j;
+    const double *x = t->x;
     sl_matrix *M = NULL;
     sli_block b = {NULL, 0, 0};
     sl_int *start = NULL, *order = NULL, k;
@@ -84,6 +93,7 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
                                          sl_off count, const sl_int *i, const sl_int *j,
                                          const double *x, const sl_options *opt, sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
+    sli_triplet_list t;
     sl_off k;
     sli_stats_clear_error(stats);
     if (out == NULL) {
@@ -102,7 +112,13 @@ SL_API sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int n_rows, sl_int 
             return sli_fail_at(stats, SL_ERR_ARGUMENT, i[k], j[k], 0.0);
         }
     }
-    return sli_from_triplets(out, n_rows, n_cols, (sl_int)count, i, j, x, &a);
+    t.n_rows = n_rows;
+    t.n_cols = n_cols;
+    t.count = (sl_int)count;
+    t.i = i;
+    t.j = j;
+    t.x = x;
+    return sli_from_triplets(out, &t, &a);
 }
 
 SL_API sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A, const sl_options *opt) {

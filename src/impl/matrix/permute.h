@@ -63,8 +63,14 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
             status = SL_ERR_ARGUMENT;
         } else {
             sli_permute_entries(A, iperm, row, column);
-            status =
-                sli_from_triplets(out, A->n_rows, A->n_cols, sli_nnz(A), row, column, A->x, &a);
+            sli_triplet_list t;
+            t.n_rows = A->n_rows;
+            t.n_cols = A->n_cols;
+            t.count = sli_nnz(A);
+            t.i = row;
+            t.j = column;
+            t.x = A->x;
+            status = sli_from_triplets(out, &t, &a);
         }
         sli_free(&a, b.base);
     }

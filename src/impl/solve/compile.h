@@ -81,12 +81,15 @@ static void sli_set_measure(const sl_symbolic *S, const sli_set *set, sli_reach 
 
 /* Compiles the reach of a set, and the index of each of the caller's rows in its vector. */
 static void sli_set_fill(const sl_symbolic *S, sli_set *set, sli_reach *R, const sl_int **index) {
+    sli_reach_arrays arrays;
     sl_int k, at = 0;
     if (set->rows == NULL) {
         *index = S->iperm;
         return;
     }
-    sli_reach_fill_within(S, set->extent, set->seeds, set->inside, set->steps, set->row_index, R);
+    arrays.steps = set->steps;
+    arrays.rows = set->row_index;
+    sli_reach_fill_within(S, set->extent, set->seeds, set->inside, &arrays, R);
     for (k = 0; k < set->inside; k++) {
         set->index[sli_value(set->seeds[k])] = sli_reach_index(R, &at, sli_key(set->seeds[k]));
     }
