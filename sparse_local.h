@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: e3360fc9ae27b64b
+ * FNV-1a of the lines after this comment, without the license: c1e7dfd7ffb0ca89
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,21 +38,21 @@
  *   9490 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11437 impl/ factor: the numbers of L and D
  *  14200 impl/ solve: full and local solves
- *  15775 impl/ accuracy: refinement, condition, defects, half solves
- *  16607 impl/ pivots: the order of the pivots by the values of a matrix
- *  17025 impl/ float: L and fronts in single precision
- *  17476 impl/ inverse: entries of the inverse, regions
- *  19998 impl/ change: a factor that follows changes of its matrix
- *  26602 impl/ io: files that are written and mapped
- *  26912 impl/ files: Matrix Market files, 64-bit indices
- *  27440 impl/ save: factors in files
- *  29263 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29924 impl/ batch: diagonals of many inverses
- *  30066 impl/ complex: complex Hermitian systems over real factors
- *  30590 impl/ complex: entries of the inverse
- *  30642 impl/ packs: the tables through which the core calls packs
- *  30674 impl/ last: undefine every internal macro
- *  30961 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15763 impl/ accuracy: refinement, condition, defects, half solves
+ *  16609 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17027 impl/ float: L and fronts in single precision
+ *  17478 impl/ inverse: entries of the inverse, regions
+ *  20000 impl/ change: a factor that follows changes of its matrix
+ *  26604 impl/ io: files that are written and mapped
+ *  26914 impl/ files: Matrix Market files, 64-bit indices
+ *  27442 impl/ save: factors in files
+ *  29265 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29926 impl/ batch: diagonals of many inverses
+ *  30068 impl/ complex: complex Hermitian systems over real factors
+ *  30592 impl/ complex: entries of the inverse
+ *  30644 impl/ packs: the tables through which the core calls packs
+ *  30676 impl/ last: undefine every internal macro
+ *  30963 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14228,13 +14228,6 @@ static sl_work sli_work_own(const sl_allocator *a) {
   return own;
 }
 
-static sl_status sli_work_block(sl_work *W, sli_block *b) {
-  const sl_status status = sli_work_grow(W, b->used);
-  b->base = (unsigned char *)W->block;
-  b->used = 0;
-  return status;
-}
-
 typedef struct sli_stage {
   void (*layout)(void *q, sli_block *b);
   void (*fill)(void *q);
@@ -14472,11 +14465,6 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
   const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
   return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
                                       : SL_OK;
-}
-
-static sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
-  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
-                               : sli_rhs_check(r, nx, nb);
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -15772,6 +15760,20 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
 
 /* accuracy: refinement, condition, defects, half solves */
 #if defined(SL_WITH_ACCURACY)
+/* src/impl/accuracy/call.h: what the calls on accuracy share: a layout in the workspace, and column-major arguments */
+
+static sl_status sli_work_block(sl_work *W, sli_block *b) {
+  const sl_status status = sli_work_grow(W, b->used);
+  b->base = (unsigned char *)W->block;
+  b->used = 0;
+  return status;
+}
+
+static sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
+  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                               : sli_rhs_check(r, nx, nb);
+}
+
 /* src/impl/accuracy/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
 
 typedef struct sli_parts {
@@ -20335,7 +20337,7 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
     by.first = first;
     by.last = first + sli_lower_bound(of + first, below - first, end);
     if (first < by.last) {
-      sli_left_update(F, p, &f, &by, F->work.stack);
+      sli_left_update(F, p, &f, &by, (double *)F->work.stack);
       sli_left_magnitudes(F, p, &f, &by);
       d--;
     } else {

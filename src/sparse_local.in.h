@@ -151,6 +151,7 @@ extern "C" {
 #include "impl/solve/local.h"
 /* accuracy: refinement, condition, defects, half solves */
 #if defined(SL_WITH_ACCURACY)
+#include "impl/accuracy/call.h"
 #include "impl/accuracy/parts.h"
 #include "impl/accuracy/refine.h"
 #include "impl/accuracy/refine_local.h"

@@ -61,7 +61,7 @@ static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli
         by.last = first + sli_lower_bound(of + first, below - first, end);
         if (first < by.last) {
             /* the update stack is empty: no other update matrix exists now */
-            sli_left_update(F, p, &f, &by, F->work.stack);
+            sli_left_update(F, p, &f, &by, (double *)F->work.stack);
             sli_left_magnitudes(F, p, &f, &by);
             d--;
         } else {
