@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: c1e7dfd7ffb0ca89
+ * FNV-1a of the lines after this comment, without the license: 3034913d9a9e4423
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -43,16 +43,16 @@
  *  17027 impl/ float: L and fronts in single precision
  *  17478 impl/ inverse: entries of the inverse, regions
  *  20000 impl/ change: a factor that follows changes of its matrix
- *  26604 impl/ io: files that are written and mapped
- *  26914 impl/ files: Matrix Market files, 64-bit indices
- *  27442 impl/ save: factors in files
- *  29265 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29926 impl/ batch: diagonals of many inverses
- *  30068 impl/ complex: complex Hermitian systems over real factors
- *  30592 impl/ complex: entries of the inverse
- *  30644 impl/ packs: the tables through which the core calls packs
- *  30676 impl/ last: undefine every internal macro
- *  30963 impl/ templates: the header includes them from itself, once for each instruction set
+ *  26605 impl/ io: files that are written and mapped
+ *  26915 impl/ files: Matrix Market files, 64-bit indices
+ *  27443 impl/ save: factors in files
+ *  29266 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29927 impl/ batch: diagonals of many inverses
+ *  30069 impl/ complex: complex Hermitian systems over real factors
+ *  30593 impl/ complex: entries of the inverse
+ *  30645 impl/ packs: the tables through which the core calls packs
+ *  30677 impl/ last: undefine every internal macro
+ *  30964 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9852,11 +9852,10 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 #define SLI_COST_SUPER_ONE_FACTOR 140
 #define SLI_COST_WIDE_ONE_FACTOR 100
 
-SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width,
-                      sl_int below) {
+SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
   return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
        (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
-       (width <= SLI_TILE        ? 0
+       (width <= SLI_TILE      ? 0
       : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
                    : SLI_COST_WIDE);
 }
@@ -9945,8 +9944,9 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
 static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
                  sl_int *scratch) {
   const sl_int n = g->n;
-  sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
-       *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
+  sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n,
+       *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
+       *number = scratch + 4 * (size_t)n;
   const sl_int count = sli_find_tops(g, sequence, top, tree, at);
   sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
   sli_postorder(tree, NULL, count, post, at, number);
@@ -10010,11 +10010,11 @@ static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_
   return count;
 }
 
-static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent,
-               const unsigned char *is_first, sl_int *earlier, sl_int *order,
-               sl_int *scratch) {
+static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsigned char *is_first,
+               sl_int *earlier, sl_int *order, sl_int *scratch) {
   const sl_int n = g->n;
-  sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
+  sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n,
+       *below = number + n;
   sl_int *first = g->merged_into;
   const sl_int count = sli_find_parts(g, is_first, first, below, order);
   sl_int s, k, c, column = 0;
@@ -15760,7 +15760,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
 
 /* accuracy: refinement, condition, defects, half solves */
 #if defined(SL_WITH_ACCURACY)
-/* src/impl/accuracy/call.h: what the calls on accuracy share: a layout in the workspace, and column-major arguments */
+/* src/impl/accuracy/call.h: what calls on accuracy share: layouts in the workspace, column-major arguments */
 
 static sl_status sli_work_block(sl_work *W, sli_block *b) {
   const sl_status status = sli_work_grow(W, b->used);
@@ -21910,7 +21910,8 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
   for (p.first = 0; p.first < pin->count; p.first = p.last) {
     sl_int m;
     p.tree = sli_tree_of(F->S, iperm[pin->rows[p.first]]);
-    for (p.last = p.first + 1; p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
+    for (p.last = p.first + 1;
+       p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
       p.last++;
     }
     m = sli_lower_bound(F->null.pivots, F->null.count, p.tree.first);

@@ -1,4 +1,4 @@
-/* call.h: what the calls on accuracy share: a layout in the workspace, and column-major arguments */
+/* call.h: what calls on accuracy share: layouts in the workspace, column-major arguments */
 #ifndef SLI_ACCURACY_CALL_H
 #define SLI_ACCURACY_CALL_H
 

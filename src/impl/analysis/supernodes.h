@@ -23,7 +23,7 @@ typedef struct sli_amalgamation {
     /* 1: always merged into its parent, as its last column and the next one are a 2x2 pivot; NULL:
      * none */
     unsigned char *is_tied;
-    int relaxes; /* merge others too */
+    int relaxes;           /* merge others too */
     int is_for_one_factor; /* by the costs of SL_PURPOSE_ONE_FACTOR */
 } sli_amalgamation;
 
@@ -80,11 +80,10 @@ static void sli_fundamental(sl_int n, const sl_int *parent, const sl_int *counts
 #define SLI_COST_WIDE_ONE_FACTOR 100
 
 /* Integers, so that all platforms merge alike. */
-SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width,
-                                            sl_int below) {
+SLI_ALWAYS_INLINE sl_off sli_supernode_cost(const sli_amalgamation *g, sl_int width, sl_int below) {
     return sli_panel_size(width, below) + SLI_COST_ROW * (sl_off)below +
            (g->is_for_one_factor ? SLI_COST_SUPER_ONE_FACTOR : SLI_COST_SUPER) +
-           (width <= SLI_TILE        ? 0
+           (width <= SLI_TILE      ? 0
             : g->is_for_one_factor ? SLI_COST_WIDE_ONE_FACTOR
                                    : SLI_COST_WIDE);
 }
@@ -193,8 +192,9 @@ static sl_int sli_find_tops(sli_amalgamation *g, const sl_int *sequence, sl_int 
 static int sli_number_supernodes(sli_amalgamation *g, const sl_int *sequence, sl_int *order,
                                  sl_int *scratch) {
     const sl_int n = g->n;
-    sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n, *post = scratch + 2 * (size_t)n,
-           *at = scratch + 3 * (size_t)n, *number = scratch + 4 * (size_t)n;
+    sl_int *super_of = g->super_of, *top = scratch, *tree = scratch + n,
+           *post = scratch + 2 * (size_t)n, *at = scratch + 3 * (size_t)n,
+           *number = scratch + 4 * (size_t)n;
     const sl_int count = sli_find_tops(g, sequence, top, tree, at);
     sl_int s, k, column = 0, before = 0, moves = sequence != NULL;
     sli_postorder(tree, NULL, count, post, at, number);
@@ -267,11 +267,11 @@ static sl_int sli_find_parts(const sli_amalgamation *g, const unsigned char *is_
  * supernode, and the next part is its parent. earlier[s] := the part before s in its supernode, or
  * -1. Returns 0 if nothing is to be split. parent: the elimination tree; is_first: by column, is it
  * the first of a pair? scratch: 5n. */
-static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent,
-                           const unsigned char *is_first, sl_int *earlier, sl_int *order,
-                           sl_int *scratch) {
+static int sli_split_pairs(sli_amalgamation *g, const sl_int *parent, const unsigned char *is_first,
+                           sl_int *earlier, sl_int *order, sl_int *scratch) {
     const sl_int n = g->n;
-    sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n, *below = number + n;
+    sl_int *super_of = g->super_of, *tree = scratch, *post = tree + n, *number = post + n,
+           *below = number + n;
     sl_int *first = g->merged_into; /* free now */
     const sl_int count = sli_find_parts(g, is_first, first, below, order);
     sl_int s, k, c, column = 0;

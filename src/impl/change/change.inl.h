@@ -169,9 +169,10 @@ SLI_TILES_KERNEL(change_tiles, SLI_EACH4)
 #define SLI_BEFORE(k) (k)
 #define SLI_AFTER(k) ((k) + 1)
 
-/* The pivots of the column tile from column j on. y is what a forward sweep makes of w, whatever the pivots become;
- * with q = y / d and the sums g of y q, the new pivots are d g(after) / g(before), and
- * b = q / g(after). So there is no chain of divisions. l: diagonal part of the tile. */
+/* The pivots of the column tile from column j on. y is what a forward sweep makes of w, whatever
+ * the pivots become; with q = y / d and the sums g of y q, the new pivots are d g(after) /
+ * g(before), and b = q / g(after). So there is no chain of divisions. l: diagonal part of the
+ * tile. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_pivots)(sli_rank_one *u, double *l, sl_int j,
                                                      sl_int columns) {
     double *const b = u->b + j, *const w = u->w + j;

@@ -58,7 +58,8 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
     for (p.first = 0; p.first < pin->count; p.first = p.last) {
         sl_int m;
         p.tree = sli_tree_of(F->S, iperm[pin->rows[p.first]]);
-        for (p.last = p.first + 1; p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
+        for (p.last = p.first + 1;
+             p.last < pin->count && iperm[pin->rows[p.last]] <= p.tree.root;) {
             p.last++;
         }
         m = sli_lower_bound(F->null.pivots, F->null.count, p.tree.first);
