@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3034913d9a9e4423
+ * FNV-1a of the lines after this comment, without the license: 733988b23dd5b2ea
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -36,23 +36,23 @@
  *   4566 impl/ matrix: sparse matrices of the caller and of the library
  *   5113 impl/ ordering: fill-reducing orderings of a graph
  *   9490 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11437 impl/ factor: the numbers of L and D
- *  14200 impl/ solve: full and local solves
- *  15763 impl/ accuracy: refinement, condition, defects, half solves
- *  16609 impl/ pivots: the order of the pivots by the values of a matrix
- *  17027 impl/ float: L and fronts in single precision
- *  17478 impl/ inverse: entries of the inverse, regions
- *  20000 impl/ change: a factor that follows changes of its matrix
- *  26605 impl/ io: files that are written and mapped
- *  26915 impl/ files: Matrix Market files, 64-bit indices
- *  27443 impl/ save: factors in files
- *  29266 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29927 impl/ batch: diagonals of many inverses
- *  30069 impl/ complex: complex Hermitian systems over real factors
- *  30593 impl/ complex: entries of the inverse
- *  30645 impl/ packs: the tables through which the core calls packs
- *  30677 impl/ last: undefine every internal macro
- *  30964 impl/ templates: the header includes them from itself, once for each instruction set
+ *  11440 impl/ factor: the numbers of L and D
+ *  14203 impl/ solve: full and local solves
+ *  15766 impl/ accuracy: refinement, condition, defects, half solves
+ *  16612 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17030 impl/ float: L and fronts in single precision
+ *  17481 impl/ inverse: entries of the inverse, regions
+ *  20003 impl/ change: a factor that follows changes of its matrix
+ *  26608 impl/ io: files that are written and mapped
+ *  26918 impl/ files: Matrix Market files, 64-bit indices
+ *  27446 impl/ save: factors in files
+ *  29269 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29930 impl/ batch: diagonals of many inverses
+ *  30072 impl/ complex: complex Hermitian systems over real factors
+ *  30596 impl/ complex: entries of the inverse
+ *  30648 impl/ packs: the tables through which the core calls packs
+ *  30680 impl/ last: undefine every internal macro
+ *  30967 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -9558,7 +9558,9 @@ typedef enum sli_tree_result {
 } sli_tree_result;
 
 typedef struct sli_merge {
-  sl_int n, *parent, *counts, keeps_order;
+  sl_int n;
+  int keeps_order;
+  sl_int *parent, *counts;
   const sl_int *begin, *entry;
   sl_int *list;
   size_t kept_end;
@@ -9648,7 +9650,8 @@ SLI_ALWAYS_INLINE void sli_merge_column(sli_merge *m, sl_int k) {
 }
 
 SLI_ALWAYS_INLINE void sli_merge_close_gap(sli_merge *m, sl_int k, int continues) {
-  const sl_int *counts = m->counts, keeps_order = m->keeps_order;
+  const sl_int *counts = m->counts;
+  const int keeps_order = m->keeps_order;
   sl_int c = m->child[k];
   m->is_in_order &= !keeps_order || continues || m->sibling[c] != -1 || counts[c] != m->size + 2;
   while (m->count > 0 && m->from[m->waiting[m->count - 1]] == SLI_MERGED) {

@@ -41,8 +41,11 @@ typedef enum sli_tree_result {
  * the front of `list`; that of the column under way is behind them, at start..end-1. It may hold
  * rows up to this column. */
 typedef struct sli_merge {
-    sl_int n, *parent, *counts, keeps_order; /* of the job, as all up to the list */
-    const sl_int *begin, *entry;             /* of its columns */
+    /* copied from the job, and from its columns */
+    sl_int n;
+    int keeps_order;
+    sl_int *parent, *counts;
+    const sl_int *begin, *entry;
     sl_int *list;
     size_t kept_end;         /* of the last list of another column */
     size_t start, end;       /* of the list of this column */
@@ -137,7 +140,8 @@ SLI_ALWAYS_INLINE void sli_merge_column(sli_merge *m, sl_int k) {
 /* Forgets the lists of the children of column k, and moves its own to the place of the last ones.
  * continues: its list was that of the column before it. */
 SLI_ALWAYS_INLINE void sli_merge_close_gap(sli_merge *m, sl_int k, int continues) {
-    const sl_int *counts = m->counts, keeps_order = m->keeps_order;
+    const sl_int *counts = m->counts;
+    const int keeps_order = m->keeps_order;
     sl_int c = m->child[k];
     m->is_in_order &= !keeps_order || continues || m->sibling[c] != -1 || counts[c] != m->size + 2;
     while (m->count > 0 && m->from[m->waiting[m->count - 1]] == SLI_MERGED) {
