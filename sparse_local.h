@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 733988b23dd5b2ea
+ * FNV-1a of the lines after this comment, without the license: 9075d08fece015c5
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -32,27 +32,27 @@
  *   2640 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
  *   2713 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2753 impl/ base: the compiler, status, memory, sorting, threads
- *   3731 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4566 impl/ matrix: sparse matrices of the caller and of the library
+ *   3735 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4570 impl/ matrix: sparse matrices of the caller and of the library
  *   5113 impl/ ordering: fill-reducing orderings of a graph
  *   9490 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11440 impl/ factor: the numbers of L and D
- *  14203 impl/ solve: full and local solves
- *  15766 impl/ accuracy: refinement, condition, defects, half solves
- *  16612 impl/ pivots: the order of the pivots by the values of a matrix
- *  17030 impl/ float: L and fronts in single precision
- *  17481 impl/ inverse: entries of the inverse, regions
- *  20003 impl/ change: a factor that follows changes of its matrix
- *  26608 impl/ io: files that are written and mapped
- *  26918 impl/ files: Matrix Market files, 64-bit indices
- *  27446 impl/ save: factors in files
- *  29269 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29930 impl/ batch: diagonals of many inverses
- *  30072 impl/ complex: complex Hermitian systems over real factors
- *  30596 impl/ complex: entries of the inverse
- *  30648 impl/ packs: the tables through which the core calls packs
- *  30680 impl/ last: undefine every internal macro
- *  30967 impl/ templates: the header includes them from itself, once for each instruction set
+ *  11436 impl/ factor: the numbers of L and D
+ *  14192 impl/ solve: full and local solves
+ *  15760 impl/ accuracy: refinement, condition, defects, half solves
+ *  16606 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17020 impl/ float: L and fronts in single precision
+ *  17471 impl/ inverse: entries of the inverse, regions
+ *  19982 impl/ change: a factor that follows changes of its matrix
+ *  26559 impl/ io: files that are written and mapped
+ *  26869 impl/ files: Matrix Market files, 64-bit indices
+ *  27395 impl/ save: factors in files
+ *  29210 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29868 impl/ batch: diagonals of many inverses
+ *  30008 impl/ complex: complex Hermitian systems over real factors
+ *  30530 impl/ complex: entries of the inverse
+ *  30582 impl/ packs: the tables through which the core calls packs
+ *  30614 impl/ last: undefine every internal macro
+ *  30902 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3293,6 +3293,10 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
   return SL_OK;
 }
 
+#define SLI_LAYOUT(b, a, status) \
+  for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
+     (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
+
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 #define SLI_TAKE_INLINE(b, type, count) \
   ((type *)sli_take_inline((b), (uint64_t)(count), sizeof(type)))
@@ -4757,12 +4761,10 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
   sl_matrix *M = NULL;
   sli_block b = {NULL, 0, 0};
   sl_int *start = NULL, *order = NULL, k;
-  int pass;
   sl_status status = sli_matrix_new(&M, n_rows, n_cols, count, x != NULL, a);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     start = SLI_TAKE(&b, sl_int, (size_t)sli_max(n_rows, n_cols) + 1);
     order = SLI_TAKE(&b, sl_int, count);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     sl_matrix_free(M);
@@ -5071,7 +5073,6 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
   sli_block b = {NULL, 0, 0};
   sl_int *iperm = NULL, *row = NULL, *column = NULL;
   sl_status status;
-  int pass;
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
   }
@@ -5084,11 +5085,10 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
     return SL_ERR_ARGUMENT;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &a, status) {
     iperm = SLI_TAKE(&b, sl_int, A->n_cols);
     row = SLI_TAKE(&b, sl_int, sli_nnz(A));
     column = SLI_TAKE(&b, sl_int, sli_nnz(A));
-    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
   if (status == SL_OK) {
     if (sli_perm_invert(perm, A->n_cols, iperm) >= 0) {
@@ -10934,7 +10934,6 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   sli_block b = {NULL, 0, 0};
   sl_off rows = 0;
   sl_int s;
-  int pass;
   sl_status status = SL_OK;
   draft->n = w->n;
   draft->n_supers = w->amalgamation.count;
@@ -10947,11 +10946,10 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
   for (s = 0; s < w->amalgamation.count; s++) {
     rows += w->amalgamation.below[s];
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &draft->allocator, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
     stats->symbolic.bytes = b.used;
-    status = pass == 0 ? sli_block_alloc(&b, &draft->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -11049,7 +11047,6 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   sli_block b = {NULL, 0, 0};
   sli_lender lender;
   sl_status status;
-  int pass;
   sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
@@ -11068,9 +11065,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   j.w.A = A;
   j.w.pairs = pairs;
   j.w.workers = sli_analysis_workers(A, opt);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &j.a, status) {
     sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
-    status = pass == 0 ? sli_block_alloc(&b, &j.a) : SL_OK;
   }
   if (status == SL_OK) {
     status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,
@@ -13623,23 +13619,20 @@ static sl_status sli_factor_schedule(sl_factor *F) {
   sli_block b = {NULL, 0, 0};
   sli_schedule_work w;
   sl_status status = SL_OK;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &F->allocator, status) {
     sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
-    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
   if (status == SL_OK) {
     sli_schedule_fill(&F->schedule, S, &w);
     sli_free(&F->allocator, b.base);
     b.base = NULL;
     b.used = 0;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &F->allocator, status) {
       F->work.stack =
         sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
       sli_schedule_layout_tops(&F->schedule, S, &b);
-      F->stats.factor.bytes += pass == 0 ? b.used : 0;
-      status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
+    F->stats.factor.bytes += b.used;
     if (status == SL_OK) {
       sli_schedule_fill_tops(&F->schedule, S);
     }
@@ -13651,15 +13644,13 @@ static sl_status sli_factor_prepare(sl_factor *F) {
   const size_t bytes = F->stats.factor.bytes;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   if (F->scratch != NULL) {
     return SL_OK;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &F->allocator, status) {
     sli_factor_layout_scratch(F, &b);
-    F->stats.factor.bytes += pass == 0 ? b.used : 0;
-    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
+  F->stats.factor.bytes += b.used;
   if (status == SL_OK) {
     F->scratch = b.base;
     if (F->history.marks != NULL) {
@@ -13819,7 +13810,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   sl_factor draft;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   memset(&draft, 0, sizeof draft);
   draft.allocator = a;
   draft.S = S;
@@ -13835,11 +13825,10 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
            (draft.type->suits != NULL && !draft.type->suits(&draft))
          ? SL_ERR_UNSUPPORTED
          : sli_factor_use(&draft, opt);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &a, status) {
     (void)sli_take(&b, 1, sizeof(sl_factor));
     sli_factor_layout(&draft, &b, draft.null.is_centered);
     draft.stats.factor.bytes = b.used;
-    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
   if (status == SL_OK) {
     sl_factor *F = (sl_factor *)(void *)b.base;
@@ -15580,17 +15569,38 @@ struct sl_plan {
   sli_query query;
 };
 
+static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_ending *ending,
+                 sli_set *b, sli_set *x, const sl_allocator *a) {
+  sli_block kept = {NULL, 0, 0};
+  sl_plan *P = NULL;
+  sli_query query;
+  sl_status status = SL_OK;
+  memset(&query, 0, sizeof query);
+  sli_set_measure(S, b, &query.forward);
+  sli_set_measure(S, x, &query.backward);
+  SLI_LAYOUT(&kept, a, status) {
+    P = (sl_plan *)sli_take_inline(&kept, 1, sizeof(sl_plan));
+    sli_set_layout_reach(b, &kept, &query.forward);
+    sli_set_layout_reach(x, &kept, &query.backward);
+  }
+  if (status == SL_OK) {
+    sli_query_fill(&query, S, ending, b, x);
+    P->allocator = *a;
+    P->bytes = kept.used;
+    P->query = query;
+    *out = P;
+  }
+  return status;
+}
+
 SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
                 const sl_int *xset, sl_int nx, const sl_options *opt,
                 sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
-  sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
-  sl_plan *P = NULL;
-  sli_query query;
+  sli_block seeds = {NULL, 0, 0};
   const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
   sli_set b, x;
   sl_status status;
-  int pass;
   sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
@@ -15604,36 +15614,20 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
   if (status != SL_OK) {
     return status;
   }
-  memset(&query, 0, sizeof query);
   b = sli_set_of(S, bset, nb);
   x = sli_set_of(S, xset, nx);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&seeds, &a, status) {
     sli_set_layout_seeds(&b, &seeds);
     sli_set_layout_seeds(&x, &seeds);
-    status = pass == 0 ? sli_block_alloc(&seeds, &a) : SL_OK;
   }
   status = status == SL_OK ? sli_set_sort(S, &b, stats) : status;
   status = status == SL_OK ? sli_set_sort(S, &x, stats) : status;
-  if (status == SL_OK) {
-    if (ending != NULL && !ending->calls->place(ending, &b, &x)) {
-      ending = NULL;
-    }
-    sli_set_measure(S, &b, &query.forward);
-    sli_set_measure(S, &x, &query.backward);
+  if (status == SL_OK && ending != NULL && !ending->calls->place(ending, &b, &x)) {
+    ending = NULL;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    P = (sl_plan *)sli_take_inline(&kept, 1, sizeof(sl_plan));
-    sli_set_layout_reach(&b, &kept, &query.forward);
-    sli_set_layout_reach(&x, &kept, &query.backward);
-    status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
-  }
+  status = status == SL_OK ? sli_plan_make(out, S, ending, &b, &x, &a) : status;
   if (status == SL_OK) {
-    sli_query_fill(&query, S, ending, &b, &x);
-    P->allocator = a;
-    P->bytes = kept.used;
-    P->query = query;
-    *out = P;
-    sl_plan_stats(P, stats);
+    sl_plan_stats(*out, stats);
   }
   sli_free(&a, seeds.base);
   return status;
@@ -16882,14 +16876,12 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int j;
-  int pass;
   c->delayed = f->columns - pivots;
   c->count = f->rows - pivots;
   p->delayed += c->delayed;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &p->allocator, status) {
     c->index = SLI_TAKE(&b, sl_int, c->count);
     c->values = SLI_TAKE(&b, double, (uint64_t)c->count *(uint64_t)c->count);
-    status = pass == 0 ? sli_block_alloc(&b, &p->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -16995,7 +16987,6 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   sl_stats found;
   sli_block b = {NULL, 0, 0};
   sl_status status;
-  int pass;
   sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
@@ -17012,9 +17003,8 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
   p.allocator = S->allocator;
   started = sli_seconds();
   status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &p.allocator, status) {
     sli_search_layout(&p, &b);
-    status = pass == 0 ? sli_block_alloc(&b, &p.allocator) : SL_OK;
   }
   status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
   S->stats.symbolic.seconds_analyze += sli_seconds() - started;
@@ -19051,14 +19041,11 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
   sli_block work = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int k;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&kept, &draft->allocator, status) {
     sli_selected_layout(draft, &kept);
-    status = pass == 0 ? sli_block_alloc(&kept, &draft->allocator) : SL_OK;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&work, &draft->allocator, status) {
     sli_traversal_layout_work(&draft->traversal, &work);
-    status = pass == 0 ? sli_block_alloc(&work, &draft->allocator) : SL_OK;
   }
   if (status == SL_OK) {
     sli_traversal_plan(&draft->traversal, seeds, n_seeds);
@@ -19084,18 +19071,16 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
   sl_selected draft;
   sl_status status = SL_OK;
   sl_int supers = S->n_supers;
-  int pass;
   memset(&draft, 0, sizeof draft);
   draft.allocator = sli_allocator(opt);
   draft.analysis = S->identity;
   draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
-  for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
-    seeds = SLI_TAKE(&b, uint64_t, count);
-    scratch = SLI_TAKE(&b, uint64_t, count);
-    status = pass == 0 ? sli_block_alloc(&b, &draft.allocator) : SL_OK;
-  }
-  if (status == SL_OK && set != NULL) {
-    status = sli_sort_rows(S, set, count, seeds, scratch, stats);
+  if (set != NULL) {
+    SLI_LAYOUT(&b, &draft.allocator, status) {
+      seeds = SLI_TAKE(&b, uint64_t, count);
+      scratch = SLI_TAKE(&b, uint64_t, count);
+    }
+    status = status == SL_OK ? sli_sort_rows(S, set, count, seeds, scratch, stats) : status;
   }
   if (status == SL_OK) {
     if (set != NULL) {
@@ -19158,12 +19143,10 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
 static sl_status sli_selected_alloc_values(sl_selected *Z) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &Z->allocator, status) {
     Z->Z = SLI_TAKE(&b, double, Z->begin[Z->traversal.forest.count]);
-    Z->bytes += pass == 0 ? b.used : 0;
-    status = pass == 0 ? sli_block_alloc(&b, &Z->allocator) : SL_OK;
   }
+  Z->bytes += b.used;
   return status;
 }
 
@@ -19811,20 +19794,17 @@ static sl_status sli_region_new(sl_region **out, const sli_choice *start, const 
   sli_choice c = *start;
   sl_region draft;
   sl_status status = SL_OK;
-  int pass;
   memset(&draft, 0, sizeof draft);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&seeds, a, status) {
     c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
     c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
-    status = pass == 0 ? sli_block_alloc(&seeds, a) : SL_OK;
   }
   status = status == SL_OK ? sli_choice_sort(&c, set, stats) : status;
   if (status == SL_OK) {
     sli_reach_measure(S, c.seeds, c.count, &c.reach);
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&rest, a, status) {
     sli_choice_layout_reach(&c, &rest);
-    status = pass == 0 ? sli_block_alloc(&rest, a) : SL_OK;
   }
   if (status == SL_OK) {
     sli_choice_init(&c);
@@ -19838,9 +19818,8 @@ static sl_status sli_region_new(sl_region **out, const sli_choice *start, const 
     draft.extent.n_roots = c.n_roots;
     draft.extent.n_rows = c.boundary;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&kept, a, status) {
     sli_region_layout(&draft, &kept);
-    status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
   }
   if (status == SL_OK) {
     sli_region_from_choice(&draft, &c);
@@ -20147,7 +20126,6 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
   const uint64_t workers = (uint64_t)G->schedule.workers;
   sl_status status = SL_OK;
   sl_int s;
-  int pass;
   p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
   for (s = 0; s < S->n_supers; s++) {
     const sli_step *step = &S->steps[s];
@@ -20155,11 +20133,10 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
       sli_triangle_offset(sli_update_tiles(step->width, step->below)) + SLI_TILE;
     p->update_room = p->copied.from[s] != -1 && size > p->update_room ? size : p->update_room;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(b, &G->allocator, status) {
     p->local = SLI_TAKE(b, sl_int, workers * (uint64_t)S->n);
     p->relative = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
     p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
-    status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
   }
   return status;
 }
@@ -20439,7 +20416,6 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
   uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
   sl_status status;
   sl_int k;
-  int pass;
   sli_stats_clear_error(stats);
   status = sli_changes_check(F, A, c, &entries, stats);
   if (status != SL_OK) {
@@ -20450,11 +20426,10 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
     return sl_factor_refactor(F, A, stats);
   }
   status = sli_factor_prepare(F);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &F->allocator, status) {
     seeds = SLI_TAKE(&b, uint64_t, entries);
     scratch = SLI_TAKE(&b, uint64_t, entries);
     sli_left_work_layout(&work, &b, F->S);
-    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -21000,6 +20975,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
 
 typedef struct sli_rank {
   sli_update u;
+  const sl_symbolic *S;
   const sl_int *entry_rows, *entry_columns;
   const double *deltas;
   sl_int n_entries;
@@ -21040,7 +21016,7 @@ static sl_status sli_rank_check(const sl_factor *F) {
 }
 
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
-  const sl_symbolic *S = q->u.F->S;
+  const sl_symbolic *S = q->S;
   const sl_csc *V = q->u.V;
   const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
   sl_int s, p, at;
@@ -21101,7 +21077,7 @@ static void sli_rank_measure(sli_rank *q) {
     last = sli_rank_pass(q, k);
     if (last - k < q->count) {
       sli_rank_group(q, k, last, group, seeds);
-      sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+      sli_reach_measure(q->S, seeds, last - k, &R);
     }
     q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
     q->pivots += (double)R.columns * (double)(last - k);
@@ -21111,7 +21087,7 @@ static void sli_rank_measure(sli_rank *q) {
 
 static void sli_rank_sort(void *data) {
   sli_rank *q = (sli_rank *)data;
-  const sl_symbolic *S = q->u.F->S;
+  const sl_symbolic *S = q->S;
   const sl_csc *V = q->u.V;
   sl_int v, rest = 0;
   int may_fail;
@@ -21168,7 +21144,7 @@ static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_
 
 static void sli_rank_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
-  const sl_symbolic *S = q->u.F->S;
+  const sl_symbolic *S = q->S;
   sli_reach R = q->whole;
   if (sli_rank_is_path(q, q->count) && !q->has_log) {
     R.count = R.columns = 0;
@@ -21325,6 +21301,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   const sl_factor_info *info = &F->stats.factor;
   memset(q, 0, sizeof *q);
   q->u.F = F;
+  q->S = F->S;
   q->stats = stats;
   q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
   q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;
@@ -21415,7 +21392,7 @@ static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
 }
 
 static void sli_edges_sort(sli_rank *q) {
-  const sl_int *iperm = q->u.F->S->iperm;
+  const sl_int *iperm = q->S->iperm;
   sl_int k, pass;
   for (pass = 0; pass < 2; pass++) {
     for (k = 0; k < q->n_entries; k++) {
@@ -21428,7 +21405,7 @@ static void sli_edges_sort(sli_rank *q) {
 }
 
 static sl_int sli_edges_add_all(sli_rank *q) {
-  const sl_int *iperm = q->u.F->S->iperm;
+  const sl_int *iperm = q->S->iperm;
   uint64_t *rows = q->order_scratch;
   sl_int k, terms = 0;
   for (k = 0; k < q->n_entries;) {
@@ -21469,14 +21446,14 @@ static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
       size += fabs(q->diagonal[sli_value(rows[k])]);
     }
     if (fabs(sum) > 8.0 * DBL_EPSILON * size) {
-      sli_edges_add(q, q->u.F->S->perm[row], -1, sum);
+      sli_edges_add(q, q->S->perm[row], -1, sum);
     }
   }
 }
 
 static void sli_edges_fill(void *data) {
   sli_rank *q = (sli_rank *)data;
-  q->V.n_rows = q->u.F->S->n;
+  q->V.n_rows = q->S->n;
   q->V.n_cols = 0;
   q->V.p = q->p;
   q->V.i = q->i;
@@ -21656,7 +21633,7 @@ static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
 }
 
 static void sli_way_seeds(sli_way *c, const sli_rank *q) {
-  const sl_int *iperm = q->u.F->S->iperm;
+  const sl_int *iperm = q->S->iperm;
   sl_int k, total = 0;
   for (k = 0; k < q->n_entries; k++) {
     const sl_int a = iperm[q->entry_rows[k]], b = iperm[q->entry_columns[k]];
@@ -21702,7 +21679,7 @@ static void sli_way_estimate(sli_way *c, const sli_rank *q) {
   }
   passes = sli_max(c->n_seeds, edges) / SLI_TILE;
   if (passes > 0) {
-    sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, 1, &R);
+    sli_reach_measure(q->S, c->seeds + c->n_seeds / 2, 1, &R);
   }
   c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
   c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
@@ -21761,7 +21738,6 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   sli_rank q;
   sl_work own;
   sl_status status;
-  int pass;
   sli_stats_clear_error(stats);
   status = sli_edges_check(F, rows, columns, deltas, count, stats);
   status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
@@ -21773,11 +21749,10 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   sli_rank_begin(&q, F, stats);
   sli_edges_begin(&q, rows, columns, deltas, count);
   q.u.least = sli_rank_least(F);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &F->allocator, status) {
     c.seeds = SLI_TAKE(&b, uint64_t, count);
     c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
     c.columns = SLI_TAKE(&b, sl_int, count);
-    status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
@@ -21936,18 +21911,18 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
 static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   sli_free(&P->allocator, pin->nulls);
   pin->nulls = NULL;
   pin->n_nulls = 0;
   if (P->base->null.count > 0) {
     status = sli_pin_visit_nulls(P->base, pin, 0, row);
   }
-  for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
-    pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
-    pin->z = SLI_TAKE(&b, double, pin->n_nulls);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator)
-               : sli_pin_visit_nulls(P->base, pin, 1, row);
+  if (status == SL_OK && pin->n_nulls > 0) {
+    SLI_LAYOUT(&b, &P->allocator, status) {
+      pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
+      pin->z = SLI_TAKE(&b, double, pin->n_nulls);
+    }
+    status = status == SL_OK ? sli_pin_visit_nulls(P->base, pin, 1, row) : status;
   }
   pin->n_nulls = status == SL_OK ? pin->n_nulls : 0;
   pin->nulls = (sl_int *)(void *)b.base;
@@ -22112,17 +22087,15 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
   sli_pin pin;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   memset(&pin, 0, sizeof pin);
   pin.count = count;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &P->allocator, status) {
     *out = (sli_pin *)sli_take(&b, 1, sizeof **out);
     sli_set_layout_reach(set, &b, R);
     pin.rows = SLI_TAKE(&b, sl_int, count);
     pin.values = SLI_TAKE(&b, double, count);
     pin.y = SLI_TAKE(&b, double, R->columns);
     pin.u = SLI_TAKE(&b, double, R->columns);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
   if (status == SL_OK) {
     const sl_int *unused;
@@ -22142,13 +22115,11 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equal
   double *scratch = NULL;
   sl_status status = SL_OK;
   sl_int k, row = -1;
-  int pass;
   *out = NULL;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&seeds, &P->allocator, status) {
     sli_set_layout_seeds(&set, &seeds);
     scratch =
       SLI_TAKE(&seeds, double, is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
-    status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
   }
   status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
   if (status == SL_OK) {
@@ -22252,16 +22223,14 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
   double *K = NULL, *scratch = NULL;
   sl_status status = SL_OK;
   sl_int i;
-  int pass;
   if (P->n_pins + more <= P->capacity) {
     return SL_OK;
   }
   SLI_ASSERT(P->capacity <= INT32_MAX / 4);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &P->allocator, status) {
     pins = SLI_TAKE(&b, sli_pin *, capacity);
     K = SLI_TAKE(&b, double, (uint64_t)capacity *(uint64_t)capacity);
     scratch = SLI_TAKE(&b, double, 2 * (uint64_t)capacity);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -22687,14 +22656,12 @@ static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_in
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int k;
-  int pass;
   memset(h, 0, sizeof *h);
   for (k = 0; k < count; k++) {
     h->count += rows[k] != -1;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &P->allocator, status) {
     sli_holding_layout(h, &b, S);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
   h->block = b.base;
   if (status != SL_OK) {
@@ -22788,25 +22755,13 @@ static int sli_held_is_loose(const sl_pins *P) {
   return 0;
 }
 
-static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
+static void sli_held_couplings(sl_pins *P, const sli_holding *h, sl_int *rows, sl_int *held,
+                 double *values) {
   const sl_symbolic *S = P->F->S;
   const sl_off total = S->scatter_begin[S->n_supers];
-  sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
-  sl_status status = SL_OK;
-  sl_int *rows = NULL, *held = NULL, k, j, s = 0;
-  double *values = NULL;
-  sli_set set;
+  sl_int k, j, s = 0;
   sl_off m;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    rows = SLI_TAKE(&b, sl_int, h->couplings);
-    held = SLI_TAKE(&b, sl_int, h->couplings);
-    values = SLI_TAKE(&b, double, h->couplings);
-    set = sli_set_of(S, rows == NULL ? S->perm : rows, (sl_int)h->couplings);
-    sli_set_layout_seeds(&set, &b);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
-  }
-  for (m = 0, P->n_couplings = 0; m < total && status == SL_OK; m++) {
+  for (m = 0, P->n_couplings = 0; m < total; m++) {
     sl_int tile;
     if (h->values[m] == P->values[m]) {
       continue;
@@ -22823,18 +22778,37 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
       values[at] = P->values[m];
     }
   }
-  status = status == SL_OK ? sli_set_sort(S, &set, NULL) : status;
+}
+
+static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
+  const sl_symbolic *S = P->F->S;
+  sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sl_int *rows = NULL, *held = NULL, k;
+  double *values = NULL;
+  sli_set set;
+  SLI_LAYOUT(&b, &P->allocator, status) {
+    rows = SLI_TAKE(&b, sl_int, h->couplings);
+    held = SLI_TAKE(&b, sl_int, h->couplings);
+    values = SLI_TAKE(&b, double, h->couplings);
+    set = sli_set_of(S, rows == NULL ? S->perm : rows, (sl_int)h->couplings);
+    sli_set_layout_seeds(&set, &b);
+  }
+  P->n_couplings = 0;
+  if (status == SL_OK) {
+    sli_held_couplings(P, h, rows, held, values);
+    status = sli_set_sort(S, &set, NULL);
+  }
   if (status == SL_OK) {
     sli_set_measure(S, &set, &P->held_reach);
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&kept, &P->allocator, status) {
     P->held = SLI_TAKE(&kept, sl_int, h->count);
     P->held_pin = SLI_TAKE(&kept, sl_int, h->count);
     P->coupling_from = SLI_TAKE(&kept, sl_int, h->couplings);
     P->coupling_column = SLI_TAKE(&kept, sl_int, h->couplings);
     P->couplings = SLI_TAKE(&kept, double, h->couplings);
     sli_set_layout_reach(&set, &kept, &P->held_reach);
-    status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
   }
   P->held = (sl_int *)(void *)kept.base;
   if (status == SL_OK) {
@@ -22964,13 +22938,11 @@ static sl_status sli_pins_reserve(sl_pins *P, sl_int count) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int *rows = NULL;
-  int pass;
   if (count <= P->room) {
     return SL_OK;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &P->allocator, status) {
     rows = SLI_TAKE(&b, sl_int, room);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -22996,13 +22968,11 @@ static sl_status sli_pins_target_make(sli_pins_target *t, sli_block *b, const sl
                     sl_int more) {
   const sl_int count = P->count + more;
   sl_status status = SL_OK;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(b, &P->allocator, status) {
     t->rows = SLI_TAKE(b, sl_int, count);
     t->from = SLI_TAKE(b, sl_int, count);
     t->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)count);
     t->uses = SLI_TAKE(b, sl_int, P->F->S->n_supers);
-    status = pass == 0 ? sli_block_alloc(b, &P->allocator) : SL_OK;
   }
   if (status == SL_OK) {
     memset(t->uses, 0, (size_t)P->F->S->n_supers * sizeof(sl_int));
@@ -23158,14 +23128,12 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
   sli_null_row *rows = NULL;
   double *x = NULL, *y = NULL, *diagonal = NULL, *scratch = NULL, most = 0.0;
   sl_int k;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     rows = SLI_TAKE(&b, sli_null_row, S->n);
     x = SLI_TAKE(&b, double, S->n);
     y = SLI_TAKE(&b, double, S->n);
     diagonal = SLI_TAKE(&b, double, S->n);
     scratch = SLI_TAKE(&b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   *error = 0.0;
   *row = -1;
@@ -23502,7 +23470,6 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
   unsigned char *gone = NULL;
   sl_status status = SL_OK;
   sl_int k, held = 0;
-  int pass;
   sli_stats_clear_error(stats);
   if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
     return SL_ERR_ARGUMENT;
@@ -23511,9 +23478,8 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     sli_pins_report(P, started, stats);
     return SL_OK;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &P->allocator, status) {
     gone = SLI_TAKE(&b, unsigned char, P->count);
-    status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
   }
   if (status == SL_OK && P->count > 0) {
     memset(gone, 0, (size_t)P->count);
@@ -24129,14 +24095,12 @@ static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *
   uint64_t rows = 0;
   sl_off at = 0, p;
   sl_int q;
-  int pass;
   for (q = 0; q < r->n_kept; q++) {
     rows += (uint64_t)(S->rows_begin[r->kept[q] + 1] - S->rows_begin[r->kept[q]]);
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);
     r->below = SLI_TAKE(&b, sl_int, rows);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   r->blocks[4] = b.base;
   if (status != SL_OK) {
@@ -24163,18 +24127,16 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   const int is_many = r->R.count >= r->S->n / SLI_RESTRICT_MANY;
   sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   while (!is_many && r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
     r->bits_mask = 2 * r->bits_mask + 1;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     sli_subset_layout(&r->R, &b, r->S->n);
     r->list = r->R.list;
     r->scratch = r->R.scratch;
     r->number_of = SLI_TAKE(&b, sl_int, count);
     r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
     r->number_at = is_many ? SLI_TAKE(&b, sl_int, r->S->n) : NULL;
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   r->blocks[0] = b.base;
   r->n_fresh = r->R.count;
@@ -24182,7 +24144,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
   if (status != SL_OK || !r->may_keep || !sli_restriction_has_runs(r)) {
     return status;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&kept, a, status) {
     r->kept = SLI_TAKE(&kept, sl_int, count);
     r->first_rank = SLI_TAKE(&kept, sl_int, count);
     r->kept_new = SLI_TAKE(&kept, sl_int, count);
@@ -24191,7 +24153,6 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     r->fresh = SLI_TAKE(&kept, sl_int, count);
     r->fresh_of = SLI_TAKE(&kept, sl_int, count);
     r->column_of = SLI_TAKE(&kept, sl_int, count);
-    status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
   }
   r->blocks[1] = kept.base;
   if (status == SL_OK) {
@@ -24206,10 +24167,8 @@ static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, cons
   sli_analysis *w = &r->w;
   sli_block b = {NULL, 0, 0};
   sl_status status = entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   r->blocks[2] = b.base;
   if (status == SL_OK) {
@@ -24310,12 +24269,12 @@ static sl_status sli_restriction_copy(sli_restriction *r, uint64_t entries, cons
   const int copies = r->R.count < r->S->n / SLI_RESTRICT_IN_PLACE;
   sli_block b = {NULL, 0, 0};
   sl_status status = sli_restriction_work(r, entries, a);
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK && copies; pass++) {
-    r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
-    r->B_rows = SLI_TAKE(&b, sl_int, entries);
-    r->B_values = SLI_TAKE(&b, double, entries);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+  if (copies) {
+    SLI_LAYOUT(&b, a, status) {
+      r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
+      r->B_rows = SLI_TAKE(&b, sl_int, entries);
+      r->B_values = SLI_TAKE(&b, double, entries);
+    }
   }
   r->blocks[5] = b.base;
   r->B = *r->A;
@@ -24398,7 +24357,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
   sl_status status = SL_OK;
   uint64_t rows = 0;
   sl_int t;
-  int pass;
   sli_restriction_tree(r, a, stats);
   T->n = r->n_fresh;
   T->n_supers = w->amalgamation.count;
@@ -24409,7 +24367,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     rows += (uint64_t)w->amalgamation.below[t];
   }
   memset(&b, 0, sizeof b);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
     T->rows = SLI_TAKE(&b, sl_int, rows);
     T->relative = SLI_TAKE(&b, sl_int, rows);
@@ -24419,7 +24377,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
     r->T_new = SLI_TAKE(&b, sl_int, T->n_supers);
     r->head = SLI_TAKE(&b, sl_int, (uint64_t)T->n_supers + 1);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   r->blocks[3] = b.base;
   if (status != SL_OK) {
@@ -24618,14 +24575,12 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
   sli_block b = {NULL, 0, 0};
   sli_joint j;
   sl_status status = sli_restriction_analyze(r, a, stats);
-  int pass;
   draft.n_supers = r->n_kept + r->T.n_supers;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
               r->n_entries);
     stats->symbolic.bytes = b.used;
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -24682,11 +24637,11 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
   sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
   sl_int *from = NULL, *columns = NULL;
   sl_status status = SL_OK;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK && r->n_kept > 0; pass++) {
-    from = SLI_TAKE(&b, sl_int, G->S->n_supers);
-    columns = SLI_TAKE(&b, sl_int, G->S->n);
-    status = pass == 0 ? sli_block_alloc(&b, &G->allocator) : SL_OK;
+  if (r->n_kept > 0) {
+    SLI_LAYOUT(&b, &G->allocator, status) {
+      from = SLI_TAKE(&b, sl_int, G->S->n_supers);
+      columns = SLI_TAKE(&b, sl_int, G->S->n);
+    }
   }
   memset(&kept, 0, sizeof kept);
   if (status == SL_OK && r->n_kept > 0) {
@@ -25136,13 +25091,12 @@ static void sli_edit_scan(sli_edit *e) {
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sl_off total = 0;
-  sl_int k, pass;
+  sl_int k;
   sl_status status = SL_OK;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_near + 1);
     e->list = SLI_TAKE(&b, uint64_t, e->n_near);
     e->scratch = SLI_TAKE(&b, uint64_t, e->n_near);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   e->blocks[1] = b.base;
   if (status != SL_OK) {
@@ -25157,9 +25111,8 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     total += here;
   }
   memset(&b, 0, sizeof b);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     e->to = SLI_TAKE(&b, sl_int, total);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   e->blocks[2] = b.base;
   if (status != SL_OK) {
@@ -25595,12 +25548,10 @@ static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int k, m, count = 0;
-  int pass;
   memset(&w, 0, sizeof w);
   w.e = e;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     sli_band_layout(&w, &b, e->n_near);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -25720,14 +25671,44 @@ static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
   }
 }
 
+static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges,
+                   const sl_allocator *a) {
+  const sl_int count = e->n_grouped;
+  sl_off total = 0;
+  sl_status status = SL_OK;
+  sl_int k;
+  for (k = 0; k < e->n; k++) {
+    e->number[k] = -1;
+  }
+  for (k = 0; k < count; k++) {
+    e->number[e->fresh[k]] = k;
+  }
+  memset(G->begin, 0, ((size_t)count + 1) * sizeof(sl_off));
+  sli_edit_graph(e, G);
+  for (k = 0; k <= count; k++) {
+    const sl_off here = G->begin[k];
+    G->begin[k] = total;
+    total += here;
+  }
+  SLI_LAYOUT(edges, a, status) {
+    G->to = SLI_TAKE(edges, sl_int, total);
+  }
+  if (status == SL_OK) {
+    sli_edit_graph(e, G);
+    memmove(G->begin + 1, G->begin, (size_t)count * sizeof(sl_off));
+    G->begin[0] = 0;
+    status = sli_graph_make_canonical(G, a);
+  }
+  return status;
+}
+
 static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   const sl_int count = e->n_grouped;
   sli_graph G;
   sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
   sli_septree septree;
   sli_team alone = sli_team_of(1);
-  sl_int *perm = NULL, *scratch = NULL, k, pass;
-  sl_off total = 0;
+  sl_int *perm = NULL, *scratch = NULL, k;
   sli_order_cost cost;
   sli_order_job job;
   uint64_t squares;
@@ -25738,40 +25719,17 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     return SL_OK;
   }
   G.n = count;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     G.begin = SLI_TAKE(&b, sl_off, (uint64_t)count + 1);
     perm = SLI_TAKE(&b, sl_int, count);
     scratch = SLI_TAKE(&b, sl_int, count);
     septree.node_of = SLI_TAKE(&b, sl_int, count);
     septree.parent = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
   }
-  for (k = 0; k < e->n; k++) {
-    e->number[k] = -1;
-  }
-  for (k = 0; k < count; k++) {
-    e->number[e->fresh[k]] = k;
-  }
-  memset(G.begin, 0, ((size_t)count + 1) * sizeof(sl_off));
-  sli_edit_graph(e, &G);
-  for (k = 0; k <= count; k++) {
-    const sl_off here = G.begin[k];
-    G.begin[k] = total;
-    total += here;
-  }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    G.to = SLI_TAKE(&edges, sl_int, total);
-    status = pass == 0 ? sli_block_alloc(&edges, a) : SL_OK;
-  }
-  if (status == SL_OK) {
-    sli_edit_graph(e, &G);
-    memmove(G.begin + 1, G.begin, (size_t)count * sizeof(sl_off));
-    G.begin[0] = 0;
-    status = sli_graph_make_canonical(&G, a);
-  }
+  status = sli_edit_make_graph(e, &G, &edges, a);
   if (status == SL_OK) {
     memset(&job, 0, sizeof job);
     job.G = &G;
@@ -25897,18 +25855,16 @@ static sl_status sli_edit_join_room(sli_edit_join *j, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int s;
-  int pass;
   j->most = S->tallest;
   for (s = 0; s < S->n_supers; s++) {
     j->most = sli_max(j->most, (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]));
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     j->super_new = SLI_TAKE(&b, sl_int, S->n_supers);
     j->next = SLI_TAKE(&b, sl_int, S->n_supers);
     j->column_new = SLI_TAKE(&b, sl_int, S->n);
     j->list = SLI_TAKE(&b, uint64_t, j->most);
     j->scratch = SLI_TAKE(&b, uint64_t, j->most);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   j->block = b.base;
   return status;
@@ -26118,7 +26074,6 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
   sli_block b = {NULL, 0, 0};
   sl_off rows, entries = 0;
   sl_int s, k;
-  int pass;
   sl_status status = sli_edit_join_room(j, a);
   memset(&draft, 0, sizeof draft);
   draft.allocator = *a;
@@ -26137,11 +26092,10 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
   for (k = 0; k < j->r.n_entries; k++) {
     entries += j->r.entry_from[k] != -1;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     (void)sli_take(&b, 1, sizeof(sl_symbolic));
     sli_symbolic_layout(&draft, &b, rows, entries);
     stats->symbolic.bytes = b.used;
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -26184,11 +26138,10 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int j;
-  int pass, layer;
+  int layer;
   *is_local = 0;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     sli_edit_layout(e, &b);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   e->blocks[0] = b.base;
   status = status == SL_OK ? sli_edit_rows(e, stats) : status;
@@ -26348,12 +26301,10 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int k;
-  int pass;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &r->G->allocator, status) {
     r->from = SLI_TAKE(&b, sl_int, T->n_supers);
     r->columns = SLI_TAKE(&b, sl_int, T->n);
     r->row_columns = SLI_TAKE(&b, sl_int, T->n);
-    status = pass == 0 ? sli_block_alloc(&b, &r->G->allocator) : SL_OK;
   }
   r->blocks[0] = b.base;
   if (status != SL_OK) {
@@ -27212,13 +27163,11 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
   sli_block b = {NULL, 0, 0};
   sli_triplets larger = *t;
   sl_status status = SL_OK;
-  int pass;
   larger.room = room;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     larger.i = SLI_TAKE(&b, sl_int, room);
     larger.j = SLI_TAKE(&b, sl_int, room);
     larger.x = has_values ? SLI_TAKE(&b, double, room) : NULL;
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -28889,7 +28838,6 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
   sli_saved_part part;
   sl_selected draft;
   sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
-  int pass;
   if (status != SL_OK || table[1].bytes != 4 * (uint64_t)part.count ||
     table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
     return status != SL_OK ? status : SL_ERR_IO;
@@ -28912,16 +28860,11 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
   if (r->is_mapped) {
     return sli_read_selected_arrays(r, out, &draft, NULL);
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-    if (pass == 0) {
-      (void)SLI_TAKE(&lists, sl_int, part.count);
-      (void)SLI_TAKE(&lists, sl_off, (uint64_t)part.count + 1);
-      (void)SLI_TAKE(&lists, uint64_t, part.count);
-      status = sli_block_alloc(&lists, &r->allocator);
-    } else {
-      status = sli_read_selected_arrays(r, out, &draft, &lists);
-    }
-  }
+  (void)SLI_TAKE(&lists, sl_int, part.count);
+  (void)SLI_TAKE(&lists, sl_off, (uint64_t)part.count + 1);
+  (void)SLI_TAKE(&lists, uint64_t, part.count);
+  status = sli_block_alloc(&lists, &r->allocator);
+  status = status == SL_OK ? sli_read_selected_arrays(r, out, &draft, &lists) : status;
   sli_free(&r->allocator, lists.base);
   return status;
 }
@@ -28982,7 +28925,6 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_region draft;
-  int pass;
   memset(&draft, 0, sizeof draft);
   draft.allocator = r->allocator;
   draft.S = F->S;
@@ -28999,9 +28941,8 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
     return SL_ERR_IO;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &r->allocator, status) {
     sli_region_layout(&draft, &b);
-    status = pass == 0 ? sli_block_alloc(&b, &r->allocator) : SL_OK;
   }
   if (status == SL_OK) {
     memcpy(draft.roots, roots, (size_t)draft.extent.n_roots * sizeof *roots);
@@ -29079,7 +29020,6 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
   sli_saved_regions q;
   sli_saved_part part;
   sl_status status;
-  int pass;
   memset(&q, 0, sizeof q);
   if (F == NULL || F->null.is_centered) {
     return SL_ERR_IO;
@@ -29090,11 +29030,12 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
     return status != SL_OK ? status : SL_ERR_IO;
   }
   q.count = (sl_int)part.count;
-  for (pass = 0; pass < 2 && status == SL_OK && !r->is_mapped; pass++) {
-    q.list = SLI_TAKE(&lists, unsigned char, table[1].bytes);
-    q.roots = SLI_TAKE(&lists, unsigned char, table[2].bytes);
-    q.rows = SLI_TAKE(&lists, unsigned char, table[3].bytes);
-    status = pass == 0 ? sli_block_alloc(&lists, &r->allocator) : SL_OK;
+  if (!r->is_mapped) {
+    SLI_LAYOUT(&lists, &r->allocator, status) {
+      q.list = SLI_TAKE(&lists, unsigned char, table[1].bytes);
+      q.roots = SLI_TAKE(&lists, unsigned char, table[2].bytes);
+      q.rows = SLI_TAKE(&lists, unsigned char, table[3].bytes);
+    }
   }
   if (status == SL_OK) {
     status = sli_read_regions_lists(r, F, &q, set);
@@ -29317,7 +29258,6 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
   sl_off entries;
   sl_status status;
   sl_int t;
-  int pass;
   sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
@@ -29327,11 +29267,10 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     return SL_ERR_ARGUMENT;
   }
   status = sli_sum_check(coefficients, terms, count, &entries, stats);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &a, status) {
     all.row = SLI_TAKE(&b, sl_int, entries);
     all.column = SLI_TAKE(&b, sl_int, entries);
     all.x = coefficients != NULL ? SLI_TAKE(&b, double, entries) : NULL;
-    status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
   }
   for (t = 0; t < count && status == SL_OK; t++) {
     sl_triangle triangle = SL_TRIANGLE_NONE;
@@ -29472,7 +29411,6 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   sli_block b = {NULL, 0, 0};
   sl_triangle triangle = SL_TRIANGLE_NONE;
   sl_int q, missing;
-  int pass;
   sl_status status = sl_csc_check(K, stats);
   if (S == NULL || status != SL_OK) {
     return S == NULL ? SL_ERR_ARGUMENT : status;
@@ -29487,9 +29425,8 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
   memset(&w, 0, sizeof w);
   opt = sli_options_with(&S->allocator);
   status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, &S->allocator, status) {
     sli_scatter_layout(&w, &b, S, sli_nnz(K));
-    status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -29647,17 +29584,18 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
   sli_block block = {NULL, 0, 0};
   sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
   sl_int k;
-  int pass;
   for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
     status = sli_work_grow(works[k], b->bytes);
   }
   b->works = works;
-  for (pass = 0; works == NULL && pass < 2 && status == SL_OK; pass++) {
+  if (works != NULL) {
+    return status;
+  }
+  SLI_LAYOUT(&block, a, status) {
     for (k = 0; k < b->workers; k++) {
       unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
       b->memory = k == 0 ? memory : b->memory;
     }
-    status = pass == 0 ? sli_block_alloc(&block, a) : SL_OK;
   }
   return status;
 }
@@ -29998,16 +29936,14 @@ static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads 
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int w;
-  int pass;
-  for (pass = 0; pass < 2 && d->works == NULL && status == SL_OK; pass++) {
-    own = SLI_TAKE(&b, sl_work, d->workers);
-    works = SLI_TAKE(&b, sl_work *, d->workers);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-  }
-  if (status != SL_OK) {
-    return status;
-  }
   if (d->works == NULL) {
+    SLI_LAYOUT(&b, a, status) {
+      own = SLI_TAKE(&b, sl_work, d->workers);
+      works = SLI_TAKE(&b, sl_work *, d->workers);
+    }
+    if (status != SL_OK) {
+      return status;
+    }
     for (w = 0; w < d->workers; w++) {
       own[w] = sli_work_own(&d->factors[0]->allocator);
       works[w] = &own[w];
@@ -30525,12 +30461,10 @@ static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl
                      sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
   sl_status status = sli_complex_check(n, &c->first);
-  int pass;
   status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     sli_complex_layout(&c->first, &b);
     sli_complex_layout(&c->second, &b);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -30733,6 +30667,7 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
+#undef SLI_LAYOUT
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE
 #undef SLI_SORT_SMALL
@@ -31094,12 +31029,17 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CHANGE
 
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
-                           sl_int columns, double *f, double *y) {
+                           sl_int columns, const double *w, double *f,
+                           double *y) {
   const sl_int ranks = u->ranks;
   sl_int i, j, r;
   SLV_DECLARE(a)
   SLV_DECLARE(x)
   SLV_DECLARE(s)
+  if (u->lanes < SLI_TILE) {
+    memset(f, 0, SLI_TILE * SLI_TILE * sizeof *f);
+  }
+  memcpy(f, w, SLI_TILE * (size_t)u->lanes * sizeof *f);
   for (j = 0; j < columns && l != NULL; j++) {
     SLV_LOAD_PINNED(a, l + SLI_TILE * j)
     for (r = 0; r < ranks; r++) {
@@ -31134,11 +31074,7 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
   SLV_DECLARE(s)
   SLV_DECLARE(t)
   SLV_DECLARE(p)
-  if (lanes < SLI_TILE) {
-    memset(f, 0, sizeof f);
-  }
-  memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
-  SLV_NAME(change_rows)(u, l, columns, f, y);
+  SLV_NAME(change_rows)(u, l, columns, w, f, y);
   for (j = 0; j < columns; j++) {
     double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
     SLV_ZERO(s)

@@ -313,7 +313,6 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     sli_block b = {NULL, 0, 0};
     sl_off rows = 0;
     sl_int s;
-    int pass;
     sl_status status = SL_OK;
     draft->n = w->n;
     draft->n_supers = w->amalgamation.count;
@@ -326,11 +325,10 @@ static sl_status sli_symbolic_build(sl_symbolic **out, sl_symbolic *draft, sli_a
     for (s = 0; s < w->amalgamation.count; s++) {
         rows += w->amalgamation.below[s];
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &draft->allocator, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(draft, &b, rows, stats->symbolic.nnz_a);
         stats->symbolic.bytes = b.used;
-        status = pass == 0 ? sli_block_alloc(&b, &draft->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
@@ -439,7 +437,6 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     sli_block b = {NULL, 0, 0};
     sli_lender lender;
     sl_status status;
-    int pass;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
@@ -458,9 +455,8 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     j.w.A = A;
     j.w.pairs = pairs;
     j.w.workers = sli_analysis_workers(A, opt);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &j.a, status) {
         sli_analysis_layout(&j.w, &b, A->n_cols, sli_nnz(A));
-        status = pass == 0 ? sli_block_alloc(&b, &j.a) : SL_OK;
     }
     if (status == SL_OK) {
         status = sli_csc_triangle(A, sli_csc_columns(A, j.w.column), &j.found.symbolic.triangle,

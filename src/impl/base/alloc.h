@@ -130,6 +130,12 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
     return SL_OK;
 }
 
+/* The header of a loop over a layout, which takes arrays from the block b: it counts, then cuts the
+ * memory that was allocated for it. status is SL_OK before the loop; an error ends it. */
+#define SLI_LAYOUT(b, a, status) \
+    for (int sli_pass = 0; sli_pass < 2 && (status) == SL_OK; \
+         (status) = sli_pass++ == 0 ? sli_block_alloc((b), (a)) : SL_OK)
+
 /* The next array of count elements of a type. */
 #define SLI_TAKE(b, type, count) ((type *)sli_take((b), (uint64_t)(count), sizeof(type)))
 /* The same in calls that take a microsecond. */

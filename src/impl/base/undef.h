@@ -54,6 +54,7 @@
 #undef SLI_SECTIONS_MAX
 #undef SLI_HUGE_BLOCK
 #undef SLI_PAGE
+#undef SLI_LAYOUT
 #undef SLI_TAKE
 #undef SLI_TAKE_INLINE
 #undef SLI_SORT_SMALL

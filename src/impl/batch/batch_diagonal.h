@@ -84,16 +84,14 @@ static sl_status sli_diagonal_batch_run(sli_diagonal_batch *d, const sl_threads 
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int w;
-    int pass;
-    for (pass = 0; pass < 2 && d->works == NULL && status == SL_OK; pass++) {
-        own = SLI_TAKE(&b, sl_work, d->workers);
-        works = SLI_TAKE(&b, sl_work *, d->workers);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
-    }
-    if (status != SL_OK) {
-        return status;
-    }
     if (d->works == NULL) {
+        SLI_LAYOUT(&b, a, status) {
+            own = SLI_TAKE(&b, sl_work, d->workers);
+            works = SLI_TAKE(&b, sl_work *, d->workers);
+        }
+        if (status != SL_OK) {
+            return status;
+        }
         for (w = 0; w < d->workers; w++) {
             own[w] = sli_work_own(&d->factors[0]->allocator);
             works[w] = &own[w];

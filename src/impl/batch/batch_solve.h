@@ -155,17 +155,18 @@ static sl_status sli_solve_batch_reserve(sli_solve_batch *b, sl_work *const *wor
     sli_block block = {NULL, 0, 0};
     sl_status status = works == NULL ? SL_OK : sli_check_works(works, b->workers);
     sl_int k;
-    int pass;
     for (k = 0; works != NULL && k < b->workers && status == SL_OK; k++) {
         status = sli_work_grow(works[k], b->bytes);
     }
     b->works = works;
-    for (pass = 0; works == NULL && pass < 2 && status == SL_OK; pass++) {
+    if (works != NULL) {
+        return status;
+    }
+    SLI_LAYOUT(&block, a, status) {
         for (k = 0; k < b->workers; k++) {
             unsigned char *memory = (unsigned char *)sli_take(&block, b->bytes, 1);
             b->memory = k == 0 ? memory : b->memory;
         }
-        status = pass == 0 ? sli_block_alloc(&block, a) : SL_OK;
     }
     return status;
 }

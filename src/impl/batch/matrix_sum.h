@@ -57,7 +57,6 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
     sl_off entries;
     sl_status status;
     sl_int t;
-    int pass;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
@@ -67,11 +66,10 @@ SL_API sl_status sl_matrix_sum(sl_matrix **out, const double *coefficients, cons
         return SL_ERR_ARGUMENT;
     }
     status = sli_sum_check(coefficients, terms, count, &entries, stats);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &a, status) {
         all.row = SLI_TAKE(&b, sl_int, entries);
         all.column = SLI_TAKE(&b, sl_int, entries);
         all.x = coefficients != NULL ? SLI_TAKE(&b, double, entries) : NULL;
-        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     for (t = 0; t < count && status == SL_OK; t++) {
         sl_triangle triangle = SL_TRIANGLE_NONE;

@@ -139,7 +139,6 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     sli_block b = {NULL, 0, 0};
     sl_triangle triangle = SL_TRIANGLE_NONE;
     sl_int q, missing;
-    int pass;
     sl_status status = sl_csc_check(K, stats);
     if (S == NULL || status != SL_OK) {
         return S == NULL ? SL_ERR_ARGUMENT : status;
@@ -154,9 +153,8 @@ SL_API sl_status sl_symbolic_scatter(const sl_symbolic *S, double *values, const
     memset(&w, 0, sizeof w);
     opt = sli_options_with(&S->allocator);
     status = sli_csc_triangle(K, sli_triangle_scan(K), &triangle, &opt, stats);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &S->allocator, status) {
         sli_scatter_layout(&w, &b, S, sli_nnz(K));
-        status = pass == 0 ? sli_block_alloc(&b, &S->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

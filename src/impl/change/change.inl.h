@@ -34,14 +34,19 @@ SLI_CHANGE_KERNEL(change8, 8, SLI_EACH8)
 #undef SLI_CHANGE
 
 /* The rows of a tile before its pivots change: y := what a forward sweep makes of W', transposed;
- * f(r) := row r of U' Y'. f has W' on entry. l: the diagonal part of the tile; NULL: the unit. */
+ * f(r) := row r of U' Y'. l: the diagonal part of the tile; NULL: the unit matrix. */
 SLV_FUNCTION SLI_INLINE void SLV_NAME(change_rows)(const sli_ranks *u, const double *l,
-                                                   sl_int columns, double *f, double *y) {
+                                                   sl_int columns, const double *w, double *f,
+                                                   double *y) {
     const sl_int ranks = u->ranks;
     sl_int i, j, r;
     SLV_DECLARE(a)
     SLV_DECLARE(x)
     SLV_DECLARE(s)
+    if (u->lanes < SLI_TILE) {
+        memset(f, 0, SLI_TILE * SLI_TILE * sizeof *f);
+    }
+    memcpy(f, w, SLI_TILE * (size_t)u->lanes * sizeof *f);
     for (j = 0; j < columns && l != NULL; j++) { /* Y' := what a forward sweep makes of W' */
         SLV_LOAD_PINNED(a, l + SLI_TILE * j)
         for (r = 0; r < ranks; r++) {
@@ -78,11 +83,7 @@ SLV_FUNCTION static sl_int SLV_NAME(change_ranks)(sli_ranks *u, const double *l,
     SLV_DECLARE(s)
     SLV_DECLARE(t)
     SLV_DECLARE(p)
-    if (lanes < SLI_TILE) {
-        memset(f, 0, sizeof f);
-    }
-    memcpy(f, w, SLI_TILE * (size_t)lanes * sizeof *f);
-    SLV_NAME(change_rows)(u, l, columns, f, y);
+    SLV_NAME(change_rows)(u, l, columns, w, f, y);
     for (j = 0; j < columns; j++) {
         double e = d[j], inverse = 1.0 / e, magnitude = fabs(e);
         SLV_ZERO(s)

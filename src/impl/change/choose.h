@@ -130,7 +130,7 @@ static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
 
 /* The columns of L that hold the changed entries. */
 static void sli_way_seeds(sli_way *c, const sli_rank *q) {
-    const sl_int *iperm = q->u.F->S->iperm;
+    const sl_int *iperm = q->S->iperm;
     sl_int k, total = 0;
     for (k = 0; k < q->n_entries; k++) {
         const sl_int a = iperm[q->entry_rows[k]], b = iperm[q->entry_columns[k]];
@@ -180,7 +180,7 @@ static void sli_way_estimate(sli_way *c, const sli_rank *q) {
     }
     passes = sli_max(c->n_seeds, edges) / SLI_TILE;
     if (passes > 0) {
-        sli_reach_measure(q->u.F->S, c->seeds + c->n_seeds / 2, 1, &R);
+        sli_reach_measure(q->S, c->seeds + c->n_seeds / 2, 1, &R);
     }
     c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
     c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
@@ -240,7 +240,6 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     sli_rank q;
     sl_work own;
     sl_status status;
-    int pass;
     sli_stats_clear_error(stats);
     status = sli_edges_check(F, rows, columns, deltas, count, stats);
     status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
@@ -252,11 +251,10 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     sli_rank_begin(&q, F, stats);
     sli_edges_begin(&q, rows, columns, deltas, count);
     q.u.least = sli_rank_least(F); /* A decides */
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &F->allocator, status) {
         c.seeds = SLI_TAKE(&b, uint64_t, count);
         c.scratch = SLI_TAKE(&b, uint64_t, 2 * (uint64_t)count);
         c.columns = SLI_TAKE(&b, sl_int, count);
-        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;

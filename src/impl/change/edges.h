@@ -34,7 +34,7 @@ static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
 
 /* Sorts the entries by their two pivots, the earlier one first. */
 static void sli_edges_sort(sli_rank *q) {
-    const sl_int *iperm = q->u.F->S->iperm;
+    const sl_int *iperm = q->S->iperm;
     sl_int k, pass;
     for (pass = 0; pass < 2; pass++) {
         for (k = 0; k < q->n_entries; k++) {
@@ -48,7 +48,7 @@ static void sli_edges_sort(sli_rank *q) {
 
 /* Appends the edges; returns how many changes of the diagonal they leave in q->diagonal. */
 static sl_int sli_edges_add_all(sli_rank *q) {
-    const sl_int *iperm = q->u.F->S->iperm;
+    const sl_int *iperm = q->S->iperm;
     uint64_t *rows = q->order_scratch;
     sl_int k, terms = 0;
     for (k = 0; k < q->n_entries;) {
@@ -90,14 +90,14 @@ static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
             size += fabs(q->diagonal[sli_value(rows[k])]);
         }
         if (fabs(sum) > 8.0 * DBL_EPSILON * size) { /* the caller has rounded, too */
-            sli_edges_add(q, q->u.F->S->perm[row], -1, sum);
+            sli_edges_add(q, q->S->perm[row], -1, sum);
         }
     }
 }
 
 static void sli_edges_fill(void *data) {
     sli_rank *q = (sli_rank *)data;
-    q->V.n_rows = q->u.F->S->n;
+    q->V.n_rows = q->S->n;
     q->V.n_cols = 0;
     q->V.p = q->p;
     q->V.i = q->i;

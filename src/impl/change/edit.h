@@ -38,11 +38,10 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int j;
-    int pass, layer;
+    int layer;
     *is_local = 0;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         sli_edit_layout(e, &b);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     e->blocks[0] = b.base;
     status = status == SL_OK ? sli_edit_rows(e, stats) : status;

@@ -49,12 +49,10 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int k;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &r->G->allocator, status) {
         r->from = SLI_TAKE(&b, sl_int, T->n_supers);
         r->columns = SLI_TAKE(&b, sl_int, T->n);
         r->row_columns = SLI_TAKE(&b, sl_int, T->n);
-        status = pass == 0 ? sli_block_alloc(&b, &r->G->allocator) : SL_OK;
     }
     r->blocks[0] = b.base;
     if (status != SL_OK) {

@@ -22,18 +22,16 @@ static sl_status sli_edit_join_room(sli_edit_join *j, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int s;
-    int pass;
     j->most = S->tallest;
     for (s = 0; s < S->n_supers; s++) {
         j->most = sli_max(j->most, (sl_int)(S->scatter_begin[s + 1] - S->scatter_begin[s]));
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         j->super_new = SLI_TAKE(&b, sl_int, S->n_supers);
         j->next = SLI_TAKE(&b, sl_int, S->n_supers);
         j->column_new = SLI_TAKE(&b, sl_int, S->n);
         j->list = SLI_TAKE(&b, uint64_t, j->most);
         j->scratch = SLI_TAKE(&b, uint64_t, j->most);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     j->block = b.base;
     return status;
@@ -256,7 +254,6 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     sli_block b = {NULL, 0, 0};
     sl_off rows, entries = 0;
     sl_int s, k;
-    int pass;
     sl_status status = sli_edit_join_room(j, a);
     memset(&draft, 0, sizeof draft);
     draft.allocator = *a;
@@ -275,11 +272,10 @@ static sl_status sli_edit_join_make(sl_symbolic **out, sli_edit_join *j, const s
     for (k = 0; k < j->r.n_entries; k++) {
         entries += j->r.entry_from[k] != -1;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(&draft, &b, rows, entries);
         stats->symbolic.bytes = b.used;
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

@@ -96,6 +96,38 @@ static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
     }
 }
 
+/* Makes the graph of the grouped rows, whose G->begin has room for it. The caller frees `edges`. */
+static sl_status sli_edit_make_graph(sli_edit *e, sli_graph *G, sli_block *edges,
+                                     const sl_allocator *a) {
+    const sl_int count = e->n_grouped;
+    sl_off total = 0;
+    sl_status status = SL_OK;
+    sl_int k;
+    for (k = 0; k < e->n; k++) {
+        e->number[k] = -1;
+    }
+    for (k = 0; k < count; k++) {
+        e->number[e->fresh[k]] = k;
+    }
+    memset(G->begin, 0, ((size_t)count + 1) * sizeof(sl_off));
+    sli_edit_graph(e, G);
+    for (k = 0; k <= count; k++) {
+        const sl_off here = G->begin[k];
+        G->begin[k] = total;
+        total += here;
+    }
+    SLI_LAYOUT(edges, a, status) {
+        G->to = SLI_TAKE(edges, sl_int, total);
+    }
+    if (status == SL_OK) {
+        sli_edit_graph(e, G);
+        memmove(G->begin + 1, G->begin, (size_t)count * sizeof(sl_off));
+        G->begin[0] = 0;
+        status = sli_graph_make_canonical(G, a);
+    }
+    return status;
+}
+
 /* Orders the grouped rows by their graph. */
 static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     const sl_int count = e->n_grouped;
@@ -103,8 +135,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0}, edges = {NULL, 0, 0};
     sli_septree septree;
     sli_team alone = sli_team_of(1);
-    sl_int *perm = NULL, *scratch = NULL, k, pass;
-    sl_off total = 0;
+    sl_int *perm = NULL, *scratch = NULL, k;
     sli_order_cost cost;
     sli_order_job job;
     uint64_t squares;
@@ -115,40 +146,17 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
         return SL_OK;
     }
     G.n = count;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         G.begin = SLI_TAKE(&b, sl_off, (uint64_t)count + 1);
         perm = SLI_TAKE(&b, sl_int, count);
         scratch = SLI_TAKE(&b, sl_int, count);
         septree.node_of = SLI_TAKE(&b, sl_int, count);
         septree.parent = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
     }
-    for (k = 0; k < e->n; k++) {
-        e->number[k] = -1;
-    }
-    for (k = 0; k < count; k++) {
-        e->number[e->fresh[k]] = k;
-    }
-    memset(G.begin, 0, ((size_t)count + 1) * sizeof(sl_off));
-    sli_edit_graph(e, &G);
-    for (k = 0; k <= count; k++) {
-        const sl_off here = G.begin[k];
-        G.begin[k] = total;
-        total += here;
-    }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        G.to = SLI_TAKE(&edges, sl_int, total);
-        status = pass == 0 ? sli_block_alloc(&edges, a) : SL_OK;
-    }
-    if (status == SL_OK) {
-        sli_edit_graph(e, &G);
-        memmove(G.begin + 1, G.begin, (size_t)count * sizeof(sl_off));
-        G.begin[0] = 0;
-        status = sli_graph_make_canonical(&G, a);
-    }
+    status = sli_edit_make_graph(e, &G, &edges, a);
     if (status == SL_OK) {
         memset(&job, 0, sizeof job);
         job.G = &G;

@@ -76,13 +76,12 @@ static void sli_edit_scan(sli_edit *e) {
 static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
     sl_off total = 0;
-    sl_int k, pass;
+    sl_int k;
     sl_status status = SL_OK;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         e->begin = SLI_TAKE(&b, sl_off, (uint64_t)e->n_near + 1);
         e->list = SLI_TAKE(&b, uint64_t, e->n_near);
         e->scratch = SLI_TAKE(&b, uint64_t, e->n_near);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     e->blocks[1] = b.base;
     if (status != SL_OK) {
@@ -97,9 +96,8 @@ static sl_status sli_edit_neighbors(sli_edit *e, const sl_allocator *a) {
         total += here;
     }
     memset(&b, 0, sizeof b);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         e->to = SLI_TAKE(&b, sl_int, total);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     e->blocks[2] = b.base;
     if (status != SL_OK) {

@@ -297,12 +297,10 @@ static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int k, m, count = 0;
-    int pass;
     memset(&w, 0, sizeof w);
     w.e = e;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         sli_band_layout(&w, &b, e->n_near);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

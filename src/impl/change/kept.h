@@ -28,7 +28,6 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
     const uint64_t workers = (uint64_t)G->schedule.workers;
     sl_status status = SL_OK;
     sl_int s;
-    int pass;
     p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
     for (s = 0; s < S->n_supers; s++) {
         const sli_step *step = &S->steps[s];
@@ -36,11 +35,10 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
             sli_triangle_offset(sli_update_tiles(step->width, step->below)) + SLI_TILE;
         p->update_room = p->copied.from[s] != -1 && size > p->update_room ? size : p->update_room;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(b, &G->allocator, status) {
         p->local = SLI_TAKE(b, sl_int, workers * (uint64_t)S->n);
         p->relative = SLI_TAKE(b, sl_int, workers * (uint64_t)S->tallest);
         p->update = SLI_TAKE(b, double, workers *(uint64_t)p->update_room);
-        status = pass == 0 ? sli_block_alloc(b, &G->allocator) : SL_OK;
     }
     return status;
 }

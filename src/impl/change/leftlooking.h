@@ -169,7 +169,6 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
     uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
     sl_status status;
     sl_int k;
-    int pass;
     sli_stats_clear_error(stats);
     status = sli_changes_check(F, A, c, &entries, stats);
     if (status != SL_OK) {
@@ -180,11 +179,10 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
         return sl_factor_refactor(F, A, stats);
     }
     status = sli_factor_prepare(F);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &F->allocator, status) {
         seeds = SLI_TAKE(&b, uint64_t, entries);
         scratch = SLI_TAKE(&b, uint64_t, entries);
         sli_left_work_layout(&work, &b, F->S);
-        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

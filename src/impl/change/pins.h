@@ -211,7 +211,6 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
     unsigned char *gone = NULL;
     sl_status status = SL_OK;
     sl_int k, held = 0;
-    int pass;
     sli_stats_clear_error(stats);
     if (P == NULL || count < 0 || (count > 0 && indices == NULL)) {
         return SL_ERR_ARGUMENT;
@@ -220,9 +219,8 @@ SL_API sl_status sl_pins_release(sl_pins *P, const sl_int *indices, sl_int count
         sli_pins_report(P, started, stats);
         return SL_OK;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &P->allocator, status) {
         gone = SLI_TAKE(&b, unsigned char, P->count);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
     if (status == SL_OK && P->count > 0) {
         memset(gone, 0, (size_t)P->count);

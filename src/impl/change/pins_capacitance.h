@@ -63,17 +63,15 @@ static sl_status sli_pin_new(sli_pin **out, const sl_pins *P, sli_set *set, sl_i
     sli_pin pin;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     memset(&pin, 0, sizeof pin);
     pin.count = count;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &P->allocator, status) {
         *out = (sli_pin *)sli_take(&b, 1, sizeof **out);
         sli_set_layout_reach(set, &b, R);
         pin.rows = SLI_TAKE(&b, sl_int, count);
         pin.values = SLI_TAKE(&b, double, count);
         pin.y = SLI_TAKE(&b, double, R->columns);
         pin.u = SLI_TAKE(&b, double, R->columns);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
     if (status == SL_OK) {
         const sl_int *unused;
@@ -94,13 +92,11 @@ static sl_status sli_pin_create(sli_pin **out, const sl_pins *P, const sli_equal
     double *scratch = NULL;
     sl_status status = SL_OK;
     sl_int k, row = -1;
-    int pass;
     *out = NULL;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&seeds, &P->allocator, status) {
         sli_set_layout_seeds(&set, &seeds);
         scratch =
             SLI_TAKE(&seeds, double, is_swept ? sli_sweep_scratch(S->tallest, S->widest, 1) : 0);
-        status = pass == 0 ? sli_block_alloc(&seeds, &P->allocator) : SL_OK;
     }
     status = status == SL_OK ? sli_set_sort(S, &set, stats) : status;
     if (status == SL_OK) {
@@ -212,16 +208,14 @@ static sl_status sli_pins_grow(sl_pins *P, sl_int more) {
     double *K = NULL, *scratch = NULL;
     sl_status status = SL_OK;
     sl_int i;
-    int pass;
     if (P->n_pins + more <= P->capacity) {
         return SL_OK;
     }
     SLI_ASSERT(P->capacity <= INT32_MAX / 4); /* a larger K has 2^61 bytes */
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &P->allocator, status) {
         pins = SLI_TAKE(&b, sli_pin *, capacity);
         K = SLI_TAKE(&b, double, (uint64_t)capacity *(uint64_t)capacity);
         scratch = SLI_TAKE(&b, double, 2 * (uint64_t)capacity);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

@@ -75,14 +75,12 @@ static sl_status sli_holding_begin(sli_holding *h, const sl_pins *P, const sl_in
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int k;
-    int pass;
     memset(h, 0, sizeof *h);
     for (k = 0; k < count; k++) {
         h->count += rows[k] != -1;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &P->allocator, status) {
         sli_holding_layout(h, &b, S);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
     h->block = b.base;
     if (status != SL_OK) {
@@ -182,27 +180,15 @@ static int sli_held_is_loose(const sl_pins *P) {
     return 0;
 }
 
-/* Takes the held rows into P: their columns and pins, the entries of A that couple them to others,
- * and the reach of these. Refuses what the capacitance matrix has to hold. */
-static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
+/* Lists the entries of A that couple held rows to others: the other row, the number of the held one,
+ * the value. */
+static void sli_held_couplings(sl_pins *P, const sli_holding *h, sl_int *rows, sl_int *held,
+                               double *values) {
     const sl_symbolic *S = P->F->S;
     const sl_off total = S->scatter_begin[S->n_supers];
-    sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
-    sl_status status = SL_OK;
-    sl_int *rows = NULL, *held = NULL, k, j, s = 0;
-    double *values = NULL;
-    sli_set set;
+    sl_int k, j, s = 0;
     sl_off m;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        rows = SLI_TAKE(&b, sl_int, h->couplings);
-        held = SLI_TAKE(&b, sl_int, h->couplings);
-        values = SLI_TAKE(&b, double, h->couplings);
-        set = sli_set_of(S, rows == NULL ? S->perm : rows, (sl_int)h->couplings);
-        sli_set_layout_seeds(&set, &b);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
-    }
-    for (m = 0, P->n_couplings = 0; m < total && status == SL_OK; m++) {
+    for (m = 0, P->n_couplings = 0; m < total; m++) {
         sl_int tile;
         if (h->values[m] == P->values[m]) {
             continue;
@@ -219,18 +205,39 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
             values[at] = P->values[m];
         }
     }
-    status = status == SL_OK ? sli_set_sort(S, &set, NULL) : status;
+}
+
+/* Takes the held rows into P: their columns and pins, the entries of A that couple them to others,
+ * and the reach of these. Refuses what the capacitance matrix has to hold. */
+static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
+    const sl_symbolic *S = P->F->S;
+    sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sl_int *rows = NULL, *held = NULL, k;
+    double *values = NULL;
+    sli_set set;
+    SLI_LAYOUT(&b, &P->allocator, status) {
+        rows = SLI_TAKE(&b, sl_int, h->couplings);
+        held = SLI_TAKE(&b, sl_int, h->couplings);
+        values = SLI_TAKE(&b, double, h->couplings);
+        set = sli_set_of(S, rows == NULL ? S->perm : rows, (sl_int)h->couplings);
+        sli_set_layout_seeds(&set, &b);
+    }
+    P->n_couplings = 0;
+    if (status == SL_OK) {
+        sli_held_couplings(P, h, rows, held, values);
+        status = sli_set_sort(S, &set, NULL);
+    }
     if (status == SL_OK) {
         sli_set_measure(S, &set, &P->held_reach);
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&kept, &P->allocator, status) {
         P->held = SLI_TAKE(&kept, sl_int, h->count);
         P->held_pin = SLI_TAKE(&kept, sl_int, h->count);
         P->coupling_from = SLI_TAKE(&kept, sl_int, h->couplings);
         P->coupling_column = SLI_TAKE(&kept, sl_int, h->couplings);
         P->couplings = SLI_TAKE(&kept, double, h->couplings);
         sli_set_layout_reach(&set, &kept, &P->held_reach);
-        status = pass == 0 ? sli_block_alloc(&kept, &P->allocator) : SL_OK;
     }
     P->held = (sl_int *)(void *)kept.base;
     if (status == SL_OK) {

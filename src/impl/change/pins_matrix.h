@@ -22,14 +22,12 @@ static sl_status sli_pins_probe(const sl_factor *F, const sli_source *from, cons
     sli_null_row *rows = NULL;
     double *x = NULL, *y = NULL, *diagonal = NULL, *scratch = NULL, most = 0.0;
     sl_int k;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         rows = SLI_TAKE(&b, sli_null_row, S->n);
         x = SLI_TAKE(&b, double, S->n);
         y = SLI_TAKE(&b, double, S->n);
         diagonal = SLI_TAKE(&b, double, S->n);
         scratch = SLI_TAKE(&b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     *error = 0.0;
     *row = -1;

@@ -82,18 +82,18 @@ static sl_status sli_pin_visit_nulls(const sl_factor *F, sli_pin *pin, int fills
 static sl_status sli_pin_find_nulls(const sl_pins *P, sli_pin *pin, sl_int *row) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     sli_free(&P->allocator, pin->nulls);
     pin->nulls = NULL;
     pin->n_nulls = 0;
     if (P->base->null.count > 0) {
         status = sli_pin_visit_nulls(P->base, pin, 0, row);
     }
-    for (pass = 0; pass < 2 && status == SL_OK && pin->n_nulls > 0; pass++) {
-        pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
-        pin->z = SLI_TAKE(&b, double, pin->n_nulls);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator)
-                           : sli_pin_visit_nulls(P->base, pin, 1, row);
+    if (status == SL_OK && pin->n_nulls > 0) {
+        SLI_LAYOUT(&b, &P->allocator, status) {
+            pin->nulls = SLI_TAKE(&b, sl_int, pin->n_nulls);
+            pin->z = SLI_TAKE(&b, double, pin->n_nulls);
+        }
+        status = status == SL_OK ? sli_pin_visit_nulls(P->base, pin, 1, row) : status;
     }
     pin->n_nulls = status == SL_OK ? pin->n_nulls : 0;
     pin->nulls = (sl_int *)(void *)b.base;

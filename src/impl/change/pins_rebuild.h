@@ -51,13 +51,11 @@ static sl_status sli_pins_reserve(sl_pins *P, sl_int count) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int *rows = NULL;
-    int pass;
     if (count <= P->room) {
         return SL_OK;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &P->allocator, status) {
         rows = SLI_TAKE(&b, sl_int, room);
-        status = pass == 0 ? sli_block_alloc(&b, &P->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
@@ -84,13 +82,11 @@ static sl_status sli_pins_target_make(sli_pins_target *t, sli_block *b, const sl
                                       sl_int more) {
     const sl_int count = P->count + more;
     sl_status status = SL_OK;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(b, &P->allocator, status) {
         t->rows = SLI_TAKE(b, sl_int, count);
         t->from = SLI_TAKE(b, sl_int, count);
         t->list = SLI_TAKE(b, uint64_t, 2 * (uint64_t)count);
         t->uses = SLI_TAKE(b, sl_int, P->F->S->n_supers);
-        status = pass == 0 ? sli_block_alloc(b, &P->allocator) : SL_OK;
     }
     if (status == SL_OK) {
         memset(t->uses, 0, (size_t)P->F->S->n_supers * sizeof(sl_int));

@@ -9,6 +9,7 @@
 /* A rank-k change in progress. */
 typedef struct sli_rank {
     sli_update u;                             /* first: its passes */
+    const sl_symbolic *S;                     /* of the factor */
     const sl_int *entry_rows, *entry_columns; /* a change given by entries */
     const double *deltas;
     sl_int n_entries;
@@ -55,7 +56,7 @@ static sl_status sli_rank_check(const sl_factor *F) {
 
 /* Checks vector v: its entries are finite, and its rows are below each other in L. */
 static sl_status sli_rank_check_vector(const sli_rank *q, sl_int v, sl_int first) {
-    const sl_symbolic *S = q->u.F->S;
+    const sl_symbolic *S = q->S;
     const sl_csc *V = q->u.V;
     const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
     sl_int s, p, at;
@@ -121,7 +122,7 @@ static void sli_rank_measure(sli_rank *q) {
         last = sli_rank_pass(q, k);
         if (last - k < q->count) {
             sli_rank_group(q, k, last, group, seeds);
-            sli_reach_measure(q->u.F->S, seeds, last - k, &R);
+            sli_reach_measure(q->S, seeds, last - k, &R);
         }
         q->flops += 4.0 * (double)R.entries * (double)((sl_int)1 << sli_lanes_kind(last - k));
         q->pivots += (double)R.columns * (double)(last - k);
@@ -132,7 +133,7 @@ static void sli_rank_measure(sli_rank *q) {
 /* Checks and sorts the vectors, those of the sign of the pivots first, and measures their reach. */
 static void sli_rank_sort(void *data) {
     sli_rank *q = (sli_rank *)data;
-    const sl_symbolic *S = q->u.F->S;
+    const sl_symbolic *S = q->S;
     const sl_csc *V = q->u.V;
     sl_int v, rest = 0;
     int may_fail;
@@ -191,7 +192,7 @@ static uint64_t sli_rank_panels(const sl_symbolic *S, const uint64_t *seeds, sl_
 
 static void sli_rank_layout(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
-    const sl_symbolic *S = q->u.F->S;
+    const sl_symbolic *S = q->S;
     sli_reach R = q->whole;
     if (sli_rank_is_path(q, q->count) && !q->has_log) {
         R.count = R.columns = 0;
@@ -359,6 +360,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
     const sl_factor_info *info = &F->stats.factor;
     memset(q, 0, sizeof *q);
     q->u.F = F;
+    q->S = F->S;
     q->stats = stats;
     q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
     q->u.keeps_signs = q->u.sign != 0.0 || F->rule.regularization != 0.0;

@@ -49,11 +49,11 @@ static sl_status sli_restrict_numbers(sl_factor *G, const sl_factor *F, sli_rest
     sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
     sl_int *from = NULL, *columns = NULL;
     sl_status status = SL_OK;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK && r->n_kept > 0; pass++) {
-        from = SLI_TAKE(&b, sl_int, G->S->n_supers);
-        columns = SLI_TAKE(&b, sl_int, G->S->n);
-        status = pass == 0 ? sli_block_alloc(&b, &G->allocator) : SL_OK;
+    if (r->n_kept > 0) {
+        SLI_LAYOUT(&b, &G->allocator, status) {
+            from = SLI_TAKE(&b, sl_int, G->S->n_supers);
+            columns = SLI_TAKE(&b, sl_int, G->S->n);
+        }
     }
     memset(&kept, 0, sizeof kept);
     if (status == SL_OK && r->n_kept > 0) {

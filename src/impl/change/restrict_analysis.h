@@ -11,10 +11,8 @@ static sl_status sli_restriction_work(sli_restriction *r, uint64_t entries, cons
     sli_analysis *w = &r->w;
     sli_block b = {NULL, 0, 0};
     sl_status status = entries > INT32_MAX ? SL_ERR_TOO_LARGE : SL_OK; /* untested: 2^31 entries */
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         sli_analysis_layout(w, &b, r->n_fresh, (sl_int)entries);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     r->blocks[2] = b.base;
     if (status == SL_OK) {
@@ -121,12 +119,12 @@ static sl_status sli_restriction_copy(sli_restriction *r, uint64_t entries, cons
     const int copies = r->R.count < r->S->n / SLI_RESTRICT_IN_PLACE;
     sli_block b = {NULL, 0, 0};
     sl_status status = sli_restriction_work(r, entries, a);
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK && copies; pass++) {
-        r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
-        r->B_rows = SLI_TAKE(&b, sl_int, entries);
-        r->B_values = SLI_TAKE(&b, double, entries);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
+    if (copies) {
+        SLI_LAYOUT(&b, a, status) {
+            r->B_begin = SLI_TAKE(&b, sl_int, (uint64_t)r->R.count + 1);
+            r->B_rows = SLI_TAKE(&b, sl_int, entries);
+            r->B_values = SLI_TAKE(&b, double, entries);
+        }
     }
     r->blocks[5] = b.base;
     r->B = *r->A;
@@ -213,7 +211,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
     sl_status status = SL_OK;
     uint64_t rows = 0;
     sl_int t;
-    int pass;
     sli_restriction_tree(r, a, stats);
     T->n = r->n_fresh;
     T->n_supers = w->amalgamation.count;
@@ -224,7 +221,7 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         rows += (uint64_t)w->amalgamation.below[t];
     }
     memset(&b, 0, sizeof b);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         T->rows_begin = SLI_TAKE(&b, sl_off, (uint64_t)T->n_supers + 1);
         T->rows = SLI_TAKE(&b, sl_int, rows);
         T->relative = SLI_TAKE(&b, sl_int, rows);
@@ -234,7 +231,6 @@ static sl_status sli_restriction_analyze(sli_restriction *r, const sl_allocator 
         T->scatter_to = SLI_TAKE(&b, sl_off, r->n_entries);
         r->T_new = SLI_TAKE(&b, sl_int, T->n_supers);
         r->head = SLI_TAKE(&b, sl_int, (uint64_t)T->n_supers + 1);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     r->blocks[3] = b.base;
     if (status != SL_OK) {

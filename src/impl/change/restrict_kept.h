@@ -153,14 +153,12 @@ static sl_status sli_restriction_filter(sli_restriction *r, const sl_allocator *
     uint64_t rows = 0;
     sl_off at = 0, p;
     sl_int q;
-    int pass;
     for (q = 0; q < r->n_kept; q++) {
         rows += (uint64_t)(S->rows_begin[r->kept[q] + 1] - S->rows_begin[r->kept[q]]);
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         r->below_begin = SLI_TAKE(&b, sl_off, (uint64_t)r->n_kept + 1);
         r->below = SLI_TAKE(&b, sl_int, rows);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     r->blocks[4] = b.base;
     if (status != SL_OK) {
@@ -188,19 +186,17 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     const int is_many = r->R.count >= r->S->n / SLI_RESTRICT_MANY;
     sli_block b = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     /* a bit for each row of A, where R is not small: then from 128 bits for a row of R on */
     while (!is_many && r->bits_mask < count * 4 && r->bits_mask < (uint32_t)r->S->n / 32) {
         r->bits_mask = 2 * r->bits_mask + 1;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         sli_subset_layout(&r->R, &b, r->S->n);
         r->list = r->R.list;
         r->scratch = r->R.scratch;
         r->number_of = SLI_TAKE(&b, sl_int, count);
         r->bits = SLI_TAKE(&b, uint32_t, (uint64_t)r->bits_mask + 1);
         r->number_at = is_many ? SLI_TAKE(&b, sl_int, r->S->n) : NULL;
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     r->blocks[0] = b.base;
     r->n_fresh = r->R.count;
@@ -208,7 +204,7 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
     if (status != SL_OK || !r->may_keep || !sli_restriction_has_runs(r)) {
         return status;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&kept, a, status) {
         r->kept = SLI_TAKE(&kept, sl_int, count);
         r->first_rank = SLI_TAKE(&kept, sl_int, count);
         r->kept_new = SLI_TAKE(&kept, sl_int, count);
@@ -217,7 +213,6 @@ static sl_status sli_restriction_begin(sli_restriction *r, const sl_allocator *a
         r->fresh = SLI_TAKE(&kept, sl_int, count);
         r->fresh_of = SLI_TAKE(&kept, sl_int, count);
         r->column_of = SLI_TAKE(&kept, sl_int, count);
-        status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
     }
     r->blocks[1] = kept.base;
     if (status == SL_OK) {

@@ -187,14 +187,12 @@ static sl_status sli_joint_make(sl_symbolic **out, sli_restriction *r, const sl_
     sli_block b = {NULL, 0, 0};
     sli_joint j;
     sl_status status = sli_restriction_analyze(r, a, stats);
-    int pass;
     draft.n_supers = r->n_kept + r->T.n_supers;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         (void)sli_take(&b, 1, sizeof(sl_symbolic));
         sli_symbolic_layout(&draft, &b, r->below_begin[r->n_kept] + r->T.rows_begin[r->T.n_supers],
                             r->n_entries);
         stats->symbolic.bytes = b.used;
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

@@ -71,12 +71,10 @@ static sl_status sli_complex_sets_create(sli_complex_sets *c, sl_int n, const sl
                                          sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     sl_status status = sli_complex_check(n, &c->first);
-    int pass;
     status = status == SL_OK ? sli_complex_check(n, &c->second) : status;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         sli_complex_layout(&c->first, &b);
         sli_complex_layout(&c->second, &b);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

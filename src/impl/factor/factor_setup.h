@@ -108,23 +108,20 @@ static sl_status sli_factor_schedule(sl_factor *F) {
     sli_block b = {NULL, 0, 0};
     sli_schedule_work w;
     sl_status status = SL_OK;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &F->allocator, status) {
         sli_schedule_work_layout(&w, &b, S->n_supers, F->schedule.workers);
-        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
     if (status == SL_OK) {
         sli_schedule_fill(&F->schedule, S, &w);
         sli_free(&F->allocator, b.base);
         b.base = NULL;
         b.used = 0;
-        for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+        SLI_LAYOUT(&b, &F->allocator, status) {
             F->work.stack =
                 sli_take(&b, (uint64_t)(F->schedule.stack >> F->type->half), F->type->front_bytes);
             sli_schedule_layout_tops(&F->schedule, S, &b);
-            F->stats.factor.bytes += pass == 0 ? b.used : 0;
-            status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
         }
+        F->stats.factor.bytes += b.used;
         if (status == SL_OK) {
             sli_schedule_fill_tops(&F->schedule, S);
         }
@@ -138,15 +135,13 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     const size_t bytes = F->stats.factor.bytes;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     if (F->scratch != NULL) {
         return SL_OK;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &F->allocator, status) {
         sli_factor_layout_scratch(F, &b);
-        F->stats.factor.bytes += pass == 0 ? b.used : 0;
-        status = pass == 0 ? sli_block_alloc(&b, &F->allocator) : SL_OK;
     }
+    F->stats.factor.bytes += b.used;
     if (status == SL_OK) {
         F->scratch = b.base;
         if (F->history.marks != NULL) {
@@ -327,7 +322,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     sl_factor draft;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
@@ -343,11 +337,10 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
                      (draft.type->suits != NULL && !draft.type->suits(&draft))
                  ? SL_ERR_UNSUPPORTED
                  : sli_factor_use(&draft, opt);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &a, status) {
         (void)sli_take(&b, 1, sizeof(sl_factor));
         sli_factor_layout(&draft, &b, draft.null.is_centered);
         draft.stats.factor.bytes = b.used;
-        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;

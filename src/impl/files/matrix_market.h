@@ -54,13 +54,11 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
     sli_block b = {NULL, 0, 0};
     sli_triplets larger = *t;
     sl_status status = SL_OK;
-    int pass;
     larger.room = room;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         larger.i = SLI_TAKE(&b, sl_int, room);
         larger.j = SLI_TAKE(&b, sl_int, room);
         larger.x = has_values ? SLI_TAKE(&b, double, room) : NULL;
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

@@ -62,20 +62,17 @@ static sl_status sli_region_new(sl_region **out, const sli_choice *start, const 
     sli_choice c = *start;
     sl_region draft;
     sl_status status = SL_OK;
-    int pass;
     memset(&draft, 0, sizeof draft);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&seeds, a, status) {
         c.seeds = SLI_TAKE(&seeds, uint64_t, c.count);
         c.scratch = SLI_TAKE(&seeds, uint64_t, c.count);
-        status = pass == 0 ? sli_block_alloc(&seeds, a) : SL_OK;
     }
     status = status == SL_OK ? sli_choice_sort(&c, set, stats) : status;
     if (status == SL_OK) {
         sli_reach_measure(S, c.seeds, c.count, &c.reach);
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&rest, a, status) {
         sli_choice_layout_reach(&c, &rest);
-        status = pass == 0 ? sli_block_alloc(&rest, a) : SL_OK;
     }
     if (status == SL_OK) {
         sli_choice_init(&c);
@@ -89,9 +86,8 @@ static sl_status sli_region_new(sl_region **out, const sli_choice *start, const 
         draft.extent.n_roots = c.n_roots;
         draft.extent.n_rows = c.boundary;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&kept, a, status) {
         sli_region_layout(&draft, &kept);
-        status = pass == 0 ? sli_block_alloc(&kept, a) : SL_OK;
     }
     if (status == SL_OK) {
         sli_region_from_choice(&draft, &c);

@@ -37,14 +37,11 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
     sli_block work = {NULL, 0, 0}, kept = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int k;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&kept, &draft->allocator, status) {
         sli_selected_layout(draft, &kept);
-        status = pass == 0 ? sli_block_alloc(&kept, &draft->allocator) : SL_OK;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&work, &draft->allocator, status) {
         sli_traversal_layout_work(&draft->traversal, &work);
-        status = pass == 0 ? sli_block_alloc(&work, &draft->allocator) : SL_OK;
     }
     if (status == SL_OK) {
         sli_traversal_plan(&draft->traversal, seeds, n_seeds);
@@ -71,18 +68,16 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
     sl_selected draft;
     sl_status status = SL_OK;
     sl_int supers = S->n_supers;
-    int pass;
     memset(&draft, 0, sizeof draft);
     draft.allocator = sli_allocator(opt);
     draft.analysis = S->identity;
     draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
-    for (pass = 0; pass < 2 && status == SL_OK && set != NULL; pass++) {
-        seeds = SLI_TAKE(&b, uint64_t, count);
-        scratch = SLI_TAKE(&b, uint64_t, count);
-        status = pass == 0 ? sli_block_alloc(&b, &draft.allocator) : SL_OK;
-    }
-    if (status == SL_OK && set != NULL) {
-        status = sli_sort_rows(S, set, count, seeds, scratch, stats);
+    if (set != NULL) {
+        SLI_LAYOUT(&b, &draft.allocator, status) {
+            seeds = SLI_TAKE(&b, uint64_t, count);
+            scratch = SLI_TAKE(&b, uint64_t, count);
+        }
+        status = status == SL_OK ? sli_sort_rows(S, set, count, seeds, scratch, stats) : status;
     }
     if (status == SL_OK) {
         if (set != NULL) {
@@ -149,12 +144,10 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
 static sl_status sli_selected_alloc_values(sl_selected *Z) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &Z->allocator, status) {
         Z->Z = SLI_TAKE(&b, double, Z->begin[Z->traversal.forest.count]);
-        Z->bytes += pass == 0 ? b.used : 0;
-        status = pass == 0 ? sli_block_alloc(&b, &Z->allocator) : SL_OK;
     }
+    Z->bytes += b.used;
     return status;
 }
 

@@ -59,12 +59,10 @@ static sl_status sli_from_triplets(sl_matrix **out, const sli_triplet_list *t,
     sl_matrix *M = NULL;
     sli_block b = {NULL, 0, 0};
     sl_int *start = NULL, *order = NULL, k;
-    int pass;
     sl_status status = sli_matrix_new(&M, n_rows, n_cols, count, x != NULL, a);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         start = SLI_TAKE(&b, sl_int, (size_t)sli_max(n_rows, n_cols) + 1);
         order = SLI_TAKE(&b, sl_int, count);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         sl_matrix_free(M);

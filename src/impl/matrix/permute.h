@@ -39,7 +39,6 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
     sli_block b = {NULL, 0, 0};
     sl_int *iperm = NULL, *row = NULL, *column = NULL;
     sl_status status;
-    int pass;
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
     }
@@ -52,11 +51,10 @@ SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_in
         !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &a, status) {
         iperm = SLI_TAKE(&b, sl_int, A->n_cols);
         row = SLI_TAKE(&b, sl_int, sli_nnz(A));
         column = SLI_TAKE(&b, sl_int, sli_nnz(A));
-        status = pass == 0 ? sli_block_alloc(&b, &a) : SL_OK;
     }
     if (status == SL_OK) {
         if (sli_perm_invert(perm, A->n_cols, iperm) >= 0) {

@@ -299,14 +299,12 @@ static sl_status sli_search_keep(sli_pivot_search *p, sl_int s, const sli_dense_
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int j;
-    int pass;
     c->delayed = f->columns - pivots;
     c->count = f->rows - pivots;
     p->delayed += c->delayed;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &p->allocator, status) {
         c->index = SLI_TAKE(&b, sl_int, c->count);
         c->values = SLI_TAKE(&b, double, (uint64_t)c->count *(uint64_t)c->count);
-        status = pass == 0 ? sli_block_alloc(&b, &p->allocator) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

@@ -45,7 +45,6 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     sl_stats found;
     sli_block b = {NULL, 0, 0};
     sl_status status;
-    int pass;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
@@ -62,9 +61,8 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
     p.allocator = S->allocator;
     started = sli_seconds();
     status = A->x == NULL && sli_nnz(A) > 0 ? SL_ERR_ARGUMENT : SL_OK;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &p.allocator, status) {
         sli_search_layout(&p, &b);
-        status = pass == 0 ? sli_block_alloc(&b, &p.allocator) : SL_OK;
     }
     status = status == SL_OK ? sli_search_run(&p, A, stats) : status;
     S->stats.symbolic.seconds_analyze += sli_seconds() - started;

@@ -128,7 +128,6 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
     sli_saved_part part;
     sl_selected draft;
     sl_status status = sli_read_part(r, r->first_selected, S, F, S->n_supers, &part);
-    int pass;
     if (status != SL_OK || table[1].bytes != 4 * (uint64_t)part.count ||
         table[2].bytes != 8 * ((uint64_t)part.count + 1)) {
         return status != SL_OK ? status : SL_ERR_IO;
@@ -151,16 +150,11 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
     if (r->is_mapped) {
         return sli_read_selected_arrays(r, out, &draft, NULL);
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        if (pass == 0) {
-            (void)SLI_TAKE(&lists, sl_int, part.count);
-            (void)SLI_TAKE(&lists, sl_off, (uint64_t)part.count + 1);
-            (void)SLI_TAKE(&lists, uint64_t, part.count);
-            status = sli_block_alloc(&lists, &r->allocator);
-        } else {
-            status = sli_read_selected_arrays(r, out, &draft, &lists);
-        }
-    }
+    (void)SLI_TAKE(&lists, sl_int, part.count);
+    (void)SLI_TAKE(&lists, sl_off, (uint64_t)part.count + 1);
+    (void)SLI_TAKE(&lists, uint64_t, part.count);
+    status = sli_block_alloc(&lists, &r->allocator);
+    status = status == SL_OK ? sli_read_selected_arrays(r, out, &draft, &lists) : status;
     sli_free(&r->allocator, lists.base);
     return status;
 }
@@ -229,7 +223,6 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_region draft;
-    int pass;
     memset(&draft, 0, sizeof draft);
     draft.allocator = r->allocator;
     draft.S = F->S;
@@ -246,9 +239,8 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
         (r->checks != SL_LOAD_TRUSTED && !sli_check_extent(F->S, &draft.extent))) {
         return SL_ERR_IO;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, &r->allocator, status) {
         sli_region_layout(&draft, &b);
-        status = pass == 0 ? sli_block_alloc(&b, &r->allocator) : SL_OK;
     }
     if (status == SL_OK) {
         memcpy(draft.roots, roots, (size_t)draft.extent.n_roots * sizeof *roots);
@@ -329,7 +321,6 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
     sli_saved_regions q;
     sli_saved_part part;
     sl_status status;
-    int pass;
     memset(&q, 0, sizeof q);
     if (F == NULL || F->null.is_centered) {
         return SL_ERR_IO;
@@ -340,11 +331,12 @@ static sl_status sli_read_regions(sli_reading *r, const sl_factor *F, sl_saved_s
         return status != SL_OK ? status : SL_ERR_IO;
     }
     q.count = (sl_int)part.count;
-    for (pass = 0; pass < 2 && status == SL_OK && !r->is_mapped; pass++) {
-        q.list = SLI_TAKE(&lists, unsigned char, table[1].bytes);
-        q.roots = SLI_TAKE(&lists, unsigned char, table[2].bytes);
-        q.rows = SLI_TAKE(&lists, unsigned char, table[3].bytes);
-        status = pass == 0 ? sli_block_alloc(&lists, &r->allocator) : SL_OK;
+    if (!r->is_mapped) {
+        SLI_LAYOUT(&lists, &r->allocator, status) {
+            q.list = SLI_TAKE(&lists, unsigned char, table[1].bytes);
+            q.roots = SLI_TAKE(&lists, unsigned char, table[2].bytes);
+            q.rows = SLI_TAKE(&lists, unsigned char, table[3].bytes);
+        }
     }
     if (status == SL_OK) {
         status = sli_read_regions_lists(r, F, &q, set);

@@ -12,18 +12,40 @@ struct sl_plan {
     sli_query query;
 };
 
+/* Makes the plan of two sorted sets. */
+static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_ending *ending,
+                               sli_set *b, sli_set *x, const sl_allocator *a) {
+    sli_block kept = {NULL, 0, 0};
+    sl_plan *P = NULL;
+    sli_query query;
+    sl_status status = SL_OK;
+    memset(&query, 0, sizeof query);
+    sli_set_measure(S, b, &query.forward);
+    sli_set_measure(S, x, &query.backward);
+    SLI_LAYOUT(&kept, a, status) {
+        P = (sl_plan *)sli_take_inline(&kept, 1, sizeof(sl_plan));
+        sli_set_layout_reach(b, &kept, &query.forward);
+        sli_set_layout_reach(x, &kept, &query.backward);
+    }
+    if (status == SL_OK) {
+        sli_query_fill(&query, S, ending, b, x);
+        P->allocator = *a;
+        P->bytes = kept.used;
+        P->query = query;
+        *out = P;
+    }
+    return status;
+}
+
 SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_int *bset, sl_int nb,
                                 const sl_int *xset, sl_int nx, const sl_options *opt,
                                 sl_stats *stats) {
     const sl_allocator a = sli_allocator(opt);
-    sli_block seeds = {NULL, 0, 0}, kept = {NULL, 0, 0};
-    sl_plan *P = NULL;
-    sli_query query;
+    sli_block seeds = {NULL, 0, 0};
     /* a region begins with its ending */
     const sli_ending *ending = opt == NULL ? NULL : (const sli_ending *)(const void *)opt->region;
     sli_set b, x;
     sl_status status;
-    int pass;
     sli_stats_clear_error(stats);
     if (out == NULL) {
         return SL_ERR_ARGUMENT;
@@ -37,36 +59,20 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
     if (status != SL_OK) {
         return status;
     }
-    memset(&query, 0, sizeof query);
     b = sli_set_of(S, bset, nb);
     x = sli_set_of(S, xset, nx);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&seeds, &a, status) {
         sli_set_layout_seeds(&b, &seeds);
         sli_set_layout_seeds(&x, &seeds);
-        status = pass == 0 ? sli_block_alloc(&seeds, &a) : SL_OK;
     }
     status = status == SL_OK ? sli_set_sort(S, &b, stats) : status;
     status = status == SL_OK ? sli_set_sort(S, &x, stats) : status;
-    if (status == SL_OK) {
-        if (ending != NULL && !ending->calls->place(ending, &b, &x)) {
-            ending = NULL;
-        }
-        sli_set_measure(S, &b, &query.forward);
-        sli_set_measure(S, &x, &query.backward);
+    if (status == SL_OK && ending != NULL && !ending->calls->place(ending, &b, &x)) {
+        ending = NULL;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
-        P = (sl_plan *)sli_take_inline(&kept, 1, sizeof(sl_plan));
-        sli_set_layout_reach(&b, &kept, &query.forward);
-        sli_set_layout_reach(&x, &kept, &query.backward);
-        status = pass == 0 ? sli_block_alloc(&kept, &a) : SL_OK;
-    }
+    status = status == SL_OK ? sli_plan_make(out, S, ending, &b, &x, &a) : status;
     if (status == SL_OK) {
-        sli_query_fill(&query, S, ending, &b, &x);
-        P->allocator = a;
-        P->bytes = kept.used;
-        P->query = query;
-        *out = P;
-        sl_plan_stats(P, stats);
+        sl_plan_stats(*out, stats);
     }
     sli_free(&a, seeds.base);
     return status;
