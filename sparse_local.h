@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9075d08fece015c5
+ * FNV-1a of the lines after this comment, without the license: d0b437d94fc341a8
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,22 +37,22 @@
  *   5113 impl/ ordering: fill-reducing orderings of a graph
  *   9490 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11436 impl/ factor: the numbers of L and D
- *  14192 impl/ solve: full and local solves
- *  15760 impl/ accuracy: refinement, condition, defects, half solves
- *  16606 impl/ pivots: the order of the pivots by the values of a matrix
- *  17020 impl/ float: L and fronts in single precision
- *  17471 impl/ inverse: entries of the inverse, regions
- *  19982 impl/ change: a factor that follows changes of its matrix
- *  26559 impl/ io: files that are written and mapped
- *  26869 impl/ files: Matrix Market files, 64-bit indices
- *  27395 impl/ save: factors in files
- *  29210 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29868 impl/ batch: diagonals of many inverses
- *  30008 impl/ complex: complex Hermitian systems over real factors
- *  30530 impl/ complex: entries of the inverse
- *  30582 impl/ packs: the tables through which the core calls packs
- *  30614 impl/ last: undefine every internal macro
- *  30902 impl/ templates: the header includes them from itself, once for each instruction set
+ *  14191 impl/ solve: full and local solves
+ *  15759 impl/ accuracy: refinement, condition, defects, half solves
+ *  16605 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17019 impl/ float: L and fronts in single precision
+ *  17470 impl/ inverse: entries of the inverse, regions
+ *  20002 impl/ change: a factor that follows changes of its matrix
+ *  26566 impl/ io: files that are written and mapped
+ *  26876 impl/ files: Matrix Market files, 64-bit indices
+ *  27402 impl/ save: factors in files
+ *  29217 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29875 impl/ batch: diagonals of many inverses
+ *  30015 impl/ complex: complex Hermitian systems over real factors
+ *  30536 impl/ complex: entries of the inverse
+ *  30588 impl/ packs: the tables through which the core calls packs
+ *  30620 impl/ last: undefine every internal macro
+ *  30908 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12003,9 +12003,8 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
   return 0;
 }
 
-static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
-                    int by_columns, sli_null_row *rows, const double *z,
-                    double *diagonal) {
+static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from, int by_columns,
+                    sli_null_row *rows, const double *z, double *diagonal) {
   sli_null_walk w;
   sl_int i;
   w.rows = rows;
@@ -14456,7 +14455,7 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
   const int bad_b = nb > 0 && (r->B == NULL || !sli_dense_spans(r->ldb, nb, r->nrhs));
   const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
   return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
-                                      : SL_OK;
+                                       : SL_OK;
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -15393,8 +15392,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   sli_sweep_tasks_plan(&t, F, q, rhs, &W->threads);
-  status = sli_work_grow(
-    W, t.workers > 1 ? t.total : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
+  status = sli_work_grow(W, t.workers > 1 ? t.total
+                      : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
   if (status == SL_OK && t.workers > 1) {
     sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
   } else if (status == SL_OK) {
@@ -18109,15 +18108,40 @@ static sl_status sli_sort_rows(const sl_symbolic *S, const sl_int *rows, sl_int 
   return status;
 }
 
+/* src/impl/inverse/costs.h: what steps cost, by which the packs choose between methods: measured, a row for each */
+
+typedef struct sli_costs {
+  double lanes[4];
+  double inverse_front, inverse_entry, inverse_flop;
+  double flop;
+} sli_costs;
+
+static const sli_costs sli_costs_table[SLI_ISAS] = {
+  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.08e-9},
+  {{1.0, 1.2, 3.8, 8.6}, 2000.0, 4.0, 2.2, 0.155e-9},
+  {{1.0, 1.3, 1.9, 3.3}, 2000.0, 4.0, 0.35, 0.024e-9},
+  {{1.0, 1.2, 1.9, 2.1}, 2000.0, 4.0, 0.2, 0.014e-9}};
+
+SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
+  return &sli_costs_table[sli_isa_row(isa)];
+}
+
+#define SLI_CHANGE_ENTRY 0.27e-9
+#define SLI_CHANGE_HIDDEN 15e-12
+#define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))
+#define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
+#define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
+#define SLI_CHANGE_INPUT 2.5e-9
+
+#define SLI_REUSE_FLOP 0.1e-9
+#define SLI_REUSE_FRONT 400e-9
+#define SLI_REUSE_SUPER 150e-9
+#define SLI_REUSE_ENTRY 0.5e-9
+
 /* src/impl/inverse/unit_vectors.h: forward sweeps of unit vectors, in blocks of up to 8 of similar reach */
 
 #define SLI_LANES_MAX 8
 #define SLI_BLOCK_REQUESTS_MAX 64
-
-static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},
-                            {1.0, 1.2, 3.8, 8.6},
-                            {1.0, 1.3, 1.9, 3.3},
-                            {1.0, 1.2, 1.9, 2.1}};
 
 typedef struct sli_rhs_block {
   sl_int count;
@@ -18168,7 +18192,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
   sli_requests r;
   memset(&r, 0, sizeof r);
   r.S = F->S;
-  r.lanes_cost = sli_lanes_cost[sli_isa_row(F->kernels->isa)];
+  r.lanes_cost = sli_costs_of(F->kernels->isa)->lanes;
   r.rows = rows;
   r.columns = columns;
   r.count = count;
@@ -18517,11 +18541,6 @@ typedef struct sli_entries {
   sl_int *first_request;
 } sli_entries;
 
-static const double sli_traversal_cost[][3] = {{2000.0, 4.0, 0.35},
-                         {2000.0, 4.0, 2.2},
-                         {2000.0, 4.0, 0.35},
-                         {2000.0, 4.0, 0.2}};
-
 SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
   return q->requests.rows == NULL;
 }
@@ -18557,7 +18576,7 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
   const sl_symbolic *S = q->F->S;
   const sli_requests *r = &q->requests;
-  const double *cost = sli_traversal_cost[sli_isa_row(q->F->kernels->isa)];
+  const sli_costs *cost = sli_costs_of(q->F->kernels->isa);
   double time = 0.0;
   sl_int k = 0, s, next;
   *supers = 0;
@@ -18566,7 +18585,8 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     next = sli_next_seed(S, r->order, r->count, &k);
     for (; s != -1 && s < next; s = S->super_parent[s]) {
       const double h = S->steps[s].width + S->steps[s].below;
-      time += cost[0] + cost[1] * h * h + cost[2] * sli_front_flops(&S->steps[s]);
+      time += cost->inverse_front + cost->inverse_entry * h * h +
+          cost->inverse_flop * sli_front_flops(&S->steps[s]);
       ++*supers;
     }
   }
@@ -21521,13 +21541,6 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
-#define SLI_CHANGE_ENTRY 0.27e-9
-#define SLI_CHANGE_HIDDEN 15e-12
-#define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))
-#define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop))
-#define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))
-#define SLI_CHANGE_INPUT 2.5e-9
-
 typedef struct sli_way {
   uint64_t *seeds;
   sl_int n_seeds;
@@ -21538,11 +21551,9 @@ typedef struct sli_way {
   sl_change_reason reason;
 } sli_way;
 
-static const double sli_change_flop[] = {0.0, 0.155e-9, 0.024e-9, 0.014e-9, 0.08e-9};
-
 static double sli_way_refactor(const sl_factor *F) {
   const sl_symbolic *S = F->S;
-  const double flop = sli_change_flop[F->kernels->isa];
+  const double flop = sli_costs_of(F->kernels->isa)->flop;
   return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
        SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
@@ -21574,7 +21585,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
 static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
   const sl_symbolic *S = F->S;
   const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
-  const double flop = sli_change_flop[F->kernels->isa];
+  const double flop = sli_costs_of(F->kernels->isa)->flop;
   sl_int k = 0, s, next, visits = 0;
   c->flops_changed = 0.0;
   c->changed = input;
@@ -21664,7 +21675,7 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
 }
 
 static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
-  const double flop = sli_change_flop[q->u.F->kernels->isa];
+  const double flop = sli_costs_of(q->u.F->kernels->isa)->flop;
   return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
       1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
        (q->has_trial || q->has_log ? 1.5 : 1.0);
@@ -26272,10 +26283,6 @@ SL_API sl_status sl_symbolic_edit(sl_symbolic **out, const sl_symbolic *S, const
 
 /* src/impl/change/edit_factor.h: sl_factor_edit: the factor of an edited matrix from that of the matrix before */
 
-#define SLI_REUSE_FLOP 0.1e-9
-#define SLI_REUSE_FRONT 400e-9
-#define SLI_REUSE_SUPER 150e-9
-#define SLI_REUSE_ENTRY 0.5e-9
 #define SLI_REUSE_SHARE 0.97
 #define SLI_REUSE_SAMPLE 8
 #define SLI_REUSE_SAMPLED 128
@@ -30506,9 +30513,8 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
   c = sli_complex_sets_of(bset, nb, xset, nx, 0);
   status = sli_complex_sets_create(&c, S->n, &a, stats);
   if (status == SL_OK) {
-    status =
-      sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
-               sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+    status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
+                sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
     sli_free(&a, c.memory);
   }
   return status;

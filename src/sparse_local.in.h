@@ -179,6 +179,7 @@ extern "C" {
 #include "impl/inverse/traversal.h"
 #include "impl/inverse/traversal_run.h"
 #include "impl/inverse/row_sets.h"
+#include "impl/inverse/costs.h"
 #include "impl/inverse/unit_vectors.h"
 #include "impl/inverse/bilinear.h"
 #include "impl/inverse/entries.h"

@@ -2,19 +2,11 @@
 #ifndef SLI_CHANGE_CHOOSE_H
 #define SLI_CHANGE_CHOOSE_H
 
+#include "../inverse/costs.h"
 #include "leftlooking.h"
 #include "edges.h"
 
-/* Seconds of the parts of the three ways, fitted to grids of 1e4 and 1e5 rows: what does not depend
- * on the instruction set, and what takes as long as some flops in a front. */
-#define SLI_CHANGE_ENTRY 0.27e-9 /* an entry of L in a pass of rank-one changes */
-#define SLI_CHANGE_HIDDEN 15e-12 /* so much of each of its flops passes while L is read */
-#define SLI_CHANGE_PIVOT(flop) (4e-9 + 100.0 * (flop))     /* a pivot that one vector changes */
-#define SLI_CHANGE_FRONT(flop) (0.4e-6 + 20000.0 * (flop)) /* a front, beside its flops */
-#define SLI_CHANGE_VISIT(flop) (0.4e-6 + 3000.0 * (flop))  /* a descendant that updates a front */
-#define SLI_CHANGE_INPUT 2.5e-9                            /* an entry of A */
-
-/* A choice between the three ways. */
+/* A choice between the three methods: rank-one changes, the reach of the change, all of L. */
 typedef struct sli_way {
     uint64_t *seeds; /* n_seeds: the columns of L that hold changed entries, ascending */
     sl_int n_seeds;
@@ -25,13 +17,10 @@ typedef struct sli_way {
     sl_change_reason reason;
 } sli_way;
 
-/* Seconds of a flop in a front, by sl_isa. */
-static const double sli_change_flop[] = {0.0, 0.155e-9, 0.024e-9, 0.014e-9, 0.08e-9};
-
 /* Seconds of a refactorization. */
 static double sli_way_refactor(const sl_factor *F) {
     const sl_symbolic *S = F->S;
-    const double flop = sli_change_flop[F->kernels->isa];
+    const double flop = sli_costs_of(F->kernels->isa)->flop;
     return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
            SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
@@ -67,7 +56,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
 static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
     const sl_symbolic *S = F->S;
     const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
-    const double flop = sli_change_flop[F->kernels->isa];
+    const double flop = sli_costs_of(F->kernels->isa)->flop;
     sl_int k = 0, s, next, visits = 0;
     c->flops_changed = 0.0;
     c->changed = input;
@@ -163,7 +152,7 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
 
 /* Seconds of rank-one changes. */
 static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
-    const double flop = sli_change_flop[q->u.F->kernels->isa];
+    const double flop = sli_costs_of(q->u.F->kernels->isa)->flop;
     return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
             1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
            (q->has_trial || q->has_log ? 1.5 : 1.0);

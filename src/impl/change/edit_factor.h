@@ -8,11 +8,6 @@
 #include "edit_match.h"
 #include "../factor/panel_load.h"
 
-/* Seconds of a flop and of a front that are computed; to copy a supernode and each entry of it. */
-#define SLI_REUSE_FLOP 0.1e-9
-#define SLI_REUSE_FRONT 400e-9
-#define SLI_REUSE_SUPER 150e-9
-#define SLI_REUSE_ENTRY 0.5e-9
 /* A whole factorization is taken if the estimates differ by less. */
 #define SLI_REUSE_SHARE 0.97
 /* Where much has changed, few comparisons show that nothing is worth keeping: at first, so many

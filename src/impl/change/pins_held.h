@@ -180,8 +180,8 @@ static int sli_held_is_loose(const sl_pins *P) {
     return 0;
 }
 
-/* Lists the entries of A that couple held rows to others: the other row, the number of the held one,
- * the value. */
+/* Lists the entries of A that couple held rows to others: the other row, the number of the held
+ * one, the value. */
 static void sli_held_couplings(sl_pins *P, const sli_holding *h, sl_int *rows, sl_int *held,
                                double *values) {
     const sl_symbolic *S = P->F->S;

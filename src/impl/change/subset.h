@@ -46,8 +46,8 @@ static void sli_fill_relative(sl_symbolic *S, sl_int *local) {
 
 typedef struct sli_subset {
     sl_int count;
-    sl_int *columns; /* count: columns of L, ascending */
-    sl_int *row_of;  /* count: the position of each column's row in the caller's list */
+    sl_int *columns;          /* count: columns of L, ascending */
+    sl_int *row_of;           /* count: the position of each column's row in the caller's list */
     uint64_t *list, *scratch; /* count: for sorting; free once the set is filled */
     sl_int n_words;
     uint64_t *words; /* n_words: which columns are in the set */

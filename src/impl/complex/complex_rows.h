@@ -117,9 +117,8 @@ SL_API sl_status sl_complex_plan_create(sl_plan **out, const sl_symbolic *S, con
     c = sli_complex_sets_of(bset, nb, xset, nx, 0);
     status = sli_complex_sets_create(&c, S->n, &a, stats);
     if (status == SL_OK) {
-        status =
-            sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
-                           sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
+        status = sl_plan_create(out, S, sli_complex_real(&c.first), bset == NULL ? 0 : 2 * nb,
+                                sli_complex_real(&c.second), xset == NULL ? 0 : 2 * nx, opt, stats);
         sli_free(&a, c.memory);
     }
     return status;

@@ -173,9 +173,8 @@ static int sli_map_has_duplicates(const sl_symbolic *S) {
 
 /* Computes A z, |A| |z|, the components of A and, if not NULL, its diagonal, by rows of the walk.
  * z: by pivots; NULL: all 1. */
-static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from,
-                                      int by_columns, sli_null_row *rows, const double *z,
-                                      double *diagonal) {
+static sli_null_walk sli_null_product(const sl_symbolic *S, const sli_source *from, int by_columns,
+                                      sli_null_row *rows, const double *z, double *diagonal) {
     sli_null_walk w;
     sl_int i;
     w.rows = rows;

@@ -22,15 +22,6 @@ typedef struct sli_entries {
     sl_int *first_request; /* supernodes + 1: the sorted requests that each front has */
 } sli_entries;
 
-/* Time of a front of the inverse of h rows, in the unit of sli_lanes_cost, which is a forward sweep
- * of one lane over one entry of L: per front, per entry of the h^2 that are moved, and per flop of
- * the factorization's front (the inverse needs twice as many). Measured on grids of 1e4 to 1e6
- * vertices and of 25^3 (Zen 5); NEON was not measured and uses the AVX2 row. */
-static const double sli_traversal_cost[][3] = {{2000.0, 4.0, 0.35}, /* others */
-                                               {2000.0, 4.0, 2.2},  /* plain C */
-                                               {2000.0, 4.0, 0.35}, /* AVX2 */
-                                               {2000.0, 4.0, 0.2}}; /* AVX-512 */
-
 /* The whole diagonal: there is no list of requests. */
 SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
     return q->requests.rows == NULL;
@@ -72,7 +63,7 @@ static int sli_entries_are_in_pattern(const sli_entries *q) {
 static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
     const sl_symbolic *S = q->F->S;
     const sli_requests *r = &q->requests;
-    const double *cost = sli_traversal_cost[sli_isa_row(q->F->kernels->isa)];
+    const sli_costs *cost = sli_costs_of(q->F->kernels->isa);
     double time = 0.0;
     sl_int k = 0, s, next;
     *supers = 0;
@@ -81,7 +72,8 @@ static double sli_traversal_time(const sli_entries *q, sl_int *supers) {
         next = sli_next_seed(S, r->order, r->count, &k);
         for (; s != -1 && s < next; s = S->super_parent[s]) {
             const double h = S->steps[s].width + S->steps[s].below;
-            time += cost[0] + cost[1] * h * h + cost[2] * sli_front_flops(&S->steps[s]);
+            time += cost->inverse_front + cost->inverse_entry * h * h +
+                    cost->inverse_flop * sli_front_flops(&S->steps[s]);
             ++*supers;
         }
     }

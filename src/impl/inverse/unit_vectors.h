@@ -3,18 +3,11 @@
 #define SLI_INVERSE_UNIT_VECTORS_H
 
 #include "../solve/sweep.h"
+#include "costs.h"
 
 #define SLI_LANES_MAX 8
 /* per block: 8 columns make 36 pairs; more requests must be repetitions */
 #define SLI_BLOCK_REQUESTS_MAX 64
-
-/* Time of a sweep of 1, 2, 4, 8 lanes over a given number of entries of L, the compilation of the
- * reach included, relative to one lane. Measured on grids of 1e4 to 1e6 vertices (Zen 4); NEON was
- * not measured and uses the AVX2 row. */
-static const double sli_lanes_cost[][SLI_NRHS_KINDS] = {{1.0, 1.3, 1.9, 3.3},  /* others */
-                                                        {1.0, 1.2, 3.8, 8.6},  /* plain C */
-                                                        {1.0, 1.3, 1.9, 3.3},  /* AVX2 */
-                                                        {1.0, 1.2, 1.9, 2.1}}; /* AVX-512 */
 
 /* A block of right-hand sides: unit vectors that share one forward sweep, one per lane. */
 typedef struct sli_rhs_block {
@@ -56,7 +49,7 @@ static int sli_rhs_block_add(sli_rhs_block *block, sl_int column, const sl_symbo
 /* Requested entries of the inverse, and their partition into blocks of nearby ones. */
 typedef struct sli_requests {
     const sl_symbolic *S;
-    const double *lanes_cost;
+    const double *lanes_cost; /* of sli_costs */
     /* count each, NULL: 0, 1, 2, ...; one array twice: columns or the diagonal of the inverse */
     const sl_int *rows, *columns;
     sl_int count;
@@ -72,7 +65,7 @@ static sli_requests sli_requests_of(const sl_factor *F, const sl_int *rows, cons
     sli_requests r;
     memset(&r, 0, sizeof r);
     r.S = F->S;
-    r.lanes_cost = sli_lanes_cost[sli_isa_row(F->kernels->isa)];
+    r.lanes_cost = sli_costs_of(F->kernels->isa)->lanes;
     r.rows = rows;
     r.columns = columns;
     r.count = count;
@@ -180,7 +173,7 @@ static void sli_capacity_add(sli_capacity *capacity, const sli_reach *R, sl_int 
 }
 
 /* Sorts requests, partitions them into blocks, and finds the capacity that their sweeps need.
- * Returns the time of the sweeps in units of sli_lanes_cost; stops early when it reaches the limit.
+ * Returns the time of the sweeps in the unit of sli_costs; stops early when it reaches the limit.
  */
 static double sli_requests_partition_within(sli_requests *r, sli_capacity *capacity, double limit) {
     double time = 0.0;

@@ -204,7 +204,7 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
     /* in place, but with different leading dimensions or layouts */
     const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
     return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
-                                                                            : SL_OK;
+                                                                             : SL_OK;
 }
 
 /* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which

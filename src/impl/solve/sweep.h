@@ -161,8 +161,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     sli_sweep_tasks_plan(&t, F, q, rhs, &W->threads);
-    status = sli_work_grow(
-        W, t.workers > 1 ? t.total : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
+    status = sli_work_grow(W, t.workers > 1 ? t.total
+                                            : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
     if (status == SL_OK && t.workers > 1) {
         sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
     } else if (status == SL_OK) {
