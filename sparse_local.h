@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d0b437d94fc341a8
+ * FNV-1a of the lines after this comment, without the license: 57dadcbe8bd61951
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -42,17 +42,17 @@
  *  16605 impl/ pivots: the order of the pivots by the values of a matrix
  *  17019 impl/ float: L and fronts in single precision
  *  17470 impl/ inverse: entries of the inverse, regions
- *  20002 impl/ change: a factor that follows changes of its matrix
- *  26566 impl/ io: files that are written and mapped
- *  26876 impl/ files: Matrix Market files, 64-bit indices
- *  27402 impl/ save: factors in files
- *  29217 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29875 impl/ batch: diagonals of many inverses
- *  30015 impl/ complex: complex Hermitian systems over real factors
- *  30536 impl/ complex: entries of the inverse
- *  30588 impl/ packs: the tables through which the core calls packs
- *  30620 impl/ last: undefine every internal macro
- *  30908 impl/ templates: the header includes them from itself, once for each instruction set
+ *  20015 impl/ change: a factor that follows changes of its matrix
+ *  26567 impl/ io: files that are written and mapped
+ *  26877 impl/ files: Matrix Market files, 64-bit indices
+ *  27403 impl/ save: factors in files
+ *  29218 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29876 impl/ batch: diagonals of many inverses
+ *  30016 impl/ complex: complex Hermitian systems over real factors
+ *  30537 impl/ complex: entries of the inverse
+ *  30589 impl/ packs: the tables through which the core calls packs
+ *  30621 impl/ last: undefine every internal macro
+ *  30909 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -3301,14 +3301,14 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
 #define SLI_TAKE_INLINE(b, type, count) \
   ((type *)sli_take_inline((b), (uint64_t)(count), sizeof(type)))
 
-typedef struct sli_lender {
+typedef struct sli_arena {
   sl_allocator more;
   unsigned char *base;
   size_t used, size;
-} sli_lender;
+} sli_arena;
 
-static void *sli_lender_allocate(void *context, size_t bytes) {
-  sli_lender *l = (sli_lender *)context;
+static void *sli_arena_allocate(void *context, size_t bytes) {
+  sli_arena *l = (sli_arena *)context;
   const size_t before = l->used;
   unsigned char *block = l->base + before;
   if (bytes > l->size || l->size - bytes < before + 2 * SLI_ALIGN) {
@@ -3320,8 +3320,8 @@ static void *sli_lender_allocate(void *context, size_t bytes) {
   return block + SLI_ALIGN;
 }
 
-static void sli_lender_release(void *context, void *block) {
-  sli_lender *l = (sli_lender *)context;
+static void sli_arena_release(void *context, void *block) {
+  sli_arena *l = (sli_arena *)context;
   unsigned char *at = (unsigned char *)block;
   size_t end;
   if ((uintptr_t)at - (uintptr_t)l->base >= l->size) {
@@ -3334,11 +3334,11 @@ static void sli_lender_release(void *context, void *block) {
   }
 }
 
-SLI_INLINE sl_allocator sli_lender_start(sli_lender *l, const sli_block *b, size_t from,
-                     const sl_allocator *more) {
+SLI_INLINE sl_allocator sli_arena_start(sli_arena *l, const sli_block *b, size_t from,
+                    const sl_allocator *more) {
   sl_allocator a;
-  a.allocate = sli_lender_allocate;
-  a.release = sli_lender_release;
+  a.allocate = sli_arena_allocate;
+  a.release = sli_arena_release;
   a.context = l;
   l->more = *more;
   l->base = b->base + from;
@@ -11045,7 +11045,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
   static const sl_threads sli_no_threads = {0, NULL, NULL};
   sli_symbolic_job j;
   sli_block b = {NULL, 0, 0};
-  sli_lender lender;
+  sli_arena arena;
   sl_status status;
   sli_stats_clear_error(stats);
   if (out == NULL) {
@@ -11073,7 +11073,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
                   opt, stats);
   }
   if (status == SL_OK) {
-    j.for_order = sli_lender_start(&lender, &b, j.w.ordered, &j.a);
+    j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);
     j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
     sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
            sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);
@@ -18138,6 +18138,19 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_REUSE_SUPER 150e-9
 #define SLI_REUSE_ENTRY 0.5e-9
 
+#define SLI_PINS_ENTRY 0.12e-9
+#define SLI_PINS_JOINT 0.26
+#define SLI_PINS_BLOCK 1.05
+#define SLI_PINS_TERM 0.2e-9
+#define SLI_PINS_STEP 3e-9
+#define SLI_PINS_PRODUCT 0.04e-9
+#define SLI_PINS_NUMBER 1e-9
+#define SLI_PINS_PIN 1e-6
+#define SLI_PINS_DENSE 0.13e-9
+#define SLI_PINS_MAP 5e-9
+#define SLI_PINS_COPY 0.6e-9
+#define SLI_PINS_MEMORY 1.2e-9
+
 /* src/impl/inverse/unit_vectors.h: forward sweeps of unit vectors, in blocks of up to 8 of similar reach */
 
 #define SLI_LANES_MAX 8
@@ -21541,7 +21554,7 @@ SL_API sl_status sl_factor_update_entries(sl_factor *F, const sl_int *rows, cons
 
 /* src/impl/change/choose.h: sl_factor_change: rank-one changes, the reach of the change, or all of L */
 
-typedef struct sli_way {
+typedef struct sli_change_choice {
   uint64_t *seeds;
   sl_int n_seeds;
   uint64_t *scratch;
@@ -21549,22 +21562,22 @@ typedef struct sli_way {
   double flops_update, flops_changed, flops_refactor;
   double update, changed, refactor;
   sl_change_reason reason;
-} sli_way;
+} sli_change_choice;
 
-static double sli_way_refactor(const sl_factor *F) {
+static double sli_choose_refactor(const sl_factor *F) {
   const sl_symbolic *S = F->S;
   const double flop = sli_costs_of(F->kernels->isa)->flop;
   return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
        SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
 }
 
-static double sli_way_front(const sl_symbolic *S, sl_int s) {
+static double sli_choose_front(const sl_symbolic *S, sl_int s) {
   const double w = S->steps[s].width, h = w + S->steps[s].below;
   return w * (h * h - h * w + w * w / 3.0);
 }
 
-static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
-               sl_int *visits) {
+static double sli_choose_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
+                sl_int *visits) {
   double flops = 0.0;
   sl_int d;
   for (d = s - 1; d >= S->first_descendant[s];) {
@@ -21582,7 +21595,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
   return flops;
 }
 
-static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
+static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double limit) {
   const sl_symbolic *S = F->S;
   const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
   const double flop = sli_costs_of(F->kernels->isa)->flop;
@@ -21595,19 +21608,19 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
     for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
       visits++;
       c->flops_changed +=
-        sli_way_front(S, s) +
-        sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
+        sli_choose_front(S, s) +
+        sli_choose_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
       c->changed = input + SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
     }
   }
 }
 
-static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
+static sl_change_method sli_choose_make(sli_change_choice *c, const sl_factor *F, int can_update) {
   const sl_symbolic *S = F->S;
   const int can_reach =
     F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE;
   c->flops_refactor = S->stats.symbolic.flops;
-  c->refactor = sli_way_refactor(F);
+  c->refactor = sli_choose_refactor(F);
   c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
   if (!F->is_valid) {
     return SL_CHANGE_REFACTOR;
@@ -21617,7 +21630,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
     return SL_CHANGE_REFACTOR;
   }
   if (can_reach && (!can_update || c->changed < c->update)) {
-    sli_way_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
+    sli_choose_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
   }
   if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
     return SL_CHANGE_UPDATE;
@@ -21625,14 +21638,14 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
   return can_reach && c->changed <= c->refactor ? SL_CHANGE_REACH : SL_CHANGE_REFACTOR;
 }
 
-SLI_INLINE sl_int sli_way_append(uint64_t *keys, sl_int total, uint64_t key) {
+SLI_INLINE sl_int sli_choose_append(uint64_t *keys, sl_int total, uint64_t key) {
   if (total < 2 || (key != keys[total - 1] && key != keys[total - 2])) {
     keys[total++] = key;
   }
   return total;
 }
 
-static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
+static sl_int sli_choose_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
   sl_int k, count = 0;
   sli_sort(keys, total, scratch);
   for (k = 0; k < total; k++) {
@@ -21643,17 +21656,17 @@ static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
   return count;
 }
 
-static void sli_way_seeds(sli_way *c, const sli_rank *q) {
+static void sli_choose_seeds(sli_change_choice *c, const sli_rank *q) {
   const sl_int *iperm = q->S->iperm;
   sl_int k, total = 0;
   for (k = 0; k < q->n_entries; k++) {
     const sl_int a = iperm[q->entry_rows[k]], b = iperm[q->entry_columns[k]];
-    total = sli_way_append(c->seeds, total, sli_keyed(sli_min(a, b), 0));
+    total = sli_choose_append(c->seeds, total, sli_keyed(sli_min(a, b), 0));
   }
-  c->n_seeds = sli_way_sort(c->seeds, total, c->scratch);
+  c->n_seeds = sli_choose_sort(c->seeds, total, c->scratch);
 }
 
-static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
+static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const sl_csc *A) {
   sl_factor *F = q->u.F;
   const int is_upper = F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
   sli_changes changes;
@@ -21661,9 +21674,9 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
   for (k = 0; k < q->n_entries; k++) {
     const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
     const sl_int column = is_upper ? sli_max(i, j) : sli_min(i, j);
-    total = sli_way_append(c->scratch, total, sli_keyed(column, 0));
+    total = sli_choose_append(c->scratch, total, sli_keyed(column, 0));
   }
-  total = sli_way_sort(c->scratch, total, c->scratch + q->n_entries);
+  total = sli_choose_sort(c->scratch, total, c->scratch + q->n_entries);
   for (k = 0; k < total; k++) {
     c->columns[k] = sli_key(c->scratch[k]);
   }
@@ -21674,14 +21687,14 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
   return sli_left_refactor_columns(F, A, &changes, q->stats);
 }
 
-static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
+static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
   const double flop = sli_costs_of(q->u.F->kernels->isa)->flop;
   return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
       1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
        (q->has_trial || q->has_log ? 1.5 : 1.0);
 }
 
-static void sli_way_estimate(sli_way *c, const sli_rank *q) {
+static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
   sl_int k, edges = 0, passes;
   sli_reach R;
   memset(&R, 0, sizeof R);
@@ -21693,33 +21706,33 @@ static void sli_way_estimate(sli_way *c, const sli_rank *q) {
     sli_reach_measure(q->S, c->seeds + c->n_seeds / 2, 1, &R);
   }
   c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
-  c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
-                 c->flops_update);
+  c->update = sli_choose_update(q, passes * (double)R.entries,
+                  (double)SLI_TILE * passes * R.columns, c->flops_update);
 }
 
-static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
+static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W) {
   const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
   c->flops_update = q->flops;
-  c->update = sli_way_update(q, (double)q->entries, q->pivots, q->flops);
+  c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
   return status == SL_OK ? q->status : status;
 }
 
-static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
-               sl_change_method *method) {
+static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc *A, sl_work *W,
+                sl_change_method *method) {
   sl_factor *F = q->u.F;
   const int can_update = sli_rank_is_suited(F) && F->is_valid;
   sl_status status = SL_OK;
-  sli_way_seeds(c, q);
+  sli_choose_seeds(c, q);
   if (can_update) {
-    sli_way_estimate(c, q);
+    sli_choose_estimate(c, q);
   }
-  *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
+  *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_choose_make(c, F, can_update);
   if (*method == SL_CHANGE_UPDATE) {
-    status = sli_way_count(c, q, W);
+    status = sli_choose_count(c, q, W);
     if (status != SL_OK) {
       return status;
     }
-    *method = sli_way_make(c, F, 1);
+    *method = sli_choose_make(c, F, 1);
   }
   if (*method == SL_CHANGE_UPDATE) {
     status = sli_rank_run(q);
@@ -21732,7 +21745,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
     }
   }
   if (*method == SL_CHANGE_REACH) {
-    status = sli_way_reach(c, q, A);
+    status = sli_choose_reach(c, q, A);
   } else if (*method == SL_CHANGE_REFACTOR) {
     status = sl_factor_refactor(F, A, q->stats);
   }
@@ -21745,7 +21758,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   const double started = stats == NULL ? 0.0 : sli_seconds();
   sl_change_method method = SL_CHANGE_NONE;
   sli_block b = {NULL, 0, 0};
-  sli_way c;
+  sli_change_choice c;
   sli_rank q;
   sl_work own;
   sl_status status;
@@ -21768,7 +21781,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
   status = status == SL_OK ? sli_work_grow(W, 1) : status;
-  status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
+  status = status == SL_OK ? sli_choose_run(&c, &q, A, W, &method) : status;
   sli_free(&F->allocator, b.base);
   sli_free(&own.allocator, own.block);
   if (status == SL_OK) {
@@ -22617,7 +22630,7 @@ typedef struct sli_holding {
   sl_off couplings;
   sli_left_work left;
   void *block;
-  sli_way way;
+  sli_change_choice choice;
   int is_new, is_local;
 } sli_holding;
 
@@ -22840,19 +22853,6 @@ static sl_status sli_held_take(sl_pins *P, const sli_holding *h) {
 
 /* src/impl/change/pins_choose.h: what pins cost by the capacitance matrix and by elimination */
 
-#define SLI_PINS_ENTRY 0.12e-9
-#define SLI_PINS_JOINT 0.26
-#define SLI_PINS_BLOCK 1.05
-#define SLI_PINS_TERM 0.2e-9
-#define SLI_PINS_STEP 3e-9
-#define SLI_PINS_PRODUCT 0.04e-9
-#define SLI_PINS_NUMBER 1e-9
-#define SLI_PINS_PIN 1e-6
-#define SLI_PINS_DENSE 0.13e-9
-#define SLI_PINS_MAP 5e-9
-#define SLI_PINS_COPY 0.6e-9
-#define SLI_PINS_MEMORY 1.2e-9
-
 #define SLI_PINS_WORTH 1.5
 
 static double sli_pins_capacitance_cost(const sl_symbolic *S, const uint64_t *seeds, sl_int count,
@@ -22894,17 +22894,18 @@ static double sli_pins_least_cost(const sl_pins *P) {
 
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
   const sl_symbolic *S = P->F->S;
-  const double whole = sli_way_refactor(P->F);
+  const double whole = sli_choose_refactor(P->F);
   double part;
-  h->way.seeds = h->seeds;
-  h->way.n_seeds = h->n_seeds;
-  sli_way_measure(&h->way, P->F, whole);
-  part = h->way.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
+  h->choice.seeds = h->seeds;
+  h->choice.n_seeds = h->n_seeds;
+  sli_choose_measure(&h->choice, P->F, whole);
+  part =
+    h->choice.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
   h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
   return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }
 
-/* src/impl/change/pins_rebuild.h: sets of pins made anew: other numbers, or the other way */
+/* src/impl/change/pins_rebuild.h: sets of pins made again: other numbers, or the other method */
 
 static sl_status sli_pins_take(sl_pins *P) {
   const sl_factor *F = P->F;
@@ -25595,7 +25596,7 @@ static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
   return SL_OK;
 }
 
-/* src/impl/change/edit_order.h: the order of an edited matrix: small subtrees with active rows are ordered anew */
+/* src/impl/change/edit_order.h: the order of an edited matrix: a new order of small subtrees with active rows */
 
 static void sli_edit_mark(sli_edit *e) {
   const sl_symbolic *S = e->S;
@@ -25765,7 +25766,7 @@ static sl_status sli_edit_order(sli_edit *e, const sl_allocator *a) {
   return status;
 }
 
-/* src/impl/change/edit_graph.h: the graph of the columns that an edit analyzes anew, and their supernodes */
+/* src/impl/change/edit_graph.h: the graph of the columns that an edit analyzes again, and their supernodes */
 
 SLI_INLINE int sli_edit_is_root(const sli_edit *e, sl_int s) {
   const sl_int up = e->S->super_parent[s];
@@ -26419,7 +26420,7 @@ static int sli_reuse_choose(sli_reuse *r) {
     info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
     if (up != -1 && r->from[up] == -1) {
       info->flops += (double)T->steps[s].width * below * below +
-               sli_way_gather(T, s, T->super_first[s + 1], T->n, &visits);
+               sli_choose_gather(T, s, T->super_first[s + 1], T->n, &visits);
     }
   }
   info->computed = T->n - info->kept;
@@ -26432,7 +26433,7 @@ static int sli_reuse_choose(sli_reuse *r) {
 static void sli_reuse_drop(sli_reuse *r, sl_int s) {
   for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
     r->from[s] = -1;
-    r->flops += sli_way_front(r->G->S, s);
+    r->flops += sli_choose_front(r->G->S, s);
   }
 }
 
@@ -26452,7 +26453,7 @@ static int sli_reuse_find(sli_reuse *r) {
   int is_sample;
   for (s = 0; s < T->n_supers; s++) {
     r->from[s] = SLI_REUSE_UNKNOWN;
-    r->flops_anew += sli_way_front(T, s);
+    r->flops_anew += sli_choose_front(T, s);
   }
   r->info.flops_anew = r->flops_anew;
   for (is_sample = 1; is_sample >= 0; is_sample--) {

@@ -78,7 +78,7 @@ static sl_matrix *grid_matrix(const grid *g) {
     return A;
 }
 
-/* Forward sweeps from random columns, for 1, 2, 4 and 8 lanes, with the compilation of the reach. */
+/* Forward sweeps from random columns, for 1, 2, 4 and 8 lanes, with compiling the reach. */
 static void measure_sweeps(grid *g, const sl_factor *F) {
     const sl_symbolic *S = F->S;
     const sl_allocator *a = &F->allocator; /* kernels need 64-byte alignment */

@@ -9,7 +9,7 @@
 #include "../solve/backward.h"
 #include "../solve/work.h"
 
-/* Backward errors up to this are due to rounding alone. Where L has grown they are larger, and L D
+/* Backward errors up to this come from rounding alone. Where L has grown they are larger, and L D
  * L' is not A: epsilon / rcond then has to bound the effect of that error, too. */
 #define SLI_ROUNDING_ERROR 64.0 /* units of rounding of the type of L */
 

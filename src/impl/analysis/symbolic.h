@@ -435,7 +435,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
     static const sl_threads sli_no_threads = {0, NULL, NULL};
     sli_symbolic_job j;
     sli_block b = {NULL, 0, 0};
-    sli_lender lender;
+    sli_arena arena;
     sl_status status;
     sli_stats_clear_error(stats);
     if (out == NULL) {
@@ -463,7 +463,7 @@ static sl_status sli_symbolic_create(sl_symbolic **out, const sl_csc *A, const u
                                   opt, stats);
     }
     if (status == SL_OK) {
-        j.for_order = sli_lender_start(&lender, &b, j.w.ordered, &j.a);
+        j.for_order = sli_arena_start(&arena, &b, j.w.ordered, &j.a);
         j.found.symbolic.seconds_analyze = sli_analysis_lap(&j.w);
         sli_team_run(opt != NULL ? &opt->threads : &sli_no_threads,
                      sli_max(sli_order_workers(A, opt), j.w.workers), sli_symbolic_run, &j);

@@ -142,17 +142,17 @@ SLI_NOINLINE static sl_status sli_block_alloc(sli_block *b, const sl_allocator *
 #define SLI_TAKE_INLINE(b, type, count) \
     ((type *)sli_take_inline((b), (uint64_t)(count), sizeof(type)))
 
-/* An allocator that lends out the end of a block that its owner does not use yet, and turns to
- * another one when that is full. Memory that was just used costs no page faults. What is released
- * in reverse order is lent again. For one thread at a time. */
-typedef struct sli_lender {
+/* An arena: an allocator that gives the end of a block that its owner does not use yet, and turns
+ * to another allocator when that is full. Memory that was just used costs no page faults. What is
+ * released in reverse order is given again. For one thread at a time. */
+typedef struct sli_arena {
     sl_allocator more;
     unsigned char *base;
     size_t used, size;
-} sli_lender;
+} sli_arena;
 
-static void *sli_lender_allocate(void *context, size_t bytes) {
-    sli_lender *l = (sli_lender *)context;
+static void *sli_arena_allocate(void *context, size_t bytes) {
+    sli_arena *l = (sli_arena *)context;
     const size_t before = l->used;
     unsigned char *block = l->base + before;
     if (bytes > l->size || l->size - bytes < before + 2 * SLI_ALIGN) {
@@ -164,8 +164,8 @@ static void *sli_lender_allocate(void *context, size_t bytes) {
     return block + SLI_ALIGN;
 }
 
-static void sli_lender_release(void *context, void *block) {
-    sli_lender *l = (sli_lender *)context;
+static void sli_arena_release(void *context, void *block) {
+    sli_arena *l = (sli_arena *)context;
     unsigned char *at = (unsigned char *)block;
     size_t end;
     if ((uintptr_t)at - (uintptr_t)l->base >= l->size) {
@@ -178,12 +178,12 @@ static void sli_lender_release(void *context, void *block) {
     }
 }
 
-/* Lends out an allocated block from position `from` on. */
-SLI_INLINE sl_allocator sli_lender_start(sli_lender *l, const sli_block *b, size_t from,
-                                         const sl_allocator *more) {
+/* An arena of an allocated block from position `from` on. */
+SLI_INLINE sl_allocator sli_arena_start(sli_arena *l, const sli_block *b, size_t from,
+                                        const sl_allocator *more) {
     sl_allocator a;
-    a.allocate = sli_lender_allocate;
-    a.release = sli_lender_release;
+    a.allocate = sli_arena_allocate;
+    a.release = sli_arena_release;
     a.context = l;
     l->more = *more;
     l->base = b->base + from;

@@ -8,7 +8,7 @@
  * l += sum over r of b(r) w(r). w: [k][8]; c: for each column y(0) .. y(k-1), -b(0) .. -b(k-1). */
 typedef void (*sli_change_kernel)(double *l, sl_int columns, const double *c, double *w);
 
-/* k = 2 .. 8 vectors on their way through the pivots: W U diag(alpha) U' W'. 64-byte aligned. */
+/* k = 2 .. 8 vectors that pass the pivots: W U diag(alpha) U' W'. 64-byte aligned. */
 typedef struct sli_ranks {
     double U[SLI_TILE][SLI_TILE]; /* column by column, with a unit diagonal */
     double alpha[SLI_TILE];

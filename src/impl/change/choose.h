@@ -7,7 +7,7 @@
 #include "edges.h"
 
 /* A choice between the three methods: rank-one changes, the reach of the change, all of L. */
-typedef struct sli_way {
+typedef struct sli_change_choice {
     uint64_t *seeds; /* n_seeds: the columns of L that hold changed entries, ascending */
     sl_int n_seeds;
     uint64_t *scratch; /* 2 count: for sorting */
@@ -15,10 +15,10 @@ typedef struct sli_way {
     double flops_update, flops_changed, flops_refactor;
     double update, changed, refactor; /* seconds */
     sl_change_reason reason;
-} sli_way;
+} sli_change_choice;
 
 /* Seconds of a refactorization. */
-static double sli_way_refactor(const sl_factor *F) {
+static double sli_choose_refactor(const sl_factor *F) {
     const sl_symbolic *S = F->S;
     const double flop = sli_costs_of(F->kernels->isa)->flop;
     return flop * S->stats.symbolic.flops + SLI_CHANGE_FRONT(flop) * S->n_supers +
@@ -26,15 +26,15 @@ static double sli_way_refactor(const sl_factor *F) {
 }
 
 /* Flops of the elimination of supernode s alone. */
-static double sli_way_front(const sl_symbolic *S, sl_int s) {
+static double sli_choose_front(const sl_symbolic *S, sl_int s) {
     const double w = S->steps[s].width, h = w + S->steps[s].below;
     return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
 }
 
 /* Flops of the updates of the descendants of supernode s to columns start .. end-1, as
  * sli_left_factor and sli_kept_update compute them. *visits += descendants. */
-static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
-                             sl_int *visits) {
+static double sli_choose_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
+                                sl_int *visits) {
     double flops = 0.0;
     sl_int d;
     for (d = s - 1; d >= S->first_descendant[s];) {
@@ -53,7 +53,7 @@ static double sli_way_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_in
 }
 
 /* Counts the reach of the change, up to a cost of `limit`: to count the descendants takes time. */
-static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
+static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double limit) {
     const sl_symbolic *S = F->S;
     const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
     const double flop = sli_costs_of(F->kernels->isa)->flop;
@@ -66,20 +66,20 @@ static void sli_way_measure(sli_way *c, const sl_factor *F, double limit) {
         for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
             visits++;
             c->flops_changed +=
-                sli_way_front(S, s) +
-                sli_way_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
+                sli_choose_front(S, s) +
+                sli_choose_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
             c->changed = input + SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
         }
     }
 }
 
 /* Chooses. can_update: rank-one changes are possible. */
-static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_update) {
+static sl_change_method sli_choose_make(sli_change_choice *c, const sl_factor *F, int can_update) {
     const sl_symbolic *S = F->S;
     const int can_reach =
         F->is_valid && F->method == SL_METHOD_SUPERNODAL && F->type->storage == SL_STORAGE_DOUBLE;
     c->flops_refactor = S->stats.symbolic.flops;
-    c->refactor = sli_way_refactor(F);
+    c->refactor = sli_choose_refactor(F);
     c->reason = can_update ? SL_CHANGE_CHEAPEST : SL_CHANGE_UNSUITED;
     if (!F->is_valid) {
         return SL_CHANGE_REFACTOR;
@@ -89,7 +89,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
         return SL_CHANGE_REFACTOR;
     }
     if (can_reach && (!can_update || c->changed < c->update)) { /* else counted before */
-        sli_way_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
+        sli_choose_measure(c, F, can_update ? fmin(c->update, c->refactor) : c->refactor);
     }
     if (can_update && c->update <= c->refactor && (!can_reach || c->update <= c->changed)) {
         return SL_CHANGE_UPDATE;
@@ -98,7 +98,7 @@ static sl_change_method sli_way_make(sli_way *c, const sl_factor *F, int can_upd
 }
 
 /* Appends a key that is not one of the last two. Returns how many there are. */
-SLI_INLINE sl_int sli_way_append(uint64_t *keys, sl_int total, uint64_t key) {
+SLI_INLINE sl_int sli_choose_append(uint64_t *keys, sl_int total, uint64_t key) {
     if (total < 2 || (key != keys[total - 1] && key != keys[total - 2])) {
         keys[total++] = key;
     }
@@ -106,7 +106,7 @@ SLI_INLINE sl_int sli_way_append(uint64_t *keys, sl_int total, uint64_t key) {
 }
 
 /* Sorts keys and drops repeated ones: many entries share a column. Returns how many are left. */
-static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
+static sl_int sli_choose_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
     sl_int k, count = 0;
     sli_sort(keys, total, scratch);
     for (k = 0; k < total; k++) {
@@ -118,18 +118,18 @@ static sl_int sli_way_sort(uint64_t *keys, sl_int total, uint64_t *scratch) {
 }
 
 /* The columns of L that hold the changed entries. */
-static void sli_way_seeds(sli_way *c, const sli_rank *q) {
+static void sli_choose_seeds(sli_change_choice *c, const sli_rank *q) {
     const sl_int *iperm = q->S->iperm;
     sl_int k, total = 0;
     for (k = 0; k < q->n_entries; k++) {
         const sl_int a = iperm[q->entry_rows[k]], b = iperm[q->entry_columns[k]];
-        total = sli_way_append(c->seeds, total, sli_keyed(sli_min(a, b), 0));
+        total = sli_choose_append(c->seeds, total, sli_keyed(sli_min(a, b), 0));
     }
-    c->n_seeds = sli_way_sort(c->seeds, total, c->scratch);
+    c->n_seeds = sli_choose_sort(c->seeds, total, c->scratch);
 }
 
 /* Recomputes the columns of L that the change reaches. */
-static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
+static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const sl_csc *A) {
     sl_factor *F = q->u.F;
     const int is_upper = F->S->stats.symbolic.triangle == SL_TRIANGLE_UPPER;
     sli_changes changes;
@@ -137,9 +137,9 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
     for (k = 0; k < q->n_entries; k++) {
         const sl_int i = q->entry_rows[k], j = q->entry_columns[k];
         const sl_int column = is_upper ? sli_max(i, j) : sli_min(i, j);
-        total = sli_way_append(c->scratch, total, sli_keyed(column, 0));
+        total = sli_choose_append(c->scratch, total, sli_keyed(column, 0));
     }
-    total = sli_way_sort(c->scratch, total, c->scratch + q->n_entries);
+    total = sli_choose_sort(c->scratch, total, c->scratch + q->n_entries);
     for (k = 0; k < total; k++) {
         c->columns[k] = sli_key(c->scratch[k]);
     }
@@ -151,7 +151,7 @@ static sl_status sli_way_reach(sli_way *c, const sli_rank *q, const sl_csc *A) {
 }
 
 /* Seconds of rank-one changes. */
-static double sli_way_update(const sli_rank *q, double entries, double pivots, double flops) {
+static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
     const double flop = sli_costs_of(q->u.F->kernels->isa)->flop;
     return (SLI_CHANGE_ENTRY * entries + SLI_CHANGE_PIVOT(flop) * pivots +
             1.2 * fmax(flop - SLI_CHANGE_HIDDEN, 0.0) * flops) *
@@ -160,7 +160,7 @@ static double sli_way_update(const sli_rank *q, double entries, double pivots, d
 
 /* Estimates the rank-one changes with the path of the column in the middle: a vector for each seed
  * or edge. Where they take too long, the vectors need not be sorted. */
-static void sli_way_estimate(sli_way *c, const sli_rank *q) {
+static void sli_choose_estimate(sli_change_choice *c, const sli_rank *q) {
     sl_int k, edges = 0, passes;
     sli_reach R;
     memset(&R, 0, sizeof R);
@@ -172,34 +172,34 @@ static void sli_way_estimate(sli_way *c, const sli_rank *q) {
         sli_reach_measure(q->S, c->seeds + c->n_seeds / 2, 1, &R);
     }
     c->flops_update = 4.0 * SLI_TILE * passes * (double)R.entries;
-    c->update = sli_way_update(q, passes * (double)R.entries, (double)SLI_TILE * passes * R.columns,
-                               c->flops_update);
+    c->update = sli_choose_update(q, passes * (double)R.entries,
+                                  (double)SLI_TILE * passes * R.columns, c->flops_update);
 }
 
 /* Sorts the vectors of q, for their number and their cost, and prepares their passes. */
-static sl_status sli_way_count(sli_way *c, sli_rank *q, sl_work *W) {
+static sl_status sli_choose_count(sli_change_choice *c, sli_rank *q, sl_work *W) {
     const sl_status status = sli_work_stages(W, sli_edges_stages, 3, q);
     c->flops_update = q->flops;
-    c->update = sli_way_update(q, (double)q->entries, q->pivots, q->flops);
+    c->update = sli_choose_update(q, (double)q->entries, q->pivots, q->flops);
     return status == SL_OK ? q->status : status;
 }
 
-static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *W,
-                             sl_change_method *method) {
+static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc *A, sl_work *W,
+                                sl_change_method *method) {
     sl_factor *F = q->u.F;
     const int can_update = sli_rank_is_suited(F) && F->is_valid;
     sl_status status = SL_OK;
-    sli_way_seeds(c, q);
+    sli_choose_seeds(c, q);
     if (can_update) {
-        sli_way_estimate(c, q);
+        sli_choose_estimate(c, q);
     }
-    *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_way_make(c, F, can_update);
+    *method = q->n_entries == 0 && F->is_valid ? SL_CHANGE_NONE : sli_choose_make(c, F, can_update);
     if (*method == SL_CHANGE_UPDATE) {
-        status = sli_way_count(c, q, W);
+        status = sli_choose_count(c, q, W);
         if (status != SL_OK) {
             return status;
         }
-        *method = sli_way_make(c, F, 1);
+        *method = sli_choose_make(c, F, 1);
     }
     if (*method == SL_CHANGE_UPDATE) {
         status = sli_rank_run(q);
@@ -212,7 +212,7 @@ static sl_status sli_way_run(sli_way *c, sli_rank *q, const sl_csc *A, sl_work *
         }
     }
     if (*method == SL_CHANGE_REACH) {
-        status = sli_way_reach(c, q, A);
+        status = sli_choose_reach(c, q, A);
     } else if (*method == SL_CHANGE_REFACTOR) {
         status = sl_factor_refactor(F, A, q->stats);
     }
@@ -225,7 +225,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
     sl_change_method method = SL_CHANGE_NONE;
     sli_block b = {NULL, 0, 0};
-    sli_way c;
+    sli_change_choice c;
     sli_rank q;
     sl_work own;
     sl_status status;
@@ -248,7 +248,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
     status = status == SL_OK ? sli_work_grow(W, 1) : status;
-    status = status == SL_OK ? sli_way_run(&c, &q, A, W, &method) : status;
+    status = status == SL_OK ? sli_choose_run(&c, &q, A, W, &method) : status;
     sli_free(&F->allocator, b.base);
     sli_free(&own.allocator, own.block);
     if (status == SL_OK) {

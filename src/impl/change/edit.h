@@ -8,7 +8,7 @@
 /* Beyond this share of active rows an order of its own is as fast. */
 #define SLI_EDIT_MOST_ACTIVE 0.25
 
-/* A new order is due if L has so many times the entries that are expected of one. */
+/* A new order is made if L has so many times the entries that are expected of one. */
 #define SLI_EDIT_DUE 1.1
 
 /* Checks what can be checked before the matrices are read. */
@@ -32,8 +32,8 @@ static sl_status sli_edit_arguments(const sl_symbolic *S, const sl_csc *A, const
                                                                                  : SL_ERR_PATTERN;
 }
 
-/* Finds the rows whose columns are analyzed anew and their order. *is_local := 0 if all rows should
- * be ordered anew. */
+/* Finds the rows whose columns are analyzed again and their order. *is_local := 0 if all rows
+ * should get a new order. */
 static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a, sl_stats *stats) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
@@ -74,7 +74,7 @@ static sl_status sli_edit_find(sli_edit *e, int *is_local, const sl_allocator *a
     return sli_edit_order(e, a);
 }
 
-/* Analyzes B in the order that was found: only its fresh columns anew. */
+/* Analyzes B in the order that was found: only its fresh columns again. */
 static sl_status sli_edit_analyze(sl_symbolic **out, sli_edit *e, const sl_options *opt,
                                   const sl_allocator *a, double started, sl_stats *stats) {
     const double ordered = sli_seconds();

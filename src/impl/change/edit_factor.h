@@ -162,7 +162,7 @@ static int sli_reuse_choose(sli_reuse *r) {
         info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
         if (up != -1 && r->from[up] == -1) {
             info->flops += (double)T->steps[s].width * below * below +
-                           sli_way_gather(T, s, T->super_first[s + 1], T->n, &visits);
+                           sli_choose_gather(T, s, T->super_first[s + 1], T->n, &visits);
         }
     }
     info->computed = T->n - info->kept;
@@ -176,7 +176,7 @@ static int sli_reuse_choose(sli_reuse *r) {
 static void sli_reuse_drop(sli_reuse *r, sl_int s) {
     for (; s != -1 && r->from[s] != -1; s = r->G->S->super_parent[s]) {
         r->from[s] = -1;
-        r->flops += sli_way_front(r->G->S, s);
+        r->flops += sli_choose_front(r->G->S, s);
     }
 }
 
@@ -198,7 +198,7 @@ static int sli_reuse_find(sli_reuse *r) {
     int is_sample;
     for (s = 0; s < T->n_supers; s++) {
         r->from[s] = SLI_REUSE_UNKNOWN;
-        r->flops_anew += sli_way_front(T, s);
+        r->flops_anew += sli_choose_front(T, s);
     }
     r->info.flops_anew = r->flops_anew;
     for (is_sample = 1; is_sample >= 0; is_sample--) {

@@ -1,4 +1,4 @@
-/* edit_graph.h: the graph of the columns that an edit analyzes anew, and their supernodes */
+/* edit_graph.h: the graph of the columns that an edit analyzes again, and their supernodes */
 #ifndef SLI_CHANGE_EDIT_GRAPH_H
 #define SLI_CHANGE_EDIT_GRAPH_H
 

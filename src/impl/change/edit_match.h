@@ -34,9 +34,9 @@ typedef struct sli_edit {
     unsigned char *mark; /* n_supers + 1: SLI_NODE_* */
     sl_int *weight;      /* n_supers + 1: active rows in the subtree */
     sl_int *head, *next; /* n_supers + 1, n: rows that were moved to each node */
-    sl_int n_grouped;    /* rows that are ordered anew: they come first in fresh */
+    sl_int n_grouped;    /* rows that get a new order: they come first in fresh */
     sl_int n_fresh;
-    sl_int *fresh;   /* n_fresh: rows whose columns are analyzed anew, in their order */
+    sl_int *fresh;   /* n_fresh: rows whose columns are analyzed again, in their order */
     sl_int moved;    /* rows that moved to another node */
     void *blocks[3]; /* memory of the arrays: by n, by near rows, neighbors */
 } sli_edit;

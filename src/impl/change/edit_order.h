@@ -1,10 +1,10 @@
-/* edit_order.h: the order of an edited matrix: small subtrees with active rows are ordered anew */
+/* edit_order.h: the order of an edited matrix: a new order of small subtrees with active rows */
 #ifndef SLI_CHANGE_EDIT_ORDER_H
 #define SLI_CHANGE_EDIT_ORDER_H
 
 #include "edit_separate.h"
 
-/* Marks the ancestors of fresh nodes as fresh, and the subtrees that are ordered anew. */
+/* Marks the ancestors of fresh nodes as fresh, and the subtrees that get a new order. */
 static void sli_edit_mark(sli_edit *e) {
     const sl_symbolic *S = e->S;
     sl_int s;
@@ -46,7 +46,7 @@ static void sli_edit_append(sli_edit *e, sl_int s) {
     }
 }
 
-/* Lists the rows whose columns are analyzed anew: those to be ordered anew first, in any order. */
+/* Lists the rows whose columns are analyzed again: first those that get a new order, unsorted. */
 static void sli_edit_collect(sli_edit *e) {
     const sl_symbolic *S = e->S;
     sl_int s, k;
@@ -76,7 +76,7 @@ static void sli_edit_collect(sli_edit *e) {
     }
 }
 
-/* Fills the graph of the rows that are ordered anew; number: their positions in fresh, -1 for all
+/* Fills the graph of the rows that get a new order; number: their positions in fresh, -1 for all
  * other rows. Without G->to the edges are counted. */
 static void sli_edit_graph(const sli_edit *e, sli_graph *G) {
     const sl_csc *B = e->B;

@@ -153,8 +153,8 @@ static sl_int sli_edit_lowest(sli_edit *e, sl_int row, sl_int *conflicts) {
     return lowest;
 }
 
-/* A subtree is ordered anew if at least one in so many of its rows is active, and if it has so many
- * rows: it is ordered without regard to the rows above it, which costs fill at its border. */
+/* A subtree gets a new order if at least one in so many of its rows is active, and if it has so
+ * many rows: it is ordered without regard to the rows above it, which costs fill at its border. */
 #define SLI_EDIT_SHARE 32
 #define SLI_EDIT_LEAST 256
 
@@ -175,7 +175,7 @@ static void sli_edit_weigh(sli_edit *e) {
     }
 }
 
-/* Is the subtree of a node ordered anew? */
+/* Does the subtree of a node get a new order? */
 SLI_INLINE int sli_edit_is_small(const sli_edit *e, sl_int s) {
     const sl_symbolic *S = e->S;
     const sl_off size =

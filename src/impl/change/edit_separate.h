@@ -290,7 +290,7 @@ static sl_int sli_edit_separates(sli_edit *e, sl_int row) {
     return node != -1 && e->is_join ? node : -1;
 }
 
-/* Finds smaller separators for all nodes above the subtrees that are ordered anew. */
+/* Finds smaller separators for all nodes above the subtrees that get a new order. */
 static sl_status sli_edit_separate(sli_edit *e, const sl_allocator *a) {
     const sl_symbolic *S = e->S;
     sli_band w;

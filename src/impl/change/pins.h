@@ -197,7 +197,7 @@ SL_API sl_status sl_pins_add(sl_pins *P, const sl_int *rows, sl_int count, sl_st
     }
     if (status == SL_OK) {
         sli_pins_report(P, started, stats);
-    } else { /* both ways have refused them */
+    } else { /* both methods have refused them */
         P->reason = reason;
         P->threshold = threshold;
     }

@@ -4,22 +4,8 @@
 
 #include "pins_held.h"
 
-/* Seconds of the parts of both ways, measured on grids of 1e4 to 1e6 rows. */
-#define SLI_PINS_ENTRY 0.12e-9   /* an entry of L in a forward sweep of one row, */
-#define SLI_PINS_JOINT 0.26      /* the same for each row of a block, relative to that, */
-#define SLI_PINS_BLOCK 1.05      /* and for a block that is not full */
-#define SLI_PINS_TERM 0.2e-9     /* a product of a sum with a pin that is there */
-#define SLI_PINS_STEP 3e-9       /* a supernode of the same */
-#define SLI_PINS_PRODUCT 0.04e-9 /* a product of a sum with a pin of the same call */
-#define SLI_PINS_NUMBER 1e-9     /* a number of the vectors of a new pin */
-#define SLI_PINS_PIN 1e-6        /* a new pin */
-#define SLI_PINS_DENSE 0.13e-9   /* a product in the factor of K */
-#define SLI_PINS_MAP 5e-9        /* an entry of A whose rows are looked up */
-#define SLI_PINS_COPY 0.6e-9     /* an entry of F that is copied */
-#define SLI_PINS_MEMORY 1.2e-9   /* an entry of a new factor, more in new pages */
-
-/* The ways are compared from this multiple of what elimination takes at least: a comparison takes a
- * part of that. */
+/* The two methods are compared from this multiple of what elimination takes at least: a comparison
+ * takes a part of that. */
 #define SLI_PINS_WORTH 1.5
 
 /* Seconds of new pins by the capacitance matrix, beside `others` that are there. seeds: their
@@ -66,12 +52,13 @@ static double sli_pins_least_cost(const sl_pins *P) {
 /* Seconds of elimination. Decides whether it is computed in the reach of the changes. */
 static double sli_pins_elimination_cost(const sl_pins *P, sli_holding *h) {
     const sl_symbolic *S = P->F->S;
-    const double whole = sli_way_refactor(P->F);
+    const double whole = sli_choose_refactor(P->F);
     double part;
-    h->way.seeds = h->seeds;
-    h->way.n_seeds = h->n_seeds;
-    sli_way_measure(&h->way, P->F, whole);
-    part = h->way.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
+    h->choice.seeds = h->seeds;
+    h->choice.n_seeds = h->n_seeds;
+    sli_choose_measure(&h->choice, P->F, whole);
+    part =
+        h->choice.changed + (h->is_new ? SLI_PINS_COPY * (double)S->panel_begin[S->n_supers] : 0.0);
     h->is_local = part < whole && sli_held_is_local(P->F, h->is_new);
     return (h->is_local ? part : whole) + sli_pins_least_cost(P);
 }

@@ -22,8 +22,8 @@ typedef struct sli_holding {
     sl_off couplings; /* nonzero entries between a held row and another one */
     sli_left_work left;
     void *block;
-    sli_way way;          /* costs */
-    int is_new, is_local; /* G has no numbers of this matrix; it is computed in the reach */
+    sli_change_choice choice; /* costs */
+    int is_new, is_local;     /* G has no numbers of this matrix; it is computed in the reach */
 } sli_holding;
 
 static void sli_holding_layout(sli_holding *h, sli_block *b, const sl_symbolic *S) {

@@ -69,7 +69,7 @@ static int sli_pins_can_hold(const sl_factor *F) {
            F->type->storage != SL_STORAGE_COMPLEX;
 }
 
-/* Reports the way in use. */
+/* Reports the method in use. */
 static void sli_pins_report(const sl_pins *P, double started, sl_stats *stats) {
     if (stats != NULL) {
         sl_pins_info *info = &stats->pins;

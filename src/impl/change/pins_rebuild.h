@@ -1,4 +1,4 @@
-/* pins_rebuild.h: sets of pins made anew: other numbers, or the other way */
+/* pins_rebuild.h: sets of pins made again: other numbers, or the other method */
 #ifndef SLI_CHANGE_PINS_REBUILD_H
 #define SLI_CHANGE_PINS_REBUILD_H
 
@@ -160,7 +160,7 @@ static sl_status sli_pins_fill(sl_pins *D, const sl_pins *P, const sli_pins_targ
     return status;
 }
 
-/* Makes the set anew: with its rows held as h says, or, if that is NULL, all by the capacitance
+/* Makes the set again: with its rows held as h says, or, if that is NULL, all by the capacitance
  * matrix. On error P is as before. is_stale: F has changed. */
 static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_holding *h,
                                   int is_stale, sl_stats *stats) {
@@ -189,12 +189,12 @@ static sl_status sli_pins_rebuild(sl_pins *P, const sli_pins_target *t, sli_hold
     return SL_OK;
 }
 
-/* Is this the outcome of numbers, after which the other way may be tried? */
+/* Is this the outcome of numbers, after which the other method may be tried? */
 static int sli_pins_is_refused(sl_status status) {
     return status != SL_OK && status != SL_ERR_MEMORY;
 }
 
-/* Makes the set anew by the cheaper way, with the values of A, or NULL. margin: elimination may
+/* Makes the set again by the cheaper method, with the values of A, or NULL. margin: elimination may
  * cost this much more. */
 static sl_status sli_pins_remake(sl_pins *P, const sli_pins_target *t, double *values,
                                  double margin, int is_stale, sl_stats *stats) {

@@ -59,7 +59,7 @@ struct sl_pins {
     sl_int n_used;   /* null pivots with pins */
 
     /* by elimination (pins_held.h) */
-    sl_pins_reason reason; /* of the present way */
+    sl_pins_reason reason; /* of the present method */
     double *values;        /* of A, in the order of the scatter map; NULL: A is not known */
     sl_factor *G;          /* of A with identity rows; NULL: not made yet */
     sl_int n_held, n_couplings;
@@ -72,7 +72,7 @@ struct sl_pins {
     double *couplings;         /* and the value */
     sli_reach held_reach;      /* of the other rows */
     double spent;              /* seconds on capacitance since the last choice, as estimated */
-    double threshold;          /* at which the next choice is due */
+    double threshold;          /* at which the next choice is made */
     double capacitance, elimination; /* seconds of the last choice */
 };
 

@@ -6,7 +6,7 @@
 #include "subset.h"
 
 /* Below this share of kept columns none is kept. Bands, checkerboards and random rows of which 36
- * to 42 % are kept take as long either way. */
+ * to 42 % are kept take as long with as without it. */
 #define SLI_RESTRICT_KEPT 0.4
 
 /* Rows of R are scattered in memory: so many ahead they are fetched. */
@@ -22,7 +22,7 @@
 
 /* If a supernode of A and all its descendants are in R, L has the same numbers in A and in A[R, R],
  * without the rows that are not in R. These kept supernodes are whole subtrees. All other columns
- * of R are analyzed anew. Their graph has the entries of A between them and, for each subtree, a
+ * of R are analyzed again. Their graph has the entries of A between them and, for each subtree, a
  * clique of the rows below it, which are new columns: its Schur complement. A clique is given as
  * the entries of its first row, as elimination of that row completes it.
  *

@@ -49,8 +49,8 @@ typedef struct sli_update {
     double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
 } sli_update;
 
-/* The kernel for passes of `count` vectors. One vector takes another way (path.h) where all pivots
- * have one sign. */
+/* The kernel for passes of `count` vectors. One vector takes another kernel (path.h) where all
+ * pivots have one sign. */
 SLI_INLINE int sli_update_kind(sl_int count) {
     return count == 1 ? SLI_NRHS_2 : sli_lanes_kind(count);
 }
