@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 57dadcbe8bd61951
+ * FNV-1a of the lines after this comment, without the license: a2b59d938ae47206
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,52 +7,52 @@
  *    164 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    197 config.h     macros that a user may define before the include, the version, and the integer types
  *    275 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    445 options.h    options of all calls, threads, and the allocator
- *    584 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    783 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    881 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    955 factor.h     the numerical factorization P A P' = L D L'
- *   1076 solve.h      full solves, and the workspace of all solves
- *   1169 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1247 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1346 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1463 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1542 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1636 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1742 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1781 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   1909 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   1941 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2129 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2239 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2366 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2406 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2494 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2603 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2640 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2713 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2753 impl/ base: the compiler, status, memory, sorting, threads
- *   3735 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4570 impl/ matrix: sparse matrices of the caller and of the library
- *   5113 impl/ ordering: fill-reducing orderings of a graph
- *   9490 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11436 impl/ factor: the numbers of L and D
- *  14191 impl/ solve: full and local solves
- *  15759 impl/ accuracy: refinement, condition, defects, half solves
- *  16605 impl/ pivots: the order of the pivots by the values of a matrix
- *  17019 impl/ float: L and fronts in single precision
- *  17470 impl/ inverse: entries of the inverse, regions
- *  20015 impl/ change: a factor that follows changes of its matrix
- *  26567 impl/ io: files that are written and mapped
- *  26877 impl/ files: Matrix Market files, 64-bit indices
- *  27403 impl/ save: factors in files
- *  29218 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29876 impl/ batch: diagonals of many inverses
- *  30016 impl/ complex: complex Hermitian systems over real factors
- *  30537 impl/ complex: entries of the inverse
- *  30589 impl/ packs: the tables through which the core calls packs
- *  30621 impl/ last: undefine every internal macro
- *  30909 impl/ templates: the header includes them from itself, once for each instruction set
+ *    446 options.h    options of all calls, threads, and the allocator
+ *    585 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    784 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    882 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    956 factor.h     the numerical factorization P A P' = L D L'
+ *   1077 solve.h      full solves, and the workspace of all solves
+ *   1170 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1248 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1347 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1464 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1543 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1637 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1743 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1782 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   1910 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   1942 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2131 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2241 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2368 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2408 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2496 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2605 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2642 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2715 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2755 impl/ base: the compiler, status, memory, sorting, threads
+ *   3737 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4588 impl/ matrix: sparse matrices of the caller and of the library
+ *   5131 impl/ ordering: fill-reducing orderings of a graph
+ *   9508 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11454 impl/ factor: the numbers of L and D
+ *  14217 impl/ solve: full and local solves
+ *  15785 impl/ accuracy: refinement, condition, defects, half solves
+ *  16631 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17045 impl/ float: L and fronts in single precision
+ *  17505 impl/ inverse: entries of the inverse, regions
+ *  20050 impl/ change: a factor that follows changes of its matrix
+ *  26602 impl/ io: files that are written and mapped
+ *  26912 impl/ files: Matrix Market files, 64-bit indices
+ *  27438 impl/ save: factors in files
+ *  29253 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29911 impl/ batch: diagonals of many inverses
+ *  30051 impl/ complex: complex Hermitian systems over real factors
+ *  30577 impl/ complex: entries of the inverse
+ *  30629 impl/ packs: the tables through which the core calls packs
+ *  30661 impl/ last: undefine every internal macro
+ *  30951 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -381,7 +381,8 @@ typedef enum sl_method {
 } sl_method;
 
 /** How a factor keeps L. B, X and the arithmetic of solves are double in any case. Accuracy and
- *  limits: tools/docs/float.md. */
+ *  limits: tools/docs/float.md. Of the others, plain C (SL_ISA_SCALAR, processors without AVX2) has
+ *  no kernels where SIMD is compiled in: a factor then keeps L in double, as stats.storage says. */
 typedef enum sl_storage {
     SL_STORAGE_DOUBLE = 0,
     SL_STORAGE_FLOAT,        /* half the bytes of L, its accuracy until refined */
@@ -2053,8 +2054,9 @@ SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_se
  *  checks  [in]      see sl_load_checks.
  *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
- *           cannot read, or the isa; SL_ERR_IO: incomplete, damaged or inconsistent;
- *           SL_ERR_TOO_LARGE: sizes do not fit size_t; SL_ERR_MEMORY.
+ *           cannot read, the isa, or L in float where isa keeps it in double (sl_storage);
+ *           SL_ERR_IO: incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
+ *           size_t; SL_ERR_MEMORY.
  *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
  *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
  *           roots) for regions. Never allocates more than `bytes` and the size of analysis and
@@ -4564,6 +4566,22 @@ SLI_INLINE int sli_isa_row(sl_isa isa) {
 #else
 #define SLI_ISA_TABLES(name) \
   { NULL, &name##_scalar, NULL, NULL }
+#endif
+
+#if defined(SLI_X86) || defined(SLI_ARM)
+#define SLI_SIMD 1
+#endif
+#if defined(SLI_AVX512)
+#define SLI_STORAGE_TABLES(name) \
+  { NULL, NULL, &name##_avx2, &name##_avx512 }
+#elif defined(SLI_X86)
+#define SLI_STORAGE_TABLES(name) \
+  { NULL, NULL, &name##_avx2, NULL }
+#elif defined(SLI_ARM)
+#define SLI_STORAGE_TABLES(name) \
+  { &name##_neon, NULL, NULL, NULL }
+#else
+#define SLI_STORAGE_TABLES SLI_ISA_TABLES
 #endif
 
 /* matrix: sparse matrices of the caller and of the library */
@@ -13760,8 +13778,9 @@ static int sli_updates_exceed(const sl_symbolic *S) {
   return sum > most;
 }
 
-static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-  if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
+static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
+              const sl_options *opt) {
+  if (S->n_pairs > 0 || type->storage != SL_STORAGE_DOUBLE) {
     return SL_METHOD_SUPERNODAL;
   }
   if (opt != NULL && opt->method != SL_METHOD_AUTO) {
@@ -13797,6 +13816,9 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
   F->stats.factor.isa = F->kernels->isa;
   F->stats.factor.method = F->method;
   F->sweeps = F->type->sweeps(F->kernels);
+  if (F->sweeps == NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
   F->front = F->type->front(F->kernels);
   F->stats.storage = (sl_off)F->type->storage;
   return SL_OK;
@@ -13812,14 +13834,18 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   memset(&draft, 0, sizeof draft);
   draft.allocator = a;
   draft.S = S;
-  draft.kernels = kernels;
+  draft.kernels =
+    kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
   draft.analysis = S->identity;
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
   if (draft.type == NULL) { /* untested: all packs are there */
     return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
   }
+  if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
+    draft.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
+  }
   sli_factor_rules(&draft, opt);
-  draft.method = sli_method(S, opt);
+  draft.method = sli_method(S, draft.type, opt);
   status = (S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP) ||
            (draft.type->suits != NULL && !draft.type->suits(&draft))
          ? SL_ERR_UNSUPPORTED
@@ -17018,6 +17044,8 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
 #if defined(SL_WITH_FLOAT)
 /* src/impl/float/simd_scalar_single.h: the kernels of fronts in float in plain C: a vector is an array */
 
+#if !defined(SLI_SIMD)
+
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLV_NAME(f) sli_single_##f##_scalar
@@ -17047,6 +17075,8 @@ SL_API sl_status sl_symbolic_create_pivoted(sl_symbolic **out, const sl_csc *A,
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
+#endif
+
 /* src/impl/float/simd_avx2_single.h: the kernels of fronts in float in AVX2: a vector of 8 is one register */
 
 #if defined(SLI_X86)
@@ -17211,6 +17241,7 @@ typedef struct sli_float_kernels {
   sli_front_kernels front;
 } sli_float_kernels;
 
+#if !defined(SLI_SIMD)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
@@ -17224,6 +17255,8 @@ typedef struct sli_float_kernels {
 #define SLI_SECTION_LANES_UNDEF
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
+#endif
+
 #if defined(SLI_X86)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
@@ -17298,7 +17331,8 @@ typedef struct sli_float_kernels {
 #endif
 
 SLI_INLINE const sli_float_kernels *sli_float_kernels_of(sl_isa isa) {
-  static const sli_float_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_float_kernels);
+  static const sli_float_kernels *const tables[SLI_ISAS] =
+    SLI_STORAGE_TABLES(sli_float_kernels);
   return tables[sli_isa_row(isa)];
 }
 
@@ -17413,7 +17447,8 @@ static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
 }
 
 static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
-  return &sli_float_kernels_of(kernels->isa)->sweeps;
+  const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
+  return own == NULL ? NULL : &own->sweeps;
 }
 
 static const sli_front_kernels *sli_single_front(const sli_kernels *kernels) {
@@ -30020,6 +30055,7 @@ typedef struct sli_complex_kernels {
   sli_front_kernels front;
 } sli_complex_kernels;
 
+#if !defined(SLI_SIMD)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 2
@@ -30035,6 +30071,8 @@ typedef struct sli_complex_kernels {
 #define SLI_SECTION_LANES_UNDEF
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
+#endif
+
 #if defined(SLI_X86)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
@@ -30121,7 +30159,8 @@ typedef struct sli_complex_kernels {
 #endif
 
 SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
-  static const sli_complex_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_complex_kernels);
+  static const sli_complex_kernels *const tables[SLI_ISAS] =
+    SLI_STORAGE_TABLES(sli_complex_kernels);
   return tables[sli_isa_row(isa)];
 }
 
@@ -30219,7 +30258,8 @@ static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) 
 }
 
 static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
-  return &sli_complex_kernels_of(kernels->isa)->sweeps;
+  const sli_complex_kernels *own = sli_complex_kernels_of(kernels->isa);
+  return own == NULL ? NULL : &own->sweeps;
 }
 
 static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
@@ -30719,6 +30759,8 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_LOOP
 #undef SLI_ISAS
 #undef SLI_ISA_TABLES
+#undef SLI_STORAGE_TABLES
+#undef SLI_SIMD
 #undef SLV_PARTS
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS

@@ -117,8 +117,9 @@ SL_API SL_WARN_UNUSED sl_status sl_save_file(const char *path, const sl_saved_se
  *  checks  [in]      see sl_load_checks.
  *  opt     [in]      allocator, threads, isa; may be NULL. threads are those of refactorizations.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_UNSUPPORTED: not a saved factor, one that this version
- *           cannot read, or the isa; SL_ERR_IO: incomplete, damaged or inconsistent;
- *           SL_ERR_TOO_LARGE: sizes do not fit size_t; SL_ERR_MEMORY.
+ *           cannot read, the isa, or L in float where isa keeps it in double (sl_storage);
+ *           SL_ERR_IO: incomplete, damaged or inconsistent; SL_ERR_TOO_LARGE: sizes do not fit
+ *           size_t; SL_ERR_MEMORY.
  *  Cost     the copy, and checks in O(n + rows of the supernodes + entries of A), O(supernodes) for
  *           a selected inverse and O(roots and rows of the boundary, log n each, and rows below the
  *           roots) for regions. Never allocates more than `bytes` and the size of analysis and

@@ -99,6 +99,8 @@
 #undef SLI_LOOP
 #undef SLI_ISAS
 #undef SLI_ISA_TABLES
+#undef SLI_STORAGE_TABLES
+#undef SLI_SIMD
 #undef SLV_PARTS
 #undef SLV_FRONT
 #undef SLV_FRONT_PIVOTS

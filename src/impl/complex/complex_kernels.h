@@ -9,6 +9,7 @@ typedef struct sli_complex_kernels {
     sli_front_kernels front;
 } sli_complex_kernels;
 
+#if !defined(SLI_SIMD)
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 1
 #define SLW_NRHS 2
@@ -23,6 +24,7 @@ typedef struct sli_complex_kernels {
 #include "complex_set.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #include "../kernels/words_undef.inl.h"
+#endif
 
 #if defined(SLI_X86)
 #define SLV_SINGLE 0
@@ -95,9 +97,10 @@ typedef struct sli_complex_kernels {
 #include "../kernels/words_undef.inl.h"
 #endif
 
-/* The table of an instruction set. */
+/* The table of an instruction set; NULL: it has none, so that L is kept in double. */
 SLI_INLINE const sli_complex_kernels *sli_complex_kernels_of(sl_isa isa) {
-    static const sli_complex_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_complex_kernels);
+    static const sli_complex_kernels *const tables[SLI_ISAS] =
+        SLI_STORAGE_TABLES(sli_complex_kernels);
     return tables[sli_isa_row(isa)];
 }
 

@@ -106,7 +106,8 @@ static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) 
 }
 
 static const sli_sweeps *sli_complex_sweeps(const sli_kernels *kernels) {
-    return &sli_complex_kernels_of(kernels->isa)->sweeps;
+    const sli_complex_kernels *own = sli_complex_kernels_of(kernels->isa);
+    return own == NULL ? NULL : &own->sweeps;
 }
 
 static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {

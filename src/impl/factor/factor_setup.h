@@ -269,8 +269,9 @@ static int sli_updates_exceed(const sl_symbolic *S) {
  * supernodal method is 1.1 to 6 times faster, unless update matrices fill the memory: with 64 dense
  * rows beside 1e5 rows of a diagonal, they take 42 times as much as L, and the first factor takes 8
  * times as long. */
-static sl_method sli_method(const sl_symbolic *S, const sl_options *opt) {
-    if (S->n_pairs > 0 || (opt != NULL && opt->storage != SL_STORAGE_DOUBLE)) {
+static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
+                            const sl_options *opt) {
+    if (S->n_pairs > 0 || type->storage != SL_STORAGE_DOUBLE) {
         return SL_METHOD_SUPERNODAL; /* only fronts have 2x2 pivots, and L before it is stored */
     }
     if (opt != NULL && opt->method != SL_METHOD_AUTO) {
@@ -308,6 +309,9 @@ static sl_status sli_factor_use(sl_factor *F, const sl_options *opt) {
     F->stats.factor.isa = F->kernels->isa;
     F->stats.factor.method = F->method;
     F->sweeps = F->type->sweeps(F->kernels);
+    if (F->sweeps == NULL) {
+        return SL_ERR_UNSUPPORTED; /* a saved factor, whose L cannot become double */
+    }
     F->front = F->type->front(F->kernels);
     F->stats.storage = (sl_off)F->type->storage;
     return SL_OK;
@@ -325,14 +329,18 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     memset(&draft, 0, sizeof draft);
     draft.allocator = a;
     draft.S = S;
-    draft.kernels = kernels;
+    draft.kernels =
+        kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
     draft.analysis = S->identity;
     draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
     if (draft.type == NULL) { /* untested: all packs are there */
         return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
     }
+    if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
+        draft.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
+    }
     sli_factor_rules(&draft, opt);
-    draft.method = sli_method(S, opt);
+    draft.method = sli_method(S, draft.type, opt);
     status = (S->is_pivoted && draft.null.mode == SL_NULL_PIVOT_SKIP) ||
                      (draft.type->suits != NULL && !draft.type->suits(&draft))
                  ? SL_ERR_UNSUPPORTED

@@ -13,6 +13,7 @@ struct sli_storage_type {
     size_t front_bytes; /* of a number of a front and of its update matrix */
     int half;           /* 1: panels and fronts hold the first columns of pairs only; else 0 */
     double epsilon;     /* the rounding unit of fronts */
+    /* NULL: the instruction set of the kernels does not serve this storage */
     const sli_sweeps *(*sweeps)(const sli_kernels *kernels);
     const sli_front_kernels *(*front)(const sli_kernels *kernels);
 

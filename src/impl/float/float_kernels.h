@@ -12,6 +12,7 @@ typedef struct sli_float_kernels {
     sli_front_kernels front;
 } sli_float_kernels;
 
+#if !defined(SLI_SIMD)
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLW_NRHS 2
@@ -24,6 +25,7 @@ typedef struct sli_float_kernels {
 #include "float_set.inl.h"
 #include "../kernels/lanes_undef.inl.h"
 #include "../kernels/words_undef.inl.h"
+#endif
 
 #if defined(SLI_X86)
 #define SLV_SINGLE 1
@@ -86,9 +88,10 @@ typedef struct sli_float_kernels {
 #include "../kernels/words_undef.inl.h"
 #endif
 
-/* The table of an instruction set. */
+/* The table of an instruction set; NULL: it has none, so that L is kept in double. */
 SLI_INLINE const sli_float_kernels *sli_float_kernels_of(sl_isa isa) {
-    static const sli_float_kernels *const tables[SLI_ISAS] = SLI_ISA_TABLES(sli_float_kernels);
+    static const sli_float_kernels *const tables[SLI_ISAS] =
+        SLI_STORAGE_TABLES(sli_float_kernels);
     return tables[sli_isa_row(isa)];
 }
 

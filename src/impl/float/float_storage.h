@@ -139,7 +139,8 @@ static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
 }
 
 static const sli_sweeps *sli_float_sweeps(const sli_kernels *kernels) {
-    return &sli_float_kernels_of(kernels->isa)->sweeps;
+    const sli_float_kernels *own = sli_float_kernels_of(kernels->isa);
+    return own == NULL ? NULL : &own->sweeps;
 }
 
 static const sli_front_kernels *sli_single_front(const sli_kernels *kernels) {

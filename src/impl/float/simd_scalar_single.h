@@ -4,6 +4,8 @@
 
 #include "../kernels/dispatch.h"
 
+#if !defined(SLI_SIMD)
+
 #define SLV_SINGLE 1
 #define SLV_COMPLEX 0
 #define SLV_NAME(f) sli_single_##f##_scalar
@@ -32,5 +34,7 @@
 #define SLV_OWN_PIVOTS
 #include "../kernels/front.inl.h"
 #include "../kernels/words_undef.inl.h"
+
+#endif
 
 #endif

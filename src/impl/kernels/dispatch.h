@@ -132,4 +132,22 @@ SLI_INLINE int sli_isa_row(sl_isa isa) {
     { NULL, &name##_scalar, NULL, NULL }
 #endif
 
+/* The tables of a storage of L. Where SIMD is compiled in there is none in plain C, where a factor
+ * keeps L in double. */
+#if defined(SLI_X86) || defined(SLI_ARM)
+#define SLI_SIMD 1
+#endif
+#if defined(SLI_AVX512)
+#define SLI_STORAGE_TABLES(name) \
+    { NULL, NULL, &name##_avx2, &name##_avx512 }
+#elif defined(SLI_X86)
+#define SLI_STORAGE_TABLES(name) \
+    { NULL, NULL, &name##_avx2, NULL }
+#elif defined(SLI_ARM)
+#define SLI_STORAGE_TABLES(name) \
+    { &name##_neon, NULL, NULL, NULL }
+#else
+#define SLI_STORAGE_TABLES SLI_ISA_TABLES
+#endif
+
 #endif
