@@ -16,7 +16,7 @@ static sl_options options_float(sl_isa isa) {
  * most twice the largest diagonal entry, as the matrix is definite. */
 static void pivots_have_the_accuracy_of_float(void **state) {
     (void)state;
-    const isa_list_t isas = isas_present();
+    const isa_list_t isas = isas_with_storages();
     for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
         for (int k = 0; k < isas.count; k++) {
             sl_options opt = options_float(isas.isa[k]);

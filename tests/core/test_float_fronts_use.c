@@ -108,7 +108,7 @@ static void a_pivot_that_overflows_is_refused(void **state) {
     static const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
     static const double x[3] = {1e-30, 1e18, 1.0};
     const sl_csc A = {2, 2, p, i, x};
-    const isa_list_t isas = isas_present();
+    const isa_list_t isas = isas_with_storages();
     sl_symbolic *S = analyze_natural(&A, SL_RELAXATION_DEFAULT);
     for (int k = 0; k < isas.count; k++) {
         sl_options opt = options_float(isas.isa[k]);

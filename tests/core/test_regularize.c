@@ -200,6 +200,7 @@ static void shifts_in_float_are_limited(void **state) {
     const sl_csc A = {2, 2, p, i, zeros};
     variant_list_t variants = variants_present();
     for (int k = 0; k < variants.count; k++) {
+        const double shift = isa_keeps_storage(variants.variant[k].isa) ? (double)FLT_MAX : 1e39;
         sl_options opt = options_none();
         sl_symbolic *S;
         sl_factor *F;
@@ -213,7 +214,7 @@ static void shifts_in_float_are_limited(void **state) {
         opt.growth_limit = opt.error_limit = -1.0;
         SL_CHECK(sl_factor_create(&F, S, &A, &opt, NULL));
         SL_CHECK(sl_factor_solve(F, x, 2, b, 2, 1, NULL));
-        assert_true(x[0] == 1.0 / (double)FLT_MAX && x[1] == -1.0 / (double)FLT_MAX);
+        assert_true(x[0] == 1.0 / shift && x[1] == -1.0 / shift);
         sl_factor_free(F);
         sl_symbolic_free(S);
     }

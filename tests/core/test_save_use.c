@@ -249,6 +249,29 @@ static void batches_refactor_loaded_factors(void **state) {
 
 /* ---- arguments, and memory that fails ---- */
 
+/* L in float is not loaded with an instruction set that keeps it in double. */
+static void l_in_float_needs_its_kernels(void **state) {
+    (void)state;
+    static const saved_call_t calls[2] = {pair_load_memory, pair_map_memory};
+    const sl_options from = options_none();
+    sl_options opt = options_none();
+    opt.isa = SL_ISA_SCALAR;
+    for (int k = 0; k < 4; k++) {
+        saved_case_t c =
+            saved_case_make(k % 2 ? SAVED_FLOAT : SAVED_FLOAT_FRONTS, GEN_GRID2, 70, 0, &from);
+        saved_t m = saved_make(c.y.S, c.y.F);
+        sl_symbolic *S = c.y.S;
+        sl_factor *F = c.y.F;
+        SL_EXPECT(isa_keeps_storage(opt.isa) ? SL_OK : SL_ERR_UNSUPPORTED,
+                  calls[k / 2](&S, &F, m.bytes, m.size, SL_LOAD_CHECKED, &opt));
+        assert_int_equal(S != NULL && F != NULL, isa_keeps_storage(opt.isa));
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        saved_free(&m);
+        saved_case_free(&c);
+    }
+}
+
 static void wrong_arguments_are_refused(void **state) {
     (void)state;
     factored_t y = factored_make(GEN_GRID2, 25, 1, 0, NULL),
@@ -356,6 +379,7 @@ int main(void) {
         cmocka_unit_test(a_drift_is_kept_as_growth),
         cmocka_unit_test(the_error_limit_is_kept),
         cmocka_unit_test(batches_refactor_loaded_factors),
+        cmocka_unit_test(l_in_float_needs_its_kernels),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(allocations_may_fail),
     };

@@ -8,7 +8,7 @@
 /* L in float is L in double, rounded, and D is the same, with any number of threads. */
 static void the_double_factor_is_rounded(void **state) {
     (void)state;
-    const isa_list_t isas = isas_present();
+    const isa_list_t isas = isas_with_storages();
     int calls = 0;
     for (int kind = GEN_ONE; kind < GEN_REGULAR; kind++) {
         for (int k = 0; k < 2 * isas.count; k++) {
@@ -31,6 +31,31 @@ static void the_double_factor_is_rounded(void **state) {
             SL_CHECK(sl_factor_refactor(G, &y.M.view, NULL));
             for (sl_off at = 0; at < panel_doubles(y.F); at++) {
                 assert_true(g.L_float[at] == (float)f.L[at]);
+            }
+            sl_factor_free(G);
+            factored_free(&y);
+        }
+    }
+}
+
+/* Beside SIMD, plain C keeps L in double: the factor is that of SL_STORAGE_DOUBLE. */
+static void plain_c_keeps_double_beside_simd(void **state) {
+    (void)state;
+    for (int kind = GEN_NONE; kind < GEN_REGULAR; kind++) {
+        for (int k = 0; k < 2; k++) {
+            sl_options opt = options_of(SL_STORAGE_DOUBLE, SL_ISA_SCALAR);
+            factored_t y = factored_make((gen_kind_t)kind, 200, 1, kind % GEN_STYLES, &opt);
+            const sl_storage kept = isa_keeps_storage(SL_ISA_SCALAR) ? floats[k] : opt.storage;
+            sl_factor *G = NULL;
+            sl_stats stats;
+            opt.storage = floats[k];
+            SL_CHECK(sl_factor_create(&G, y.S, &y.M.view, &opt, &stats));
+            assert_int_equal(stats.storage, kept);
+            sl_factor_stats(G, &stats);
+            assert_int_equal(stats.storage, kept);
+            assert_int_equal(sl_factor_view(G).L_float == NULL, kept == SL_STORAGE_DOUBLE);
+            if (kept == SL_STORAGE_DOUBLE) {
+                assert_same_bits(y.F, G);
             }
             sl_factor_free(G);
             factored_free(&y);
@@ -162,7 +187,7 @@ static void exact_inverses(const exact_t *e) {
 
 static void an_exact_factor_gives_the_same_bits(void **state) {
     (void)state;
-    const isa_list_t isas = isas_present();
+    const isa_list_t isas = isas_with_storages();
     static const sl_int sizes[5] = {1, 7, 40, 90, 150};
     for (int k = 0; k < 10 * isas.count; k++) {
         for (sl_int dense = 0; dense <= 40; dense += 9) {
@@ -331,6 +356,7 @@ static void singular_systems_are_solved(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_double_factor_is_rounded),
+        cmocka_unit_test(plain_c_keeps_double_beside_simd),
         cmocka_unit_test(an_exact_factor_gives_the_same_bits),
         cmocka_unit_test(local_solves_equal_full_ones),
         cmocka_unit_test(refinement_brings_the_accuracy_of_double),

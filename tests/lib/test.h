@@ -270,6 +270,21 @@ static inline isa_list_t isas_present(void) {
     return list;
 }
 
+/* Does a factor keep L in float or as complex? Beside SIMD, plain C has no kernels for it. */
+static inline int isa_keeps_storage(sl_isa isa) {
+    return isa != SL_ISA_SCALAR || isas_present().count == 1;
+}
+
+/* Those with which it does. */
+static inline isa_list_t isas_with_storages(void) {
+    isa_list_t list = isas_present();
+    if (list.count > 1) {
+        list.count--;
+        memmove(list.isa, list.isa + 1, (size_t)list.count * sizeof *list.isa);
+    }
+    return list;
+}
+
 /* ---- variants of the factorization: every method with every instruction set ---- */
 
 typedef struct variant_list_t {
