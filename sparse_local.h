@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: a2b59d938ae47206
+ * FNV-1a of the lines after this comment, without the license: 3497421da44aea01
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -38,21 +38,21 @@
  *   9508 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11454 impl/ factor: the numbers of L and D
  *  14217 impl/ solve: full and local solves
- *  15785 impl/ accuracy: refinement, condition, defects, half solves
- *  16631 impl/ pivots: the order of the pivots by the values of a matrix
- *  17045 impl/ float: L and fronts in single precision
- *  17505 impl/ inverse: entries of the inverse, regions
- *  20050 impl/ change: a factor that follows changes of its matrix
- *  26602 impl/ io: files that are written and mapped
- *  26912 impl/ files: Matrix Market files, 64-bit indices
- *  27438 impl/ save: factors in files
- *  29253 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29911 impl/ batch: diagonals of many inverses
- *  30051 impl/ complex: complex Hermitian systems over real factors
- *  30577 impl/ complex: entries of the inverse
- *  30629 impl/ packs: the tables through which the core calls packs
- *  30661 impl/ last: undefine every internal macro
- *  30951 impl/ templates: the header includes them from itself, once for each instruction set
+ *  15797 impl/ accuracy: refinement, condition, defects, half solves
+ *  16629 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17043 impl/ float: L and fronts in single precision
+ *  17503 impl/ inverse: entries of the inverse, regions
+ *  20048 impl/ change: a factor that follows changes of its matrix
+ *  26600 impl/ io: files that are replaced only when they are complete
+ *  26812 impl/ files: Matrix Market files, 64-bit indices
+ *  27338 impl/ save: factors in files
+ *  29251 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29909 impl/ batch: diagonals of many inverses
+ *  30049 impl/ complex: complex Hermitian systems over real factors
+ *  30575 impl/ complex: entries of the inverse
+ *  30627 impl/ packs: the tables through which the core calls packs
+ *  30659 impl/ last: undefine every internal macro
+ *  30949 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -14245,6 +14245,13 @@ static sl_work sli_work_own(const sl_allocator *a) {
   return own;
 }
 
+SLI_INLINE sl_status sli_work_block(sl_work *W, sli_block *b) {
+  const sl_status status = sli_work_grow(W, b->used);
+  b->base = (unsigned char *)W->block;
+  b->used = 0;
+  return status;
+}
+
 typedef struct sli_stage {
   void (*layout)(void *q, sli_block *b);
   void (*fill)(void *q);
@@ -14482,6 +14489,11 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
   const int is_misaligned = r->X == r->B && r->ldx != r->ldb && nx > 0 && nb > 0;
   return r->nrhs < 0 || (r->nrhs > 0 && (bad_x || bad_b || is_misaligned)) ? SL_ERR_ARGUMENT
                                        : SL_OK;
+}
+
+SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
+  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                               : sli_rhs_check(r, nx, nb);
 }
 
 #define SLI_ROWS_AHEAD 32
@@ -15782,20 +15794,6 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
 
 /* accuracy: refinement, condition, defects, half solves */
 #if defined(SL_WITH_ACCURACY)
-/* src/impl/accuracy/call.h: what calls on accuracy share: layouts in the workspace, column-major arguments */
-
-static sl_status sli_work_block(sl_work *W, sli_block *b) {
-  const sl_status status = sli_work_grow(W, b->used);
-  b->base = (unsigned char *)W->block;
-  b->used = 0;
-  return status;
-}
-
-static sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
-  return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
-                               : sli_rhs_check(r, nx, nb);
-}
-
 /* src/impl/accuracy/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
 
 typedef struct sli_parts {
@@ -26597,7 +26595,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
 }
 
 #endif
-/* io: files that are written and mapped */
+/* io: files that are replaced only when they are complete */
 #if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
 /* src/impl/io/output_file.h: a file that takes the place of an old one only once it is complete */
 
@@ -26806,104 +26804,6 @@ static int sli_output_close(sli_output *o, int complete, const sl_allocator *a) 
     sli_free(a, o->temporary);
   }
   return ok;
-}
-
-/* src/impl/io/file_map.h: files mapped into memory, read-only, and the size of a file */
-
-typedef struct sli_mapping {
-  const void *bytes;
-  size_t size;
-} sli_mapping;
-
-static sl_status sli_map(const char *path, sli_mapping *out) {
-  sl_status status = SL_ERR_IO;
-  out->bytes = NULL;
-  out->size = 0;
-#if defined(SLI_MMAP)
-  {
-    const int file = open(path, O_RDONLY);
-    struct stat found;
-    void *bytes;
-    if (file < 0) {
-      return SL_ERR_IO;
-    }
-    if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
-      const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
-      status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
-    }
-    if (status == SL_OK) {
-      bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
-      if (bytes == MAP_FAILED) {
-        status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
-      } else {
-        out->bytes = bytes;
-        out->size = (size_t)found.st_size;
-      }
-    }
-    close(file);
-  }
-#elif defined(SLI_MAP_VIEW)
-  {
-    void *const file = CreateFileA(path, 0x80000000u, 1 | 4, NULL, 3, 0x80, NULL);
-    void *section;
-    int64_t size = 0;
-    if ((intptr_t)file == -1) {
-      return SL_ERR_IO;
-    }
-    if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
-      status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
-    }
-    section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
-    if (section != NULL) {
-      out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
-      CloseHandle(section);
-    }
-    if (status == SL_OK && out->bytes == NULL) {
-      status = SL_ERR_IO;
-    } else if (status == SL_OK) {
-      out->size = (size_t)size;
-    }
-    CloseHandle(file);
-  }
-#else
-  (void)path;
-  status = SL_ERR_UNSUPPORTED;
-#endif
-  return status;
-}
-
-static void sli_unmap(const void *bytes, size_t size) {
-  if (bytes != NULL) {
-#if defined(SLI_MMAP)
-    munmap((void *)(uintptr_t)bytes, size);
-#elif defined(SLI_MAP_VIEW)
-    UnmapViewOfFile(bytes);
-    (void)size;
-#endif
-  }
-}
-
-static uint64_t sli_file_size(FILE *file) {
-#if defined(_WIN32)
-  const int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : 0;
-#else
-  const int64_t size = fseek(file, 0, SEEK_END) == 0 ? (int64_t)ftell(file) : 0;
-#endif
-  rewind(file);
-  return size > 0 ? (uint64_t)size : 0;
-}
-
-static int sli_flush(FILE *file) {
-  if (fflush(file) != 0) {
-    return 0;
-  }
-#if defined(SLI_FSYNC)
-  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
-#elif defined(_WIN32)
-  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file));
-#else
-  return 1;
-#endif
 }
 
 #endif
@@ -27435,6 +27335,104 @@ SL_API sl_status sl_csc_write(const sl_csc *A, sl_reading reading, const char *p
 #endif
 /* save: factors in files */
 #if defined(SL_WITH_SAVE)
+/* src/impl/save/file_map.h: files mapped into memory, read-only, and the size of a file */
+
+typedef struct sli_mapping {
+  const void *bytes;
+  size_t size;
+} sli_mapping;
+
+static sl_status sli_map(const char *path, sli_mapping *out) {
+  sl_status status = SL_ERR_IO;
+  out->bytes = NULL;
+  out->size = 0;
+#if defined(SLI_MMAP)
+  {
+    const int file = open(path, O_RDONLY);
+    struct stat found;
+    void *bytes;
+    if (file < 0) {
+      return SL_ERR_IO;
+    }
+    if (fstat(file, &found) == 0 && S_ISREG(found.st_mode) && found.st_size > 0) {
+      const int is_huge = (uint64_t)found.st_size > SIZE_MAX / 2;
+      status = is_huge ? SL_ERR_TOO_LARGE : SL_OK; /* untested: on 32 bits only */
+    }
+    if (status == SL_OK) {
+      bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_SHARED, file, 0);
+      if (bytes == MAP_FAILED) {
+        status = errno == ENOMEM ? SL_ERR_MEMORY : SL_ERR_IO;
+      } else {
+        out->bytes = bytes;
+        out->size = (size_t)found.st_size;
+      }
+    }
+    close(file);
+  }
+#elif defined(SLI_MAP_VIEW)
+  {
+    void *const file = CreateFileA(path, 0x80000000u, 1 | 4, NULL, 3, 0x80, NULL);
+    void *section;
+    int64_t size = 0;
+    if ((intptr_t)file == -1) {
+      return SL_ERR_IO;
+    }
+    if (GetFileSizeEx(file, (sli_windows_number)(void *)&size) && size > 0) {
+      status = (uint64_t)size > SIZE_MAX / 2 ? SL_ERR_TOO_LARGE : SL_OK;
+    }
+    section = status != SL_OK ? NULL : CreateFileMappingA(file, NULL, 2, 0, 0, NULL);
+    if (section != NULL) {
+      out->bytes = MapViewOfFile(section, 4, 0, 0, 0);
+      CloseHandle(section);
+    }
+    if (status == SL_OK && out->bytes == NULL) {
+      status = SL_ERR_IO;
+    } else if (status == SL_OK) {
+      out->size = (size_t)size;
+    }
+    CloseHandle(file);
+  }
+#else
+  (void)path;
+  status = SL_ERR_UNSUPPORTED;
+#endif
+  return status;
+}
+
+static void sli_unmap(const void *bytes, size_t size) {
+  if (bytes != NULL) {
+#if defined(SLI_MMAP)
+    munmap((void *)(uintptr_t)bytes, size);
+#elif defined(SLI_MAP_VIEW)
+    UnmapViewOfFile(bytes);
+    (void)size;
+#endif
+  }
+}
+
+static uint64_t sli_file_size(FILE *file) {
+#if defined(_WIN32)
+  const int64_t size = _fseeki64(file, 0, SEEK_END) == 0 ? _ftelli64(file) : 0;
+#else
+  const int64_t size = fseek(file, 0, SEEK_END) == 0 ? (int64_t)ftell(file) : 0;
+#endif
+  rewind(file);
+  return size > 0 ? (uint64_t)size : 0;
+}
+
+static int sli_flush(FILE *file) {
+  if (fflush(file) != 0) {
+    return 0;
+  }
+#if defined(SLI_FSYNC)
+  return sli_fsync(sli_fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
+#elif defined(_WIN32)
+  return _commit(_fileno(file)) == 0 || _isatty(_fileno(file));
+#else
+  return 1;
+#endif
+}
+
 /* src/impl/save/format.h: saved factors: header, table of sections, and which sections objects have */
 
 #define SLI_READ_VERSION 2

@@ -151,7 +151,6 @@ extern "C" {
 #include "impl/solve/local.h"
 /* accuracy: refinement, condition, defects, half solves */
 #if defined(SL_WITH_ACCURACY)
-#include "impl/accuracy/call.h"
 #include "impl/accuracy/parts.h"
 #include "impl/accuracy/refine.h"
 #include "impl/accuracy/refine_local.h"
@@ -228,10 +227,9 @@ extern "C" {
 #include "impl/change/edit.h"
 #include "impl/change/edit_factor.h"
 #endif
-/* io: files that are written and mapped */
+/* io: files that are replaced only when they are complete */
 #if defined(SL_WITH_FILES) || defined(SL_WITH_SAVE)
 #include "impl/io/output_file.h"
-#include "impl/io/file_map.h"
 #endif
 /* files: Matrix Market files, 64-bit indices */
 #if defined(SL_WITH_FILES)
@@ -241,6 +239,7 @@ extern "C" {
 #endif
 /* save: factors in files */
 #if defined(SL_WITH_SAVE)
+#include "impl/save/file_map.h"
 #include "impl/save/format.h"
 #include "impl/save/decode.h"
 #include "impl/save/check.h"

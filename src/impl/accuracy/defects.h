@@ -3,7 +3,6 @@
 #define SLI_ACCURACY_DEFECTS_H
 
 #include "../../public/accuracy.h"
-#include "call.h"
 #include "../solve/sweep.h"
 
 /* Y := the entries of L^-1 P B at the null pivots, in blocks of right-hand sides; Y is rhs->X. */

@@ -3,7 +3,6 @@
 #define SLI_ACCURACY_PARTS_H
 
 #include "../../public/parts.h"
-#include "call.h"
 #include "../solve/plan.h"
 
 /* A call in progress. One vector over one reach serves all parts: q has it as both of its reaches.

@@ -3,7 +3,6 @@
 #define SLI_ACCURACY_REFINE_H
 
 #include "../../public/accuracy.h"
-#include "call.h"
 #include "../matrix/csc_products.h"
 #include "../factor/factor.h"
 #include "../solve/plan.h"

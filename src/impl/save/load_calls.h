@@ -2,7 +2,7 @@
 #ifndef SLI_SAVE_LOAD_CALLS_H
 #define SLI_SAVE_LOAD_CALLS_H
 
-#include "../io/file_map.h"
+#include "file_map.h"
 #include "load_inverse.h"
 
 SL_API void sl_saved_set_free(sl_saved_set *set) {

@@ -2,7 +2,7 @@
 #ifndef SLI_SAVE_WRITE_H
 #define SLI_SAVE_WRITE_H
 
-#include "../io/file_map.h"
+#include "file_map.h"
 #include "../io/output_file.h"
 #include "format.h"
 

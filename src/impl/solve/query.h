@@ -207,6 +207,12 @@ static sl_status sli_rhs_check(const sli_rhs *r, sl_int nx, sl_int nb) {
                                                                              : SL_OK;
 }
 
+/* The same for calls that take columns only. */
+SLI_INLINE sl_status sli_rhs_check_columns(const sli_rhs *r, sl_int nx, sl_int nb) {
+    return r->nrhs > 0 && ((r->ldx | r->ldb) & SL_ROW_MAJOR) ? SL_ERR_ARGUMENT
+                                                             : sli_rhs_check(r, nx, nb);
+}
+
 /* How many rows ahead the loops below prefetch. The caller's order jumps about in the vector, which
  * matters only where a row fills a cache line: with 8 right-hand sides prefetching made packing at
  * n = 1e6 2 times faster; with one it costs 3 percent of a solve. */

@@ -1,6 +1,6 @@
 /* file_map.h: files mapped into memory, read-only, and the size of a file */
-#ifndef SLI_IO_FILE_MAP_H
-#define SLI_IO_FILE_MAP_H
+#ifndef SLI_SAVE_FILE_MAP_H
+#define SLI_SAVE_FILE_MAP_H
 
 #include "../../public/types.h"
 #include "../base/base.h"
