@@ -223,7 +223,7 @@ static void print_row(sl_isa isa) {
     }
     flop = median(list, SYSTEMS);
     fit(grids, x);
-    printf("    {{%.1f, %.1f, %.1f, %.1f}, %.1f, %.1f, %.2f, %.3fe-9}, /* isa %d; the unit is %.3g "
+    printf("    {{%.1f, %.1f, %.1f, %.1f}, %.1f, %.1f, %.2f, %.3fe-9}, /* %s; the unit is %.3g "
            "s */\n",
            lanes[0], lanes[1], lanes[2], lanes[3], x[0] / unit, x[1] / unit, x[2] / unit,
            1e9 * flop, names[isa], unit);

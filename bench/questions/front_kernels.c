@@ -125,8 +125,8 @@ static sli_front front_of(const shape *s, double *item) {
 
 static void run_front(const sli_kernels *kernels, const shape *s, double *item, double *scratch) {
     const sli_front f = front_of(s, item);
-    sli_front_eliminate(&kernels->fronts[0], &f, scratch);
-    sli_front_update(&kernels->fronts[0], &f, scratch);
+    sli_front_eliminate(&kernels->front, &f, scratch);
+    sli_front_update(&kernels->front, &f, scratch);
 }
 
 /* Entry (i, j) of A - L D L', from the columns in the panel. */
@@ -273,7 +273,7 @@ static double *entry_of(const child *c, double *item, sl_int i, sl_int j) {
 static void run_assemble(const sli_kernels *kernels, const child *c, double *item) {
     const sli_front f = front_of(&c->to, item);
     const double *from = item + c->to.panel + c->to.update;
-    kernels->fronts[0].assemble(&f, from, c->from.w % TILE, c->relative, c->from.u, 0, c->from.u);
+    kernels->front.assemble(&f, from, c->from.w % TILE, c->relative, c->from.u, 0, c->from.u);
 }
 
 static void check_assemble(bench_run *run, const sli_kernels *kernels, const child *c, arena *a) {
