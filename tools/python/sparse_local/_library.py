@@ -232,6 +232,8 @@ def check(status, stats=None):
         row = stats.error.row if stats.error.row >= 0 else None
         column = stats.error.column if stats.error.column >= 0 else None
         value = stats.error.value
+        if stats.error.what:
+            text += ": " + stats.error.what.decode()
     raise kind(text, row, column, value)
 
 
