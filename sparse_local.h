@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 3497421da44aea01
+ * FNV-1a of the lines after this comment, without the license: fcd0662fa0fb2c1e
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,22 +37,22 @@
  *   5131 impl/ ordering: fill-reducing orderings of a graph
  *   9508 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11454 impl/ factor: the numbers of L and D
- *  14217 impl/ solve: full and local solves
- *  15797 impl/ accuracy: refinement, condition, defects, half solves
- *  16629 impl/ pivots: the order of the pivots by the values of a matrix
- *  17043 impl/ float: L and fronts in single precision
- *  17503 impl/ inverse: entries of the inverse, regions
- *  20048 impl/ change: a factor that follows changes of its matrix
- *  26600 impl/ io: files that are replaced only when they are complete
- *  26812 impl/ files: Matrix Market files, 64-bit indices
- *  27338 impl/ save: factors in files
- *  29251 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29909 impl/ batch: diagonals of many inverses
- *  30049 impl/ complex: complex Hermitian systems over real factors
- *  30575 impl/ complex: entries of the inverse
- *  30627 impl/ packs: the tables through which the core calls packs
- *  30659 impl/ last: undefine every internal macro
- *  30949 impl/ templates: the header includes them from itself, once for each instruction set
+ *  14209 impl/ solve: full and local solves
+ *  15789 impl/ accuracy: refinement, condition, defects, half solves
+ *  16621 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17035 impl/ float: L and fronts in single precision
+ *  17492 impl/ inverse: entries of the inverse, regions
+ *  20037 impl/ change: a factor that follows changes of its matrix
+ *  26589 impl/ io: files that are replaced only when they are complete
+ *  26801 impl/ files: Matrix Market files, 64-bit indices
+ *  27327 impl/ save: factors in files
+ *  29240 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29898 impl/ batch: diagonals of many inverses
+ *  30038 impl/ complex: complex Hermitian systems over real factors
+ *  30556 impl/ complex: entries of the inverse
+ *  30608 impl/ packs: the tables through which the core calls packs
+ *  30640 impl/ last: undefine every internal macro
+ *  30930 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12685,23 +12685,15 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
   return f;
 }
 
-SLI_INLINE sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker);
-
 #define SLF_NAME(f) sli_double_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->array
-#define SLF_FRONT sli_front_of
+#define SLF_BEGIN sli_front_in_double
 #define SLI_SECTION_FRONTS
 #define SLI_SECTION_FRONTS_UNDEF
 #include SL_HEADER
-SLI_INLINE sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
-  sli_front f = sli_front_in_double(F, s, worker);
-  f.update = sli_double_update_matrix(F, s, worker);
-  return f;
-}
-
 SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
   const sli_step *step = &F->S->steps[f->super];
   f->magnitude = f->update + (sli_update_size(step) >> F->type->half);
@@ -12711,7 +12703,7 @@ SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) 
 }
 
 static sli_front sli_double_shared(const sl_factor *F, sl_int s, sl_int group) {
-  sli_front f = sli_front_of(F, s, 0);
+  sli_front f = sli_double_front_of(F, s, 0);
   sli_front_share(F, &f, group);
   return f;
 }
@@ -17410,23 +17402,11 @@ static void sli_float_entry_clear(void *values, sl_off at) {
   ((float *)values)[at] = 0.0F;
 }
 
-SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int worker);
-
-#define SLF_NAME(f) sli_single_##f
-#define SLF_VALUE float
-#define SLF_SINGLE 1
-#define SLF_HALF 0
-#define SLF_OF(f, array) (f)->single.array
-#define SLF_FRONT sli_single_front_of
-#define SLI_SECTION_FRONTS
-#define SLI_SECTION_FRONTS_UNDEF
-#include SL_HEADER
-SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worker) {
   const sli_step *step = &F->S->steps[s];
   const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
   sli_front f = sli_front_in_double(F, s, worker);
   f.single.panel = (float *)F->values + step->panel;
-  f.single.update = sli_single_update_matrix(F, s, worker);
   f.single.magnitude = (float *)(void *)f.magnitude;
   f.single.D = f.single.magnitude + rows;
   f.single.reciprocals = (float *)(void *)f.reciprocals;
@@ -17434,6 +17414,15 @@ SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int wo
   return f;
 }
 
+#define SLF_NAME(f) sli_single_##f
+#define SLF_VALUE float
+#define SLF_SINGLE 1
+#define SLF_HALF 0
+#define SLF_OF(f, array) (f)->single.array
+#define SLF_BEGIN sli_single_begin
+#define SLI_SECTION_FRONTS
+#define SLI_SECTION_FRONTS_UNDEF
+#include SL_HEADER
 static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
   const sli_step *step = &F->S->steps[s];
   sli_front f = sli_single_front_of(F, s, 0);
@@ -20137,7 +20126,7 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
   const sl_symbolic *S = F->S;
   const sl_int *rows = S->rows + S->rows_begin[d->super];
   const sl_int first = d->first, last = d->last;
-  sli_front from = sli_front_of(F, d->super, 0);
+  sli_front from = sli_double_front_of(F, d->super, 0);
   const sl_int w = from.width, tiles = sli_front_tiles(&from);
   const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
   sl_int t, r;
@@ -20156,7 +20145,7 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
 
 static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
                 const sli_descendant *d) {
-  const sli_front from = sli_front_of(F, d->super, 0);
+  const sli_front from = sli_double_front_of(F, d->super, 0);
   const sl_int w = from.width;
   sl_int r, j;
   for (r = d->first; r < d->last; r++) {
@@ -20283,7 +20272,7 @@ static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, cons
 static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
               int has_one_sign, double *update) {
   const sl_symbolic *S = G->S;
-  const sli_front f = sli_front_of(G, s, worker);
+  const sli_front f = sli_double_front_of(G, s, worker);
   const sl_int *rows = S->rows + S->rows_begin[s];
   const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
   sl_int k, d;
@@ -20359,7 +20348,7 @@ static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbol
 static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
                  sl_int s, sli_failure *failure) {
   const sl_symbolic *S = F->S;
-  sli_front f = sli_front_of(F, s, 0);
+  sli_front f = sli_double_front_of(F, s, 0);
   const sl_int *rows = S->rows + S->rows_begin[s];
   const sl_int start = S->super_first[s], end = S->super_first[s + 1];
   sl_int k, d;
@@ -30232,23 +30221,15 @@ static int sli_complex_accepts(const sli_source *from) {
   return from->A != NULL && sli_matrix_is_complex(from->A);
 }
 
-SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker);
-
 #define SLF_NAME(f) sli_complex_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
 #define SLF_HALF 1
 #define SLF_OF(f, array) (f)->array
-#define SLF_FRONT sli_complex_front_of
+#define SLF_BEGIN sli_front_in_double
 #define SLI_SECTION_FRONTS
 #define SLI_SECTION_FRONTS_UNDEF
 #include SL_HEADER
-SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker) {
-  sli_front f = sli_front_in_double(F, s, worker);
-  f.update = sli_complex_update_matrix(F, s, worker);
-  return f;
-}
-
 static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
   sli_front f = sli_complex_front_of(F, s, 0);
   sli_front_share(F, &f, group);
@@ -34734,6 +34715,12 @@ SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_i
   return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
 }
 
+SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
+  sli_front f = SLF_BEGIN(F, s, worker);
+  SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
+  return f;
+}
+
 static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
   const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
   const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
@@ -34911,7 +34898,7 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
 
 static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
                     sl_int worker, sli_failure *failure) {
-  sli_front f = SLF_FRONT(F, s, worker);
+  sli_front f = SLF_NAME(front_of)(F, s, worker);
   const sl_int tiles = sli_front_tiles(&f);
   double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
   sl_status status;
@@ -34964,7 +34951,7 @@ static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int f
 #undef SLF_SINGLE
 #undef SLF_HALF
 #undef SLF_OF
-#undef SLF_FRONT
+#undef SLF_BEGIN
 #endif
 
 /*

@@ -342,9 +342,9 @@ check "no mutable globals" \
 # markers name the file that they are in.
 cat >$dir/macros.awk <<'AWK'
 /^# [0-9]+ "/ { ours = $3 ~ /sparse_local\.h"$/ }
-ours && # a call of a pack that is off, turned into an identifier that says so
+# a call of a pack that is off, turned into an identifier that says so
 /_needs_SL_WITH_/ { next }
-$1 == "#define" { name = $2; sub(/\(.*/, "", name); left[name] = 1 }
+ours && $1 == "#define" { name = $2; sub(/\(.*/, "", name); left[name] = 1 }
 $1 == "#undef" { delete left[$2] }
 END { for (name in left) if (name !~ allowed) print "left behind: " name }
 AWK

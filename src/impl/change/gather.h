@@ -27,7 +27,7 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
     const sl_symbolic *S = F->S;
     const sl_int *rows = S->rows + S->rows_begin[d->super];
     const sl_int first = d->first, last = d->last;
-    sli_front from = sli_front_of(F, d->super, 0);
+    sli_front from = sli_double_front_of(F, d->super, 0);
     const sl_int w = from.width, tiles = sli_front_tiles(&from);
     const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
     sl_int t, r;
@@ -48,7 +48,7 @@ static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sl
  * are those of its update. */
 static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
                                 const sli_descendant *d) {
-    const sli_front from = sli_front_of(F, d->super, 0);
+    const sli_front from = sli_double_front_of(F, d->super, 0);
     const sl_int w = from.width;
     sl_int r, j;
     for (r = d->first; r < d->last; r++) {

@@ -126,7 +126,7 @@ static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, cons
 static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
                             int has_one_sign, double *update) {
     const sl_symbolic *S = G->S;
-    const sli_front f = sli_front_of(G, s, worker);
+    const sli_front f = sli_double_front_of(G, s, worker);
     const sl_int *rows = S->rows + S->rows_begin[s];
     const sl_int whole = f.width / SLI_TILE, tiles = sli_front_tiles(&f);
     sl_int k, d;

@@ -36,7 +36,7 @@ static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbol
 static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
                                  sl_int s, sli_failure *failure) {
     const sl_symbolic *S = F->S;
-    sli_front f = sli_front_of(F, s, 0);
+    sli_front f = sli_double_front_of(F, s, 0);
     const sl_int *rows = S->rows + S->rows_begin[s];
     const sl_int start = S->super_first[s], end = S->super_first[s + 1];
     sl_int k, d;

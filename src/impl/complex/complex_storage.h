@@ -82,22 +82,14 @@ static int sli_complex_accepts(const sli_source *from) {
     return from->A != NULL && sli_matrix_is_complex(from->A);
 }
 
-SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker);
-
 #define SLF_NAME(f) sli_complex_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
 #define SLF_HALF 1
 #define SLF_OF(f, array) (f)->array
-#define SLF_FRONT sli_complex_front_of
+#define SLF_BEGIN sli_front_in_double
 #include "../factor/fronts.inl.h"
 #include "../factor/fronts_undef.inl.h"
-
-SLI_INLINE sli_front sli_complex_front_of(const sl_factor *F, sl_int s, sl_int worker) {
-    sli_front f = sli_front_in_double(F, s, worker);
-    f.update = sli_complex_update_matrix(F, s, worker);
-    return f;
-}
 
 static sli_front sli_complex_shared(const sl_factor *F, sl_int s, sl_int group) {
     sli_front f = sli_complex_front_of(F, s, 0);

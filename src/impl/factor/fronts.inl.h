@@ -7,7 +7,8 @@
  *  SLF_SINGLE             1: floats, and no 2x2 pivots; 0: doubles
  *  SLF_HALF               1: a front holds the first columns of pairs only; 0: all columns
  *  SLF_OF(f, array)       an array of front f
- *  SLF_FRONT(F, s, w)     the front of supernode s, which worker w factors
+ *  SLF_BEGIN(F, s, w)     the front of supernode s, which worker w factors, without its update
+ *                         matrix
  *
  * fronts_undef.inl.h undefines them. [DR83], [Liu92] */
 
@@ -16,6 +17,13 @@ SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_i
     const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
     const sl_off at = begin < own ? begin + worker * own : begin;
     return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
+}
+
+/* The front of supernode s, which this worker factors. */
+SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
+    sli_front f = SLF_BEGIN(F, s, worker);
+    SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
+    return f;
 }
 
 /* Clears row tiles t0 .. t1-1 of a front. */
@@ -209,7 +217,7 @@ static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
 /* Factors the front of supernode s on one worker. */
 static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
                                         sl_int worker, sli_failure *failure) {
-    sli_front f = SLF_FRONT(F, s, worker);
+    sli_front f = SLF_NAME(front_of)(F, s, worker);
     const sl_int tiles = sli_front_tiles(&f);
     double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
     sl_status status;

@@ -5,4 +5,4 @@
 #undef SLF_SINGLE
 #undef SLF_HALF
 #undef SLF_OF
-#undef SLF_FRONT
+#undef SLF_BEGIN

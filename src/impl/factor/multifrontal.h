@@ -95,22 +95,14 @@ static sli_front sli_front_in_double(const sl_factor *F, sl_int s, sl_int worker
     return f;
 }
 
-SLI_INLINE sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker);
-
 #define SLF_NAME(f) sli_double_##f
 #define SLF_VALUE double
 #define SLF_SINGLE 0
 #define SLF_HALF 0
 #define SLF_OF(f, array) (f)->array
-#define SLF_FRONT sli_front_of
+#define SLF_BEGIN sli_front_in_double
 #include "fronts.inl.h"
 #include "fronts_undef.inl.h"
-
-SLI_INLINE sli_front sli_front_of(const sl_factor *F, sl_int s, sl_int worker) {
-    sli_front f = sli_front_in_double(F, s, worker);
-    f.update = sli_double_update_matrix(F, s, worker);
-    return f;
-}
 
 /* Where the scratch of a front in double that workers share begins: after its update matrix. */
 SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) {
@@ -122,7 +114,7 @@ SLI_INLINE void sli_front_share(const sl_factor *F, sli_front *f, sl_int group) 
 }
 
 static sli_front sli_double_shared(const sl_factor *F, sl_int s, sl_int group) {
-    sli_front f = sli_front_of(F, s, 0);
+    sli_front f = sli_double_front_of(F, s, 0);
     sli_front_share(F, &f, group);
     return f;
 }

@@ -101,31 +101,28 @@ static void sli_float_entry_clear(void *values, sl_off at) {
     ((float *)values)[at] = 0.0F;
 }
 
-/* The front of supernode s in float. The scratch is that of doubles: there is room for D as
- * well. */
-SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int worker);
-
-#define SLF_NAME(f) sli_single_##f
-#define SLF_VALUE float
-#define SLF_SINGLE 1
-#define SLF_HALF 0
-#define SLF_OF(f, array) (f)->single.array
-#define SLF_FRONT sli_single_front_of
-#include "../factor/fronts.inl.h"
-#include "../factor/fronts_undef.inl.h"
-
-SLI_INLINE sli_front sli_single_front_of(const sl_factor *F, sl_int s, sl_int worker) {
+/* The front of supernode s in float, without its update matrix. The scratch is that of doubles:
+ * there is room for D as well. */
+SLI_INLINE sli_front sli_single_begin(const sl_factor *F, sl_int s, sl_int worker) {
     const sli_step *step = &F->S->steps[s];
     const sl_int rows = SLI_TILE * sli_tiles(F->S->tallest);
     sli_front f = sli_front_in_double(F, s, worker);
     f.single.panel = (float *)F->values + step->panel;
-    f.single.update = sli_single_update_matrix(F, s, worker);
     f.single.magnitude = (float *)(void *)f.magnitude;
     f.single.D = f.single.magnitude + rows;
     f.single.reciprocals = (float *)(void *)f.reciprocals;
     f.panel = f.D = f.magnitude = f.E = f.reciprocals = NULL;
     return f;
 }
+
+#define SLF_NAME(f) sli_single_##f
+#define SLF_VALUE float
+#define SLF_SINGLE 1
+#define SLF_HALF 0
+#define SLF_OF(f, array) (f)->single.array
+#define SLF_BEGIN sli_single_begin
+#include "../factor/fronts.inl.h"
+#include "../factor/fronts_undef.inl.h"
 
 /* A front that workers share: its magnitudes, D and reciprocals follow its update matrix. */
 static sli_front sli_single_shared(const sl_factor *F, sl_int s, sl_int group) {
