@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: fcd0662fa0fb2c1e
+ * FNV-1a of the lines after this comment, without the license: 2b40eca8bfedde01
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -33,26 +33,26 @@
  *   2715 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2755 impl/ base: the compiler, status, memory, sorting, threads
  *   3737 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4588 impl/ matrix: sparse matrices of the caller and of the library
- *   5131 impl/ ordering: fill-reducing orderings of a graph
- *   9508 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11454 impl/ factor: the numbers of L and D
- *  14209 impl/ solve: full and local solves
- *  15789 impl/ accuracy: refinement, condition, defects, half solves
- *  16621 impl/ pivots: the order of the pivots by the values of a matrix
- *  17035 impl/ float: L and fronts in single precision
- *  17492 impl/ inverse: entries of the inverse, regions
- *  20037 impl/ change: a factor that follows changes of its matrix
- *  26589 impl/ io: files that are replaced only when they are complete
- *  26801 impl/ files: Matrix Market files, 64-bit indices
- *  27327 impl/ save: factors in files
- *  29240 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29898 impl/ batch: diagonals of many inverses
- *  30038 impl/ complex: complex Hermitian systems over real factors
- *  30556 impl/ complex: entries of the inverse
- *  30608 impl/ packs: the tables through which the core calls packs
- *  30640 impl/ last: undefine every internal macro
- *  30930 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4580 impl/ matrix: sparse matrices of the caller and of the library
+ *   5123 impl/ ordering: fill-reducing orderings of a graph
+ *   9500 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11446 impl/ factor: the numbers of L and D
+ *  14201 impl/ solve: full and local solves
+ *  15781 impl/ accuracy: refinement, condition, defects, half solves
+ *  16613 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17027 impl/ float: L and fronts in single precision
+ *  17484 impl/ inverse: entries of the inverse, regions
+ *  20025 impl/ change: a factor that follows changes of its matrix
+ *  26577 impl/ io: files that are replaced only when they are complete
+ *  26789 impl/ files: Matrix Market files, 64-bit indices
+ *  27315 impl/ save: factors in files
+ *  29228 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  29886 impl/ batch: diagonals of many inverses
+ *  30026 impl/ complex: complex Hermitian systems over real factors
+ *  30544 impl/ complex: entries of the inverse
+ *  30596 impl/ packs: the tables through which the core calls packs
+ *  30628 impl/ last: undefine every internal macro
+ *  30919 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4555,31 +4555,23 @@ SLI_INLINE int sli_isa_row(sl_isa isa) {
 
 #define SLI_ISAS 4
 #if defined(SLI_AVX512)
-#define SLI_ISA_TABLES(name) \
-  { NULL, &name##_scalar, &name##_avx2, &name##_avx512 }
+#define SLI_TABLES(name, scalar) \
+  { NULL, scalar, &name##_avx2, &name##_avx512 }
 #elif defined(SLI_X86)
-#define SLI_ISA_TABLES(name) \
-  { NULL, &name##_scalar, &name##_avx2, NULL }
+#define SLI_TABLES(name, scalar) \
+  { NULL, scalar, &name##_avx2, NULL }
 #elif defined(SLI_ARM)
-#define SLI_ISA_TABLES(name) \
-  { &name##_neon, &name##_scalar, NULL, NULL }
+#define SLI_TABLES(name, scalar) \
+  { &name##_neon, scalar, NULL, NULL }
 #else
-#define SLI_ISA_TABLES(name) \
-  { NULL, &name##_scalar, NULL, NULL }
+#define SLI_TABLES(name, scalar) \
+  { NULL, scalar, NULL, NULL }
 #endif
+#define SLI_ISA_TABLES(name) SLI_TABLES(name, &name##_scalar)
 
 #if defined(SLI_X86) || defined(SLI_ARM)
 #define SLI_SIMD 1
-#endif
-#if defined(SLI_AVX512)
-#define SLI_STORAGE_TABLES(name) \
-  { NULL, NULL, &name##_avx2, &name##_avx512 }
-#elif defined(SLI_X86)
-#define SLI_STORAGE_TABLES(name) \
-  { NULL, NULL, &name##_avx2, NULL }
-#elif defined(SLI_ARM)
-#define SLI_STORAGE_TABLES(name) \
-  { &name##_neon, NULL, NULL, NULL }
+#define SLI_STORAGE_TABLES(name) SLI_TABLES(name, NULL)
 #else
 #define SLI_STORAGE_TABLES SLI_ISA_TABLES
 #endif
@@ -17875,10 +17867,6 @@ static sl_int sli_front_row(const sl_symbolic *S, sl_int s, sl_int row) {
   return i < below && rows[i] == row ? width + i : -1;
 }
 
-SLI_INLINE sl_off sli_traversal_fronts_size(const sli_traversal *t) {
-  return t->schedule.stack;
-}
-
 static sl_int sli_traversal_count_columns(const sli_traversal *t) {
   sl_int k, columns = 0;
   for (k = 0; k < t->forest.count; k++) {
@@ -30737,6 +30725,7 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_WIDEN_1
 #undef SLI_LOOP
 #undef SLI_ISAS
+#undef SLI_TABLES
 #undef SLI_ISA_TABLES
 #undef SLI_STORAGE_TABLES
 #undef SLI_SIMD

@@ -98,6 +98,7 @@
 #undef SLI_WIDEN_1
 #undef SLI_LOOP
 #undef SLI_ISAS
+#undef SLI_TABLES
 #undef SLI_ISA_TABLES
 #undef SLI_STORAGE_TABLES
 #undef SLI_SIMD

@@ -283,11 +283,6 @@ static sl_int sli_front_row(const sl_symbolic *S, sl_int s, sl_int row) {
     return i < below && rows[i] == row ? width + i : -1;
 }
 
-/* Doubles for the fronts of a planned traversal. */
-SLI_INLINE sl_off sli_traversal_fronts_size(const sli_traversal *t) {
-    return t->schedule.stack;
-}
-
 /* The columns of the supernodes of a list. */
 static sl_int sli_traversal_count_columns(const sli_traversal *t) {
     sl_int k, columns = 0;

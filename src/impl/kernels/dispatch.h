@@ -115,37 +115,29 @@ SLI_INLINE int sli_isa_row(sl_isa isa) {
                                 : (isa == SL_ISA_AVX512 ? 3 : 0); /* untested: NEON */
 }
 
-/* The tables of a pack in the order of these rows: one for each instruction set, NULL where it
- * is not compiled in. */
+/* The tables of a pack in the order of these rows: one for each instruction set, NULL where it is
+ * not compiled in. scalar: the table in plain C. */
 #define SLI_ISAS 4
 #if defined(SLI_AVX512)
-#define SLI_ISA_TABLES(name) \
-    { NULL, &name##_scalar, &name##_avx2, &name##_avx512 }
+#define SLI_TABLES(name, scalar) \
+    { NULL, scalar, &name##_avx2, &name##_avx512 }
 #elif defined(SLI_X86)
-#define SLI_ISA_TABLES(name) \
-    { NULL, &name##_scalar, &name##_avx2, NULL }
+#define SLI_TABLES(name, scalar) \
+    { NULL, scalar, &name##_avx2, NULL }
 #elif defined(SLI_ARM)
-#define SLI_ISA_TABLES(name) \
-    { &name##_neon, &name##_scalar, NULL, NULL }
+#define SLI_TABLES(name, scalar) \
+    { &name##_neon, scalar, NULL, NULL }
 #else
-#define SLI_ISA_TABLES(name) \
-    { NULL, &name##_scalar, NULL, NULL }
+#define SLI_TABLES(name, scalar) \
+    { NULL, scalar, NULL, NULL }
 #endif
+#define SLI_ISA_TABLES(name) SLI_TABLES(name, &name##_scalar)
 
-/* The tables of a storage of L. Where SIMD is compiled in there is none in plain C, where a factor
- * keeps L in double. */
+/* The same of a pack that adds a storage of L: beside SIMD, plain C has no kernels for it, which
+ * would be 60 kB of the object, and keeps L in double (factor_setup.h). */
 #if defined(SLI_X86) || defined(SLI_ARM)
 #define SLI_SIMD 1
-#endif
-#if defined(SLI_AVX512)
-#define SLI_STORAGE_TABLES(name) \
-    { NULL, NULL, &name##_avx2, &name##_avx512 }
-#elif defined(SLI_X86)
-#define SLI_STORAGE_TABLES(name) \
-    { NULL, NULL, &name##_avx2, NULL }
-#elif defined(SLI_ARM)
-#define SLI_STORAGE_TABLES(name) \
-    { &name##_neon, NULL, NULL, NULL }
+#define SLI_STORAGE_TABLES(name) SLI_TABLES(name, NULL)
 #else
 #define SLI_STORAGE_TABLES SLI_ISA_TABLES
 #endif

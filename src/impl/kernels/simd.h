@@ -21,11 +21,11 @@
  * float/simd_*_single.h they are vectors of floats.
  *
  *  SLV_NAME(f)            name of function f in this instruction set
- *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides; default: SLV_NAME(f4)
+ *  SLV_NAME_4(f)          name of sweep f for 4 right-hand sides
  *  SLV_NAME_2(f)          the same of a complex sweep for 2 right-hand sides
  *  SLV_NAME_SMALL(f)      name of sweep f for one right-hand side and a supernode of at most 8
- *                         columns, if that of another instruction set is used
- *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots, in the same case
+ *                         columns; with SLV_OWN_SMALL it is compiled for this instruction set
+ *  SLV_NAME_PIVOTS(f)     name of the function for a tile of pivots; SLV_OWN_PIVOTS: the same
  *  SLV_ISA, SLV_FUNCTION  its sl_isa; the attributes of a function
  *  SLV_FNMA1(a, b, c)     scalars: c - a b, fused where the vectors are
  *  SLV_DECLARE(a)         declares a
@@ -35,7 +35,7 @@
  *  SLV_LOAD_PART(a, p, count, rest)   lanes 0 .. count-1 = p[lane], the others = rest
  *  SLV_STORE(p, a)        p[0..7] = a; p is 64-byte aligned. SLV_STORE_ANY: p is not aligned
  *  SLV_STREAM(p, a)       SLV_STORE of a cache line around the caches; other threads may see it
- *                         after SLV_STREAM_END; default: SLV_STORE
+ *                         after SLV_STREAM_END; SLV_STORE where there is no such instruction
  *  SLV_BROADCAST(b, p)    every lane of b = *p
  *  SLV_LANE(b, a, k)      every lane of b = lane k of a; k is a constant
  *  SLV_GATHER(a, x, at)   lane k of a = x[at(k)]; at is a macro
