@@ -1,58 +1,59 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 2b40eca8bfedde01
+ * FNV-1a of the lines after this comment, without the license: 8fb925de9f5ea4bb
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     60 intro.h      what the library does, a quick start, which call for which question, references
- *    164 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    197 config.h     macros that a user may define before the include, the version, and the integer types
- *    275 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    446 options.h    options of all calls, threads, and the allocator
- *    585 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    784 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    882 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    956 factor.h     the numerical factorization P A P' = L D L'
- *   1077 solve.h      full solves, and the workspace of all solves
- *   1170 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1248 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1347 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1464 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1543 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1637 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1743 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1782 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   1910 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   1942 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2131 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2241 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2368 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2408 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2496 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2605 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2642 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2715 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2755 impl/ base: the compiler, status, memory, sorting, threads
- *   3737 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4580 impl/ matrix: sparse matrices of the caller and of the library
- *   5123 impl/ ordering: fill-reducing orderings of a graph
- *   9500 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11446 impl/ factor: the numbers of L and D
- *  14201 impl/ solve: full and local solves
- *  15781 impl/ accuracy: refinement, condition, defects, half solves
- *  16613 impl/ pivots: the order of the pivots by the values of a matrix
- *  17027 impl/ float: L and fronts in single precision
- *  17484 impl/ inverse: entries of the inverse, regions
- *  20025 impl/ change: a factor that follows changes of its matrix
- *  26577 impl/ io: files that are replaced only when they are complete
- *  26789 impl/ files: Matrix Market files, 64-bit indices
- *  27315 impl/ save: factors in files
- *  29228 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  29886 impl/ batch: diagonals of many inverses
- *  30026 impl/ complex: complex Hermitian systems over real factors
- *  30544 impl/ complex: entries of the inverse
- *  30596 impl/ packs: the tables through which the core calls packs
- *  30628 impl/ last: undefine every internal macro
- *  30919 impl/ templates: the header includes them from itself, once for each instruction set
+ *     61 intro.h      what the library does, a quick start, which call for which question, references
+ *    167 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    200 config.h     macros that a user may define before the include, the version, and the integer types
+ *    278 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    456 options.h    options of all calls, threads, and the allocator
+ *    595 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    804 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    902 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    976 factor.h     the numerical factorization P A P' = L D L'
+ *   1097 solve.h      full solves, and the workspace of all solves
+ *   1190 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1268 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1367 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1473 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1547 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1626 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1720 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1826 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1865 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   1993 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2025 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2214 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2324 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2451 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2491 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2579 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2688 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2725 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2798 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2838 impl/ base: the compiler, status, memory, sorting, threads
+ *   3820 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4663 impl/ matrix: sparse matrices of the caller and of the library
+ *   5206 impl/ ordering: fill-reducing orderings of a graph
+ *   9583 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11529 impl/ factor: the numbers of L and D
+ *  14291 impl/ solve: full and local solves
+ *  15871 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  17446 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17860 impl/ float: L and fronts in single precision
+ *  18317 impl/ inverse: entries of the inverse, regions
+ *  20858 impl/ change: a factor that follows changes of its matrix
+ *  27410 impl/ io: files that are replaced only when they are complete
+ *  27622 impl/ files: Matrix Market files, 64-bit indices
+ *  28148 impl/ save: factors in files
+ *  30070 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  30728 impl/ batch: diagonals of many inverses
+ *  30868 impl/ complex: complex Hermitian systems over real factors
+ *  31386 impl/ complex: entries of the inverse
+ *  31438 impl/ packs: the tables through which the core calls packs
+ *  31470 impl/ last: undefine every internal macro
+ *  31770 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -133,6 +134,7 @@
  *             method, 1989.
  *  [Bie76]    Bierman: Measurement updating using the U-D factorization, 1976.
  *  [Davis06]  Davis: Direct Methods for Sparse Linear Systems, 2006.
+ *  [Dek71]    Dekker: A floating-point technique for extending the available precision, 1971.
  *  [DH01]     Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
  *  [DR83]     Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear
  *             equations, 1983.
@@ -155,6 +157,7 @@
  *  [MR85]     Miller, Reif: Parallel tree contraction and its application, 1985.
  *  [NP93]     Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers,
  *             1993.
+ *  [Ru06]     Rump: Verification of positive definiteness, 2006.
  *  [SelInv]   Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric
  *             matrix, 2011.
  *  [Sk80]     Skeel: Iterative refinement implies numerical stability for Gaussian elimination,
@@ -173,7 +176,7 @@
  *  SL_WITH_BATCH      many factors or solves by one call, weighted sums of matrices
  *  SL_WITH_COMPLEX    complex Hermitian systems, SL_STORAGE_COMPLEX
  *  SL_WITH_FLOAT      L in single precision: SL_STORAGE_FLOAT, SL_STORAGE_FLOAT_FRONTS
- *  SL_WITH_ACCURACY   refinement, condition numbers, defects, half solves
+ *  SL_WITH_ACCURACY   refinement, bounds of errors, condition numbers, defects, half solves
  *  SL_WITH_FILES      Matrix Market files, matrices with 64-bit indices
  *  SL_WITH_PIVOTS     2x2 pivots for indefinite matrices
  *
@@ -403,6 +406,13 @@ typedef enum sl_inverse_method {
     SL_INVERSE_FORWARD,  /* forward sweeps of the requested rows */
     SL_INVERSE_SELECTED  /* selected inversion on their reach */
 } sl_inverse_method;
+
+/** What a bound of errors is worth. */
+typedef enum sl_certainty {
+    SL_UNCERTIFIED = 0,
+    SL_ESTIMATED, /* from errors that were measured */
+    SL_GUARANTEED /* proved */
+} sl_certainty;
 
 /** How a change of a factor was computed. */
 typedef enum sl_change_method {
@@ -689,6 +699,15 @@ typedef struct sl_refine_info {
     double backward_error; /* what remains, the maximum over all right-hand sides */
 } sl_refine_info;
 
+/** The errors of all solves with a factor: sl_factor_certify, sl_plan_solve_bounded. */
+typedef struct sl_certificate_info {
+    sl_certainty certainty;
+    sl_int solves;         /* full solves that found eta; 0 if it was there */
+    double eta;            /* the largest relative error in the energy norm */
+    double eigenvalue_min; /* guaranteed: a lower bound, of A scaled to a unit diagonal; else 0 */
+    double seconds;        /* processor seconds */
+} sl_certificate_info;
+
 /** A change of a factor in place: sl_factor_update, _update_entries, _change. */
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
@@ -774,8 +793,9 @@ typedef struct sl_stats {
     sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
     sl_pins_info pins;
+    sl_certificate_info certificate;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[24];
+    sl_off reserved[20];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -1450,6 +1470,67 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
                                                   const double *B, size_t ldb, sl_int nrhs,
                                                   sl_work *W);
 
+/* src/public/bounds.h: how far the answers of a factor are from the exact ones: a bound for each number */
+
+/** Finds eta, the largest relative error of any solve with F in the energy norm of A. EXPERIMENTAL
+ *
+ *  For every b, the computed z and the exact x = A^-1 b satisfy ||x - z|| <= eta ||x|| with
+ *  ||v||^2 = v' A v. F keeps eta for sl_plan_solve_bounded until its numbers change; a saved factor
+ *  keeps it, too.
+ *
+ *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
+ *                       options.mass; L in double or float.
+ *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from.
+ *  certainty  [in]      SL_ESTIMATED: 2 times the largest error that 12 solves show, whose
+ *                       right-hand sides approach the worst ones; 4 times if n < 512.
+ *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
+ *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
+ *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
+ *  W          [in,out]  workspace; NULL: allocated for this call.
+ *  stats      [out]     certificate; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or guaranteed and other values
+ *           than those of F; SL_ERR_PATTERN: not the analyzed pattern; SL_ERR_UNSUPPORTED: negative
+ *           or regularized pivots, options.mass, complex storage; guaranteed also null pivots, L in
+ *           float; SL_ERR_INACCURATE: eta exceeds 1/16, as with an A that is not that of F;
+ *           SL_ERR_TOO_LARGE, SL_ERR_MEMORY. On errors F has no eta.
+ *  Cost     estimated: 15 to 20 full solves; W grows by 20 n numbers. Guaranteed: 7 to 10
+ *           factorizations; memory of a second factor while it runs.
+ *  Threads  the caller serializes calls that change F.
+ *  Source   [Ru06] for the eigenvalue; the bounds are derived in the manual.
+ *  Manual   tools/docs/bounds.md
+ *  Example  tests/core/test_bounds.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
+                                                  sl_certainty certainty, sl_work *W,
+                                                  sl_stats *stats);
+
+/** sl_plan_solve, and for every number a bound of its distance from the exact answer. EXPERIMENTAL
+ *
+ *  The bound of x(i) is about eta sqrt((A^-1)(i,i) b' A^-1 b), and less where the path of i meets
+ *  those of b only far up. It is sharp near b and loose where x has decayed by many digits. With
+ *  skipped null pivots the exact answer is the one that is 0 in their rows.
+ *
+ *  P       [in]      the plan; not in a region.
+ *  F       [in]      a factor that sl_factor_certify has certified.
+ *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve; the solutions have the same bits.
+ *  bounds  [out]     as X, with its leading dimension; must not overlap X or B.
+ *  scales  [in,out]  4 nx + 2 numbers that depend on P and the numbers of F alone, all 0 before the
+ *                    first call: computed in a call that finds those of another plan or of other
+ *                    numbers. NULL: computed in every call.
+ *  stats   [out]     certificate; may be NULL.
+ *  Returns  as sl_plan_solve; also SL_ERR_STATE: F is not certified; SL_ERR_UNSUPPORTED: a plan in
+ *           a region.
+ *  Cost     that of sl_plan_solve and O(columns of the reach of b + nx) per right-hand side; the
+ *           scales take nx forward sweeps in blocks of 8.
+ *  Threads  as sl_plan_solve; scales are written by a call that computes them.
+ *  Manual   tools/docs/bounds.md
+ *  Example  tests/core/test_bounds.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F,
+                                                      double *X, size_t ldx, double *bounds,
+                                                      const double *B, size_t ldb, sl_int nrhs,
+                                                      double *scales, sl_work *W, sl_stats *stats);
+
 #else
 #define sl_factor_solve_part(...) sl_factor_solve_part_needs_SL_WITH_ACCURACY
 #define sl_factor_multiply_part(...) sl_factor_multiply_part_needs_SL_WITH_ACCURACY
@@ -1459,6 +1540,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
 #define sl_plan_solve_refined(...) sl_plan_solve_refined_needs_SL_WITH_ACCURACY
 #define sl_factor_rcond(...) sl_factor_rcond_needs_SL_WITH_ACCURACY
 #define sl_factor_defects(...) sl_factor_defects_needs_SL_WITH_ACCURACY
+#define sl_factor_certify(...) sl_factor_certify_needs_SL_WITH_ACCURACY
+#define sl_plan_solve_bounded(...) sl_plan_solve_bounded_needs_SL_WITH_ACCURACY
 #endif
 #if defined(SL_WITH_INVERSE)
 /* src/public/inverse.h: entries, blocks and bilinear forms of the inverse, without a backward sweep */
@@ -11518,6 +11601,12 @@ typedef struct sli_history {
   uint64_t *marks;
 } sli_history;
 
+typedef struct sli_certificate {
+  double eta;
+  sl_int certainty;
+  uint64_t generation;
+} sli_certificate;
+
 typedef struct sli_front_work {
   double *buffer;
   void *stack;
@@ -11558,6 +11647,7 @@ struct sl_factor {
   uint64_t generation;
   double clock;
   sli_history history;
+  sli_certificate certificate;
 
   void *values;
   double *D;
@@ -15776,7 +15866,7 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   return status;
 }
 
-/* accuracy: refinement, condition, defects, half solves */
+/* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 /* src/impl/accuracy/parts.h: half solves: the factors of P A P' = L D L' applied one by one, full and local */
 
@@ -16603,6 +16693,749 @@ SL_API sl_status sl_factor_defects(const sl_factor *F, double *Y, size_t ldy, co
   if (status == SL_OK) {
     sli_defects(F, &q, &rhs, W->block);
   }
+  sli_free(&own.allocator, own.block);
+  return status;
+}
+
+/* src/impl/accuracy/guarantee.h: a proved bound of the error of all solves in the energy norm */
+
+#define SLI_POWER_STEPS 3
+#define SLI_INVERSE_STEPS 8
+#define SLI_OTHER_ROUNDINGS 16
+
+typedef struct sli_guarantee_work {
+  const sl_factor *F;
+  sl_factor *G;
+  double gamma;
+  double *root;
+  double *w, *z;
+  sl_int *terms;
+  double *scratch;
+  double *values;
+} sli_guarantee_work;
+
+static void sli_guarantee_layout(sli_guarantee_work *p, sli_block *b, const sl_csc *A) {
+  const sl_symbolic *S = p->F->S;
+  p->root = SLI_TAKE(b, double, S->n);
+  p->w = SLI_TAKE(b, double, S->n);
+  p->z = SLI_TAKE(b, double, S->n);
+  p->terms = SLI_TAKE(b, sl_int, S->n);
+  p->scratch = SLI_TAKE(b, double, sli_sweep_scratch(S->tallest, S->widest, 1));
+  p->values = SLI_TAKE(b, double, sli_nnz(A));
+}
+
+static double sli_guarantee_gamma(const sli_guarantee_work *p) {
+  const sl_symbolic *S = p->F->S;
+  sl_int s, k, most = 0;
+  double size;
+  memset(p->terms, 0, (size_t)S->n * sizeof(sl_int));
+  for (s = 0; s < S->n_supers; s++) {
+    const sli_step *step = &S->steps[s];
+    for (k = 0; k < step->below; k++) {
+      p->terms[S->rows[S->rows_begin[s] + k]] += step->width;
+    }
+    most = sli_max(most, step->width + step->below);
+  }
+  for (k = 0; k < S->n; k++) {
+    most = sli_max(most, p->terms[k] + S->steps[S->super_of[k]].width);
+  }
+  size = ((double)most + SLI_OTHER_ROUNDINGS) * (DBL_EPSILON / 2.0);
+  return size / (1.0 - size);
+}
+
+SLI_INLINE void sli_magnitudes_tile(const sl_factor *F, sl_int s, sl_int tile, int is_transposed,
+                  double *z) {
+  const sli_step *step = &F->S->steps[s];
+  const sl_int *below = F->S->rows + F->S->rows_begin[s] - step->width;
+  const sl_int first = SLI_TILE * tile, columns = sli_min(step->width, first + SLI_TILE);
+  const sl_int count = sli_min(SLI_TILE, step->width + step->below - first);
+  const double *l = (const double *)F->values + step->panel + sli_tile_offset(step->width, tile);
+  double x[SLI_TILE] = {0.0}, *at[SLI_TILE];
+  sl_int j, q;
+  for (q = 0; q < count; q++) {
+    const sl_int r = first + q;
+    at[q] = &z[r < step->width ? step->column + r : below[r]];
+    x[q] = is_transposed ? *at[q] : 0.0;
+  }
+  for (j = 0; j < columns; j++, l += SLI_TILE) {
+    double sum = 0.0;
+    for (q = 0; q < SLI_TILE; q++) {
+      sum += fabs(l[q]) * x[q];
+      x[q] += is_transposed ? 0.0 : fabs(l[q]) * z[step->column + j];
+    }
+    z[step->column + j] += is_transposed ? sum : 0.0;
+  }
+  for (q = 0; q < count && !is_transposed; q++) {
+    *at[q] += x[q];
+  }
+}
+
+static void sli_magnitudes_multiply(const sl_factor *F, double *z) {
+  const sl_symbolic *S = F->S;
+  sl_int s, t;
+  for (s = 0; s < S->n_supers; s++) {
+    for (t = 0; t < sli_tiles(S->steps[s].width + S->steps[s].below); t++) {
+      sli_magnitudes_tile(F, s, t, 1, z);
+    }
+  }
+  for (s = 0; s < S->n; s++) {
+    z[s] *= F->D[s];
+  }
+  for (s = S->n_supers - 1; s >= 0; s--) {
+    for (t = sli_tiles(S->steps[s].width + S->steps[s].below) - 1; t >= 0; t--) {
+      sli_magnitudes_tile(F, s, t, 0, z);
+    }
+  }
+}
+
+static double sli_magnitude_bound(const sli_guarantee_work *p, const sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  double least = HUGE_VAL;
+  sl_int k;
+  int step;
+  for (k = 0; k < S->n; k++) {
+    p->w[k] = 1.0;
+  }
+  for (step = 0; step < SLI_POWER_STEPS; step++) {
+    double largest = 0.0, norm = 0.0;
+    for (k = 0; k < S->n; k++) {
+      p->z[k] = p->w[k] / p->root[k];
+    }
+    sli_magnitudes_multiply(F, p->z);
+    for (k = 0; k < S->n; k++) {
+      const double product = p->z[k] / p->root[k];
+      largest = fmax(largest, product / p->w[k]);
+      p->w[k] = product;
+      norm = fmax(norm, product);
+    }
+    for (k = 0; k < S->n; k++) {
+      p->w[k] = fmax(p->w[k] / norm, DBL_EPSILON);
+    }
+    least = fmin(least, largest);
+  }
+  return least * (1.0 + 4.0 * p->gamma);
+}
+
+static double sli_eigenvalue_estimate(const sli_guarantee_work *p) {
+  const sl_factor *F = p->F;
+  const sli_reach all = sli_reach_all(F->S);
+  double size = 1.0;
+  sl_int k, step;
+  for (k = 0; k < F->S->n; k++) {
+    p->w[k] = 1.0 + (double)(k % 7) / 8.0;
+  }
+  for (step = 0; step < SLI_INVERSE_STEPS; step++) {
+    double before = 0.0, after = 0.0;
+    for (k = 0; k < F->S->n; k++) {
+      before += p->w[k] * p->w[k];
+      p->w[k] *= p->root[k];
+    }
+    sli_forward_sweep(F, SLI_NRHS_1, &all, p->w, p->scratch);
+    sli_backward(F, &all, SLI_NRHS_1, p->w, p->scratch);
+    for (k = 0; k < F->S->n; k++) {
+      p->w[k] *= p->root[k];
+      after += p->w[k] * p->w[k];
+    }
+    size = sqrt(after / before);
+    for (k = 0; k < F->S->n; k++) {
+      p->w[k] /= sqrt(after);
+    }
+  }
+  return 1.0 / size;
+}
+
+static int sli_guarantee_roots(const sli_guarantee_work *p, const sl_csc *A) {
+  const sl_factor *F = p->F;
+  sl_int j, q, k;
+  for (j = 0; j < A->n_cols; j++) {
+    k = F->S->iperm[j];
+    p->root[k] = 0.0;
+    for (q = A->p[j]; q < A->p[j + 1]; q++) {
+      if (A->i[q] == j) {
+        p->root[k] = sqrt(A->x[q]);
+      }
+    }
+    if (!(F->D[k] > 1e-200 && p->root[k] > 1e-100 && p->root[k] < 1e100)) {
+      return 0;
+    }
+  }
+  return 1;
+}
+
+static double sli_guarantee_try(sli_guarantee_work *p, const sl_csc *A, double shift,
+                sl_status *status) {
+  const double kept = 1.0 - shift;
+  sl_csc shifted = *A;
+  sl_int j, q;
+  for (j = 0; j < A->n_cols; j++) {
+    for (q = A->p[j]; q < A->p[j + 1]; q++) {
+      p->values[q] = A->i[q] == j ? A->x[q] * kept : A->x[q];
+    }
+  }
+  shifted.x = p->values;
+  if (p->G == NULL) {
+    sl_options opt = sli_options_with(&p->F->allocator);
+    opt.isa = p->F->kernels->isa;
+    opt.method = p->F->method;
+    opt.threads = p->F->threads;
+    *status = sl_factor_create(&p->G, p->F->S, &shifted, &opt, NULL);
+  } else {
+    *status = sl_factor_refactor(p->G, &shifted, NULL);
+  }
+  if (*status == SL_ERR_PIVOT || *status == SL_ERR_INACCURATE ||
+    (*status == SL_OK && p->G->stats.factor.negative > 0)) {
+    *status = SL_OK;
+    return 0.0;
+  }
+  return *status == SL_OK ? (1.0 - kept) - p->gamma * sli_magnitude_bound(p, p->G) - DBL_EPSILON
+              : 0.0;
+}
+
+static int sli_guarantee_fits(const sl_factor *F, const sl_csc *A) {
+  const sli_hash values = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
+  return sli_hash_equals(F->identity, sli_hash_words(values, F->D, F->S->n));
+}
+
+static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
+                 sl_certificate_info *info) {
+  sli_block b = {NULL, 0, 0};
+  sli_guarantee_work p;
+  sl_status status;
+  double shift, lowest = 0.0;
+  int attempt;
+  if (F->null.count > 0 || F->type->storage != SL_STORAGE_DOUBLE ||
+    sli_map_has_duplicates(F->S)) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  if (!sli_guarantee_fits(F, A)) {
+    return SL_ERR_STATE;
+  }
+  memset(&p, 0, sizeof p);
+  p.F = F;
+  sli_guarantee_layout(&p, &b, A);
+  status = sli_work_block(W, &b);
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_guarantee_layout(&p, &b, A);
+  if (!sli_guarantee_roots(&p, A)) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  p.gamma = sli_guarantee_gamma(&p);
+  shift = sli_eigenvalue_estimate(&p) / 2.0;
+  for (attempt = 0; attempt < 4 && status == SL_OK && !(lowest > 0.0); attempt++) {
+    lowest = sli_guarantee_try(&p, A, shift, &status);
+    shift /= 8.0;
+  }
+  info->solves = SLI_INVERSE_STEPS;
+  if (status == SL_OK) {
+    info->eta = lowest > 0.0 ? 3.05 * p.gamma * sli_magnitude_bound(&p, F) / lowest : HUGE_VAL;
+    info->eigenvalue_min = lowest;
+  }
+  sl_factor_free(p.G);
+  return status;
+}
+
+/* src/impl/accuracy/certify.h: sl_factor_certify: the largest error of all solves in the energy norm */
+
+#define SLI_PROBES 4
+#define SLI_PROBE_TURNS 3
+
+#define SLI_PROBE_SAFETY(n) ((n) < 512 ? 4.0 : 2.0)
+
+#define SLI_ETA_MOST 0.0625
+
+typedef struct sli_probes {
+  const sl_factor *F;
+  const sl_csc *A;
+  sl_triangle triangle;
+  double *v;
+  double *product;
+  unsigned char *memory;
+  double norm[SLI_PROBES];
+  double scale[SLI_PROBES];
+  double eta;
+  sl_int solves;
+} sli_probes;
+
+static void sli_probes_layout(sli_probes *p, sli_block *b) {
+  const sli_query q = sli_query_all(p->F->S);
+  const uint64_t count = (uint64_t)p->F->S->n * SLI_PROBES;
+  p->v = SLI_TAKE(b, double, count);
+  p->product = SLI_TAKE(b, double, 2 * count);
+  p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(&q, 2 * SLI_PROBES, SLI_TILE), 1);
+}
+
+static void sli_probes_solve(sli_probes *p, double *x, sl_int count) {
+  const sli_query q = sli_query_all(p->F->S);
+  const size_t ld = SL_ROWS((size_t)count);
+  const sli_rhs rhs = sli_rhs_of(x, ld, x, ld, count);
+  const sli_vectors v = sli_vectors_of(&q, count, p->memory);
+  sli_pack(p->F, &q, v.y, &rhs);
+  sli_sweep_forward(p->F, &q, &v, count);
+  sli_sweep_backward(p->F, &q, &v, count);
+  sli_unpack(p->F, &q, &rhs, v.x);
+  p->solves += count;
+}
+
+SLI_INLINE double sli_probe_random(uint32_t *state) {
+  *state = *state * 1664525u + 1013904223u;
+  return (double)(*state >> 8) / (double)(1u << 23) - 1.0;
+}
+
+static void sli_probes_diagonal(const sli_probes *p, double *diagonal) {
+  const sl_csc *A = p->A;
+  sl_int j, q;
+  for (j = 0; j < A->n_cols; j++) {
+    diagonal[j] = 0.0;
+    for (q = A->p[j]; q < A->p[j + 1]; q++) {
+      diagonal[j] += A->i[q] == j ? A->x[q] : 0.0;
+    }
+  }
+}
+
+static void sli_probes_start(sli_probes *p) {
+  const sl_int n = p->F->S->n, half = SLI_PROBES / 2;
+  double *diagonal = p->product;
+  uint32_t state = 1;
+  sl_int i, c;
+  sli_probes_diagonal(p, diagonal);
+  for (i = 0; i < n; i++) {
+    for (c = 0; c < SLI_PROBES; c++) {
+      p->v[(ptrdiff_t)i * SLI_PROBES + c] = sli_probe_random(&state) * sqrt(diagonal[i]);
+    }
+  }
+  sli_probes_solve(p, p->v, SLI_PROBES);
+  for (i = 0; i < n; i++) {
+    const int is_null = sli_is_skipped(p->F, p->F->S->iperm[i]);
+    for (c = 0; c < half; c++) {
+      p->v[(ptrdiff_t)i * SLI_PROBES + c] =
+        is_null ? 0.0 : sli_probe_random(&state) / sqrt(diagonal[i]);
+    }
+  }
+}
+
+SLI_INLINE double sli_upper_half(double x) {
+  const double t = 134217729.0 * x;
+  return t - (t - x);
+}
+
+static void sli_probes_add(double *product, double a, const double *v) {
+  double *high = product, *low = product + SLI_PROBES;
+  const double a1 = sli_upper_half(a), a2 = a - a1;
+  sl_int c;
+  for (c = 0; c < SLI_PROBES; c++) {
+    const double v1 = sli_upper_half(v[c]), v2 = v[c] - v1, exact = a * v[c];
+    const double error = ((a1 * v1 - exact) + a1 * v2 + a2 * v1) + a2 * v2;
+    const double sum = high[c] + exact, t = sum - high[c];
+    low[c] += ((high[c] - (sum - t)) + (exact - t)) + error;
+    high[c] = sum;
+  }
+}
+
+static void sli_probes_multiply(sli_probes *p) {
+  const sl_csc *A = p->A;
+  sl_int j, q;
+  memset(p->product, 0, (size_t)A->n_cols * 2 * SLI_PROBES * sizeof(double));
+  for (j = 0; j < A->n_cols; j++) {
+    const ptrdiff_t at = (ptrdiff_t)j * SLI_PROBES;
+    for (q = A->p[j]; q < A->p[j + 1]; q++) {
+      const ptrdiff_t to = (ptrdiff_t)A->i[q] * SLI_PROBES;
+      if (sli_is_read(p->triangle, A->i[q], j)) {
+        sli_probes_add(p->product + 2 * to, A->x[q], p->v + at);
+        if (to != at) {
+          sli_probes_add(p->product + 2 * at, A->x[q], p->v + to);
+        }
+      }
+    }
+  }
+}
+
+static void sli_probes_measure(sli_probes *p, int is_first) {
+  double square[SLI_PROBES], size[SLI_PROBES];
+  sl_int i, c;
+  memset(square, 0, sizeof square);
+  memset(size, 0, sizeof size);
+  for (i = 0; i < p->F->S->n; i++) {
+    const ptrdiff_t at = (ptrdiff_t)i * SLI_PROBES;
+    for (c = 0; c < SLI_PROBES; c++) {
+      square[c] +=
+        p->v[at + c] * (p->product[2 * at + c] + p->product[2 * at + SLI_PROBES + c]);
+      size[c] += fabs(p->v[at + c]);
+    }
+  }
+  for (c = 0; c < SLI_PROBES; c++) {
+    const double norm = size[c] == 0.0 ? 0.0 : sqrt(square[c]);
+    if (size[c] != 0.0 && !(square[c] > 0.0)) {
+      p->eta = HUGE_VAL;
+    } else if (!is_first && p->norm[c] > 0.0) {
+      p->eta = fmax(p->eta, norm * (p->scale[c] / p->norm[c]));
+    }
+    p->norm[c] = norm;
+  }
+}
+
+static void sli_probes_turn(sli_probes *p) {
+  double largest[SLI_PROBES], *v = p->v;
+  const double *x = p->product;
+  sl_int i, c;
+  sli_probes_solve(p, p->product, 2 * SLI_PROBES);
+  memset(largest, 0, sizeof largest);
+  for (i = 0; i < p->F->S->n; i++, v += SLI_PROBES, x += 2 * SLI_PROBES) {
+    for (c = 0; c < SLI_PROBES; c++) {
+      v[c] = (v[c] - x[c]) - x[c + SLI_PROBES];
+      largest[c] = fmax(largest[c], fabs(v[c]));
+    }
+  }
+  for (c = 0; c < SLI_PROBES; c++) {
+    int exponent = 0;
+    (void)frexp(largest[c], &exponent);
+    p->scale[c] = ldexp(1.0, exponent);
+  }
+  for (i = 0, v = p->v; i < p->F->S->n; i++, v += SLI_PROBES) {
+    for (c = 0; c < SLI_PROBES; c++) {
+      v[c] /= p->scale[c];
+    }
+  }
+}
+
+static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
+  sli_block b = {NULL, 0, 0};
+  sl_status status;
+  int turn;
+  sli_probes_layout(p, &b);
+  status = sli_work_block(W, &b);
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_probes_layout(p, &b);
+  sli_probes_start(p);
+  sli_probes_multiply(p);
+  sli_probes_measure(p, 1);
+  for (turn = 0; turn < SLI_PROBE_TURNS; turn++) {
+    sli_probes_turn(p);
+    sli_probes_multiply(p);
+    sli_probes_measure(p, 0);
+  }
+  p->eta = SLI_PROBE_SAFETY(p->F->S->n) * fmax(p->eta, DBL_EPSILON / 2.0);
+  return SL_OK;
+}
+
+static int sli_certify_suits(const sl_factor *F) {
+  return F->stats.factor.negative == 0 && F->stats.factor.regularized == 0 && F->E == NULL &&
+       F->null.mass == NULL && F->null.vectors <= 1 && F->type->half == 0;
+}
+
+static sl_status sli_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty, sl_work *W,
+               sl_certificate_info *info) {
+  sli_probes p;
+  sl_status status;
+  if (F->S->n == 0) {
+    return SL_OK;
+  }
+  if (certainty == SL_GUARANTEED) {
+    return sli_guarantee(F, A, W, info);
+  }
+  memset(&p, 0, sizeof p);
+  p.F = F;
+  p.A = A;
+  p.triangle = F->S->stats.symbolic.triangle;
+  status = sli_probes_run(&p, W);
+  info->eta = p.eta;
+  info->solves = p.solves;
+  return status;
+}
+
+SL_API sl_status sl_factor_certify(sl_factor *F, const sl_csc *A, sl_certainty certainty,
+                   sl_work *W, sl_stats *stats) {
+  const double started = sli_seconds();
+  sl_certificate_info info;
+  sl_work own;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (F == NULL || (certainty != SL_ESTIMATED && certainty != SL_GUARANTEED)) {
+    return SL_ERR_ARGUMENT;
+  }
+  memset(&F->certificate, 0, sizeof F->certificate);
+  status = sli_factor_fits(F, A);
+  status = status == SL_OK && !sli_certify_suits(F) ? SL_ERR_UNSUPPORTED : status;
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(&info, 0, sizeof info);
+  own = sli_work_own(&F->allocator);
+  status = sli_certify(F, A, certainty, W == NULL ? &own : W, &info);
+  sli_free(&own.allocator, own.block);
+  if (status == SL_OK && !(info.eta <= SLI_ETA_MOST)) {
+    status = SL_ERR_INACCURATE;
+  }
+  if (status == SL_OK) {
+    F->certificate.eta = info.eta;
+    F->certificate.certainty = info.certainty = certainty;
+    F->certificate.generation = F->generation;
+  }
+  info.seconds = sli_seconds() - started;
+  if (stats != NULL) {
+    stats->certificate = info;
+  }
+  return status;
+}
+
+/* src/impl/accuracy/bounds.h: sl_plan_solve_bounded: local solves with a bound for the error of each number */
+
+enum { SLI_SCALE_COMMON, SLI_SCALE_REST, SLI_SCALE_ALL, SLI_SCALE_JOINT, SLI_SCALES };
+
+#define SLI_JOINT_NULL (-2)
+
+#define SLI_NORM_FLOOR 1e-50
+
+typedef struct sli_bounds {
+  const sl_factor *F;
+  const sli_query *q;
+  double *scales;
+  unsigned char *memory;
+  double *norms;
+  uint64_t *order, *sorting;
+  sli_step *steps;
+  sl_int *rows;
+  double *y, *scratch;
+} sli_bounds;
+
+static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_scales) {
+  const sli_reach *R = &p->q->backward;
+  const uint64_t paths = (uint64_t)p->q->forward.count + 1;
+  const sl_int most = sli_block_most(p->F);
+  size_t scratch = sli_sweep_scratch(R->tallest, R->widest, SLI_TILE);
+  scratch += sli_sweep_scratch(R->tallest, R->widest, 2);
+  p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
+  p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
+  if (!has_scales) {
+    p->scales = SLI_TAKE(b, double, (uint64_t)p->q->nx *SLI_SCALES + 2);
+  }
+  p->order = SLI_TAKE(b, uint64_t, p->q->nx);
+  p->sorting = SLI_TAKE(b, uint64_t, p->q->nx);
+  p->steps = SLI_TAKE(b, sli_step, R->count);
+  p->rows = SLI_TAKE(b, sl_int, R->n_rows);
+  p->y = SLI_TAKE(b, double, (uint64_t)R->columns *SLI_TILE);
+  p->scratch = SLI_TAKE(b, double, scratch);
+}
+
+static sli_hash sli_scales_identity(const sli_bounds *p) {
+  sli_hash h = p->F->identity;
+  h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->forward.steps,
+            (sl_off)p->q->forward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
+  h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->backward.steps,
+            (sl_off)p->q->backward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
+  return sli_hash_ints(h, p->q->x_index, p->q->nx);
+}
+
+static sl_int sli_path_joint(const sli_query *q, sl_int s) {
+  const sl_symbolic *S = q->S;
+  sl_int at = -1;
+  for (; s != -1 && at == -1; s = S->super_parent[s]) {
+    at = sli_reach_step_of(&q->forward, S->super_first[s + 1] - 1);
+  }
+  return at;
+}
+
+static void sli_scales_add(const sli_bounds *p, const sli_step *step, sl_int from, sl_int lanes,
+               sl_int count, double (*squares)[SLI_TILE]) {
+  const double *y = p->y + (ptrdiff_t)step->base * lanes;
+  sl_int k, r;
+  for (k = 0; k < sli_step_columns(step); k++, y += lanes) {
+    const sl_int column = step->column + k;
+    double *to = squares[column >= from ? SLI_SCALE_COMMON : SLI_SCALE_REST];
+    for (r = 0; r < count && !sli_is_skipped(p->F, column); r++) {
+      to[r] += y[r] * y[r] / p->F->D[column];
+    }
+  }
+}
+
+static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
+  const sl_symbolic *S = p->q->S;
+  const int kind = sli_lanes_kind(count);
+  const sl_int lanes = (sl_int)1 << kind;
+  double squares[2][SLI_TILE];
+  sli_reach R;
+  sl_int s, r, at = 0;
+  sli_reach_fill(S, p->order + first, count, p->steps, p->rows, &R);
+  memset(p->y, 0, (size_t)R.columns * (size_t)lanes * sizeof(double));
+  for (r = 0; r < count; r++) {
+    const sl_int row = sli_reach_index(&R, &at, sli_key(p->order[first + r]));
+    p->y[(ptrdiff_t)row * lanes + r] = 1.0;
+  }
+  sli_forward_sweep(p->F, kind, &R, p->y, p->scratch);
+  memset(squares, 0, sizeof squares);
+  for (s = 0; s < R.count; s++) {
+    const sl_int last = R.steps[s].column + sli_step_columns(&R.steps[s]) - 1;
+    const sl_int in_b = sli_reach_step_of(&p->q->forward, last);
+    sli_scales_add(p, &R.steps[s], in_b == -1 ? last + 1 : p->q->forward.steps[in_b].column,
+             lanes, count, squares);
+  }
+  for (r = 0; r < count; r++) {
+    const uint64_t row = p->order[first + r];
+    const double common = squares[SLI_SCALE_COMMON][r], rest = squares[SLI_SCALE_REST][r];
+    const double all = sqrt(common + rest), least = SLI_NORM_FLOOR * all;
+    double *scale = p->scales + 2 + (ptrdiff_t)sli_value(row) * SLI_SCALES;
+    const sl_int joint = sli_path_joint(p->q, S->super_of[sli_key(row)]);
+    scale[SLI_SCALE_COMMON] = joint == -1 ? 0.0 : fmax(sqrt(common), least);
+    scale[SLI_SCALE_REST] = fmax(sqrt(rest), least);
+    scale[SLI_SCALE_ALL] = joint == -1 ? 0.0 : all;
+    scale[SLI_SCALE_JOINT] = sli_is_skipped(p->F, sli_key(row)) ? SLI_JOINT_NULL : joint;
+  }
+}
+
+static void sli_scales_fill(sli_bounds *p) {
+  const sli_reach *R = &p->q->backward;
+  sl_int k, at = 0;
+  for (k = 0; k < p->q->nx; k++) {
+    p->order[k] = sli_keyed(p->q->x_index[k], k);
+  }
+  sli_sort(p->order, p->q->nx, p->sorting);
+  for (k = 0; k < p->q->nx; k++) {
+    const sl_int index = sli_key(p->order[k]);
+    while (index >= R->steps[at].base + sli_step_columns(&R->steps[at])) {
+      at++;
+    }
+    p->order[k] =
+      sli_keyed(index - R->steps[at].base + R->steps[at].column, sli_value(p->order[k]));
+  }
+  for (k = 0; k < p->q->nx; k += SLI_TILE) {
+    sli_scales_block(p, k, sli_min(SLI_TILE, p->q->nx - k));
+  }
+}
+
+static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes) {
+  const sli_reach *R = &p->q->forward;
+  double *all = p->norms + (ptrdiff_t)R->count * lanes;
+  sl_int s, k, r;
+  memset(all, 0, (size_t)lanes * sizeof(double));
+  for (s = R->count - 1; s >= 0; s--) {
+    const sli_step *step = &R->steps[s];
+    const double *row = y + (ptrdiff_t)step->base * lanes;
+    double *own = p->norms + (ptrdiff_t)s * lanes;
+    memset(own, 0, (size_t)lanes * sizeof(double));
+    for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
+      const double d =
+        sli_is_skipped(p->F, step->column + k) ? 0.0 : 1.0 / p->F->D[step->column + k];
+      for (r = 0; r < lanes; r++) {
+        own[r] += row[r] * row[r] * d;
+      }
+    }
+    for (r = 0; r < lanes; r++) {
+      all[r] += own[r];
+      own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
+    }
+  }
+  for (r = 0; r < lanes; r++) {
+    all[r] = sqrt(all[r]);
+  }
+  for (s = 0; s < R->count; s++) {
+    for (r = 0; r < lanes; r++) {
+      double *own = p->norms + (ptrdiff_t)s * lanes + r;
+      *own = fmax(sqrt(*own), SLI_NORM_FLOOR * all[r]);
+    }
+  }
+}
+
+static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) {
+  const sli_dense at = sli_dense_of(X->ldx);
+  const sl_int lanes = (sl_int)1 << sli_lanes_kind(X->nrhs);
+  const double *all = p->norms + (ptrdiff_t)p->q->forward.count * lanes;
+  const double given = p->F->certificate.eta;
+  const double eta = given / (1.0 - 2.0 * given) * (1.0 + 1e-8);
+  sl_int k, r;
+  for (k = 0; k < p->q->nx; k++) {
+    const double *scale = p->scales + 2 + (ptrdiff_t)k * SLI_SCALES;
+    const double common = scale[SLI_SCALE_COMMON], rest = scale[SLI_SCALE_REST];
+    const sl_int joint = (sl_int)scale[SLI_SCALE_JOINT];
+    const double *shared = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
+    for (r = 0; r < X->nrhs; r++) {
+      const size_t here = (size_t)k * at.row + (size_t)r * at.column;
+      const double whole = scale[SLI_SCALE_ALL] * all[r];
+      const double part = joint < 0 ? 0.0 : common * all[r] + rest * shared[r];
+      to[here] = joint == SLI_JOINT_NULL
+               ? fabs(X->X[here])
+               : eta * (part < whole ? part : whole) + 4.0 * eta * eta * whole;
+    }
+  }
+}
+
+static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+  sl_int r, count;
+  for (r = 0; r < rhs->nrhs; r += count) {
+    sli_rhs block;
+    sli_vectors v;
+    count = sli_block_size(rhs->nrhs - r, sli_block_most(p->F));
+    block = sli_rhs_part(rhs, r, count);
+    v = sli_vectors_of(p->q, count, p->memory);
+    (void)sli_sweep_load(p->F, p->q, &v, &block);
+    sli_bounds_norms(p, v.y, (sl_int)1 << sli_lanes_kind(count));
+    sli_sweep_backward(p->F, p->q, &v, count);
+    sli_unpack(p->F, p->q, &block, v.x);
+    sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
+  }
+}
+
+static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
+  const int has_scales = p->scales != NULL;
+  sli_block b = {NULL, 0, 0};
+  sl_status status;
+  sli_hash identity;
+  sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+  status = sli_work_block(W, &b);
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+  if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
+    return SL_ERR_INCONSISTENT;
+  }
+  identity = sli_scales_identity(p);
+  if (!has_scales || memcmp(p->scales, &identity, sizeof identity) != 0) {
+    sli_scales_fill(p);
+    memcpy(p->scales, &identity, sizeof identity);
+  }
+  sli_bounds_blocks(p, rhs, bounds);
+  return SL_OK;
+}
+
+SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                     double *bounds, const double *B, size_t ldb, sl_int nrhs,
+                     double *scales, sl_work *W, sl_stats *stats) {
+  const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  sli_bounds p;
+  sl_work own;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (P == NULL || F == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_rhs_check(&rhs, P->query.nx, P->query.nb);
+  if (status != SL_OK ||
+    (nrhs > 0 && P->query.nx > 0 && (bounds == NULL || bounds == X || bounds == B))) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (!sli_query_fits(&P->query, F) || F->certificate.certainty == SL_UNCERTIFIED ||
+    F->certificate.generation != F->generation) {
+    return SL_ERR_STATE;
+  }
+  if (P->query.ending != NULL) {
+    return SL_ERR_UNSUPPORTED;
+  }
+  if (stats != NULL) {
+    memset(&stats->certificate, 0, sizeof stats->certificate);
+    stats->certificate.certainty = (sl_certainty)F->certificate.certainty;
+    stats->certificate.eta = F->certificate.eta;
+  }
+  if (nrhs == 0 || P->query.nx == 0) {
+    return SL_OK;
+  }
+  p.F = F;
+  p.q = &P->query;
+  p.scales = scales;
+  own = sli_work_own(&F->allocator);
+  status = sli_bounds_run(&p, &rhs, bounds, W == NULL ? &own : W);
   sli_free(&own.allocator, own.block);
   return status;
 }
@@ -27471,7 +28304,9 @@ typedef struct sli_saved_factor {
   uint64_t identity[2];
   int64_t null_vectors;
   int64_t storage;
-  uint64_t reserved[5];
+  double eta;
+  int64_t certainty;
+  uint64_t reserved[3];
 } sli_saved_factor;
 
 typedef struct sli_saved_part {
@@ -27817,6 +28652,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
     !sli_count_is_valid(g->storage,
               g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
+    !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
     g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
     return 0;
   }
@@ -27842,7 +28678,9 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->rule.replaces = skips || g->regularization != 0.0;
   F->identity.a = g->identity[0];
   F->identity.b = g->identity[1];
-  F->generation = 1;
+  F->generation = F->certificate.generation = 1;
+  F->certificate.eta = g->eta;
+  F->certificate.certainty = (sl_int)g->certainty;
   F->is_valid = 1;
   F->status = SL_OK;
   info->positive = (sl_int)g->positive;
@@ -28254,6 +29092,10 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
   g.identity[1] = F->identity.b;
   g.null_vectors = F->null.vectors > 1 ? F->null.vectors : 0;
   g.storage = F->type->storage;
+  if (F->certificate.generation == F->generation) {
+    g.eta = F->certificate.eta;
+    g.certainty = F->certificate.certainty;
+  }
   return g;
 }
 
@@ -30904,6 +31746,15 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_SUBSET_BITS
 #undef SLI_SUBSET_WORDS
 #undef SLI_SUBSET_AHEAD
+#undef SLI_PROBES
+#undef SLI_PROBE_TURNS
+#undef SLI_PROBE_SAFETY
+#undef SLI_ETA_MOST
+#undef SLI_POWER_STEPS
+#undef SLI_INVERSE_STEPS
+#undef SLI_OTHER_ROUNDINGS
+#undef SLI_JOINT_NULL
+#undef SLI_NORM_FLOOR
 #undef SLI_WRITE_VERSION_PLAIN
 #endif
 

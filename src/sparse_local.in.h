@@ -19,6 +19,7 @@ extern "C" {
 #if defined(SL_WITH_ACCURACY)
 #include "public/parts.h"
 #include "public/accuracy.h"
+#include "public/bounds.h"
 #endif
 #if defined(SL_WITH_INVERSE)
 #include "public/inverse.h"
@@ -149,13 +150,16 @@ extern "C" {
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"
 #include "impl/solve/local.h"
-/* accuracy: refinement, condition, defects, half solves */
+/* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 #include "impl/accuracy/parts.h"
 #include "impl/accuracy/refine.h"
 #include "impl/accuracy/refine_local.h"
 #include "impl/accuracy/rcond.h"
 #include "impl/accuracy/defects.h"
+#include "impl/accuracy/guarantee.h"
+#include "impl/accuracy/certify.h"
+#include "impl/accuracy/bounds.h"
 #endif
 /* pivots: the order of the pivots by the values of a matrix */
 #if defined(SL_WITH_PIVOTS)

@@ -76,6 +76,7 @@
  *             method, 1989.
  *  [Bie76]    Bierman: Measurement updating using the U-D factorization, 1976.
  *  [Davis06]  Davis: Direct Methods for Sparse Linear Systems, 2006.
+ *  [Dek71]    Dekker: A floating-point technique for extending the available precision, 1971.
  *  [DH01]     Davis, Hager: Multiple-rank modifications of a sparse Cholesky factorization, 2001.
  *  [DR83]     Duff, Reid: The multifrontal solution of indefinite sparse symmetric linear
  *             equations, 1983.
@@ -98,6 +99,7 @@
  *  [MR85]     Miller, Reif: Parallel tree contraction and its application, 1985.
  *  [NP93]     Ng, Peyton: Block sparse Cholesky algorithms on advanced uniprocessor computers,
  *             1993.
+ *  [Ru06]     Rump: Verification of positive definiteness, 2006.
  *  [SelInv]   Lin, Yang, Meza, Lu, Ying, E: SelInv: selected inversion of a sparse symmetric
  *             matrix, 2011.
  *  [Sk80]     Skeel: Iterative refinement implies numerical stability for Gaussian elimination,

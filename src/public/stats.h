@@ -109,6 +109,15 @@ typedef struct sl_refine_info {
     double backward_error; /* what remains, the maximum over all right-hand sides */
 } sl_refine_info;
 
+/** The errors of all solves with a factor: sl_factor_certify, sl_plan_solve_bounded. */
+typedef struct sl_certificate_info {
+    sl_certainty certainty;
+    sl_int solves;         /* full solves that found eta; 0 if it was there */
+    double eta;            /* the largest relative error in the energy norm */
+    double eigenvalue_min; /* guaranteed: a lower bound, of A scaled to a unit diagonal; else 0 */
+    double seconds;        /* processor seconds */
+} sl_certificate_info;
+
 /** A change of a factor in place: sl_factor_update, _update_entries, _change. */
 typedef struct sl_change_info {
     sl_change_method method; /* the way that was taken */
@@ -194,8 +203,9 @@ typedef struct sl_stats {
     sl_off storage; /* sl_storage of the factor; with the group factor */
     sl_reuse_info reuse;
     sl_pins_info pins;
+    sl_certificate_info certificate;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[24];
+    sl_off reserved[20];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

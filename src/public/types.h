@@ -134,6 +134,13 @@ typedef enum sl_inverse_method {
     SL_INVERSE_SELECTED  /* selected inversion on their reach */
 } sl_inverse_method;
 
+/** What a bound of errors is worth. */
+typedef enum sl_certainty {
+    SL_UNCERTIFIED = 0,
+    SL_ESTIMATED, /* from errors that were measured */
+    SL_GUARANTEED /* proved */
+} sl_certainty;
+
 /** How a change of a factor was computed. */
 typedef enum sl_change_method {
     SL_CHANGE_NONE = 0, /* nothing changed */

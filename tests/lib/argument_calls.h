@@ -97,6 +97,15 @@ static sl_status rcond(arguments_t *a) {
     return sl_factor_rcond(a->F, a->A, &r, NULL);
 }
 
+static sl_status plan_bounded(arguments_t *a) {
+    double bounds[2 * N];
+    if (a->F != NULL && a->F == o->good.F) {
+        SL_CHECK(sl_factor_certify(a->F, &o->good.M.view, SL_ESTIMATED, NULL, NULL));
+    }
+    return sl_plan_solve_bounded(a->P, a->F, a->X, a->ldx, bounds, a->B, a->ldb, a->nrhs, NULL,
+                                 NULL, &a->stats);
+}
+
 static sl_status logdet(arguments_t *a) {
     double log_abs, sign;
     return sl_factor_logdet(a->F, &log_abs, &sign);
@@ -190,6 +199,7 @@ CALL(refactor, sl_factor_refactor(a->F, a->A, &a->stats))
 CALL(changed, sl_factor_refactor_changed(a->F, a->A, a->xset, a->nx, &a->stats))
 CALL(refine,
      sl_factor_refine(a->F, a->A, a->X, a->ldx, a->B, a->ldb, a->nrhs, a->steps, NULL, &a->stats))
+CALL(certify, sl_factor_certify(a->F, a->A, SL_ESTIMATED, NULL, &a->stats))
 CALL(scatter, sl_symbolic_scatter(a->S, o->entries, a->A, &a->stats))
 CALL(write_file, sl_csc_write(a->A, SL_AS_SYMMETRIC, NOWHERE))
 CALL(solve, sl_factor_solve(a->F, a->X, a->ldx, a->B, a->ldb, a->nrhs, NULL))
@@ -257,6 +267,7 @@ static const struct {
     {"sl_factor_refactor_changed", changed, A_ | SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_refine", refine, A_ | SQUARE_ | VALUES_ | SOLVE_ | STEPS_},
     {"sl_factor_rcond", rcond, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
+    {"sl_factor_certify", certify, A_ | SQUARE_ | VALUES_ | F_ | FAILED_},
     {"sl_factor_restrict", restriction, SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_logdet", logdet, F_ | FAILED_},
     {"sl_factor_pivot_rows", null_rows, F_ | FAILED_},
@@ -266,6 +277,7 @@ static const struct {
     {"sl_plan_create", plan, S_ | BSET_ | XSET_},
     {"sl_plan_solve", plan_solve, SOLVE_ | P_ | OTHER_},
     {"sl_plan_solve_refined", plan_refined, SOLVE_ | P_ | OTHER_ | STEPS_},
+    {"sl_plan_solve_bounded", plan_bounded, SOLVE_ | P_ | OTHER_},
     {"sl_local_solve", local, SOLVE_ | BSET_ | XSET_},
     {"sl_inverse_diagonal", diagonal, F_ | FAILED_ | X_ | XSET_},
     {"sl_inverse_pairs", pairs, F_ | FAILED_ | X_ | LIST_},

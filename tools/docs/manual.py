@@ -29,7 +29,8 @@ nav { border-bottom: 1px solid #ccc; padding-bottom: .5em }
 h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 """
 CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
-            ("singular", "Singular systems"), ("indefinite", "Indefinite and KKT systems"),
+            ("singular", "Singular systems"), ("bounds", "Bounds of errors"),
+            ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
             ("changes", "Changes of a matrix"), ("files", "Files")]
 PAGES = [("index", "Guide"), ("api", "API")] + CHAPTERS + [

@@ -100,6 +100,13 @@ typedef struct sli_history {
     uint64_t *marks;
 } sli_history;
 
+/* What is proved of the errors of all solves: the largest relative one in the energy norm. */
+typedef struct sli_certificate {
+    double eta;
+    sl_int certainty;    /* sl_certainty */
+    uint64_t generation; /* of the numbers that it is about; of others it says nothing */
+} sli_certificate;
+
 /* The scratch of fronts: a piece for each worker. */
 typedef struct sli_front_work {
     double *buffer; /* of kernels */
@@ -146,6 +153,7 @@ struct sl_factor {
     uint64_t generation;
     double clock; /* when its memory was there */
     sli_history history;
+    sli_certificate certificate;
 
     void *values; /* L: the panels of all supernodes, as they are stored */
     double *D;    /* n pivots */

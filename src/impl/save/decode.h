@@ -118,6 +118,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         !sli_count_is_valid(g->null_vectors, skips ? SLI_NULL_VECTORS_MAX : 1) ||
         !sli_count_is_valid(g->storage,
                             g->method == SL_METHOD_SUPERNODAL ? SL_STORAGE_FLOAT_FRONTS : 0) ||
+        !sli_count_is_valid(g->certainty, SL_GUARANTEED) || !(g->eta >= 0.0) || g->eta > 1.0 ||
         g->null_tolerance != g->null_tolerance || g->consistency != g->consistency) {
         return 0;
     }
@@ -143,7 +144,9 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->rule.replaces = skips || g->regularization != 0.0;
     F->identity.a = g->identity[0];
     F->identity.b = g->identity[1];
-    F->generation = 1;
+    F->generation = F->certificate.generation = 1;
+    F->certificate.eta = g->eta;
+    F->certificate.certainty = (sl_int)g->certainty;
     F->is_valid = 1;
     F->status = SL_OK;
     info->positive = (sl_int)g->positive;

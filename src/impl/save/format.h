@@ -73,7 +73,9 @@ typedef struct sli_saved_factor {
     uint64_t identity[2];
     int64_t null_vectors; /* columns of z and g; 0: 1, in files of earlier versions */
     int64_t storage;      /* sl_storage: of L */
-    uint64_t reserved[5];
+    double eta;           /* of sl_factor_certify; 0: none, as in files of earlier versions */
+    int64_t certainty;    /* sl_certainty */
+    uint64_t reserved[3];
 } sli_saved_factor;
 
 /* Regions or a selected inverse: how many regions or supernodes, and the identity of the factor. */

@@ -70,6 +70,10 @@ static sli_saved_factor sli_saved_factor_of(const sl_factor *F) {
     g.identity[1] = F->identity.b;
     g.null_vectors = F->null.vectors > 1 ? F->null.vectors : 0;
     g.storage = F->type->storage;
+    if (F->certificate.generation == F->generation) {
+        g.eta = F->certificate.eta;
+        g.certainty = F->certificate.certainty;
+    }
     return g;
 }
 

@@ -1,0 +1,294 @@
+/* bounds.h: sl_plan_solve_bounded: local solves with a bound for the error of each number */
+#ifndef SLI_ACCURACY_BOUNDS_H
+#define SLI_ACCURACY_BOUNDS_H
+
+#include "../../public/bounds.h"
+#include "../solve/plan.h"
+
+/* With u(b) = D^-1/2 L^-1 P b, and u(i) that of a unit vector, x(i) is u(i)' u(b), and its error is
+ * u(i)' T u(b) with ||T|| <= eta, to first order. T(k, l) is 0 unless one of the columns k and l is
+ * an ancestor of the other: E and the rounding errors of the sweeps have the pattern of L D L', and
+ * L^-1 has no entries between subtrees. Let c be the columns that the path of i shares with those
+ * of b, the end of that path. The rest of the path is in no other path of b, so
+ *
+ *    |x(i) - exact| <= eta min(|u(i)| |u(b)|, |u(i)_c| |u(b)| + |u(i)_rest| |u(b)_c|),
+ *
+ * which is small if b and i meet far up. Terms of higher order are below 4 eta^2 |u(i)| |u(b)|. */
+
+/* The scales of a row of x. */
+enum { SLI_SCALE_COMMON, SLI_SCALE_REST, SLI_SCALE_ALL, SLI_SCALE_JOINT, SLI_SCALES };
+
+/* In place of the joint: x is 0 in the row of a null pivot, but for the division by DBL_MAX. */
+#define SLI_JOINT_NULL (-2)
+
+/* A norm that is smaller than this part of the whole is taken as this part: its square may
+ * underflow. */
+#define SLI_NORM_FLOOR 1e-50
+
+typedef struct sli_bounds {
+    const sl_factor *F;
+    const sli_query *q;
+    double *scales;        /* 2 numbers that identify them, then SLI_SCALES of each row of x */
+    unsigned char *memory; /* vectors of the sweeps */
+    /* path norms: of the columns from each step of the forward reach on up to the root; then the
+     * norm of all. By rows: one for each right-hand side of a block */
+    double *norms;
+    /* while scales are computed: the rows of x by their index in the vector, sorted; then a block
+     * of up to 8 of them, its reach and its vector */
+    uint64_t *order, *sorting;
+    sli_step *steps;
+    sl_int *rows;
+    double *y, *scratch;
+} sli_bounds;
+
+static void sli_bounds_layout(sli_bounds *p, sli_block *b, sl_int nrhs, int has_scales) {
+    const sli_reach *R = &p->q->backward;
+    const uint64_t paths = (uint64_t)p->q->forward.count + 1;
+    const sl_int most = sli_block_most(p->F);
+    size_t scratch = sli_sweep_scratch(R->tallest, R->widest, SLI_TILE);
+    scratch += sli_sweep_scratch(R->tallest, R->widest, 2); /* one and two keep partial sums */
+    p->memory = (unsigned char *)sli_take(b, sli_vectors_bytes(p->q, nrhs, most), 1);
+    p->norms = SLI_TAKE(b, double, paths << sli_lanes_kind(sli_block_size(nrhs, most)));
+    if (!has_scales) {
+        p->scales = SLI_TAKE(b, double, (uint64_t)p->q->nx *SLI_SCALES + 2);
+    }
+    p->order = SLI_TAKE(b, uint64_t, p->q->nx);
+    p->sorting = SLI_TAKE(b, uint64_t, p->q->nx);
+    p->steps = SLI_TAKE(b, sli_step, R->count);
+    p->rows = SLI_TAKE(b, sl_int, R->n_rows);
+    p->y = SLI_TAKE(b, double, (uint64_t)R->columns *SLI_TILE);
+    p->scratch = SLI_TAKE(b, double, scratch);
+}
+
+/* What the scales depend on: the numbers of F, both reaches, and the rows of x. */
+static sli_hash sli_scales_identity(const sli_bounds *p) {
+    sli_hash h = p->F->identity;
+    h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->forward.steps,
+                      (sl_off)p->q->forward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
+    h = sli_hash_ints(h, (const sl_int *)(const void *)p->q->backward.steps,
+                      (sl_off)p->q->backward.count * (sl_off)(sizeof(sli_step) / sizeof(sl_int)));
+    return sli_hash_ints(h, p->q->x_index, p->q->nx);
+}
+
+/* The step of the forward reach where the path of supernode s enters it, or -1. */
+static sl_int sli_path_joint(const sli_query *q, sl_int s) {
+    const sl_symbolic *S = q->S;
+    sl_int at = -1;
+    for (; s != -1 && at == -1; s = S->super_parent[s]) {
+        at = sli_reach_step_of(&q->forward, S->super_first[s + 1] - 1);
+    }
+    return at;
+}
+
+/* Adds the squares of the columns of one step, relative to the pivots `base` of the rows, to the
+ * scales of a block: lane r is the row of x in order[r]. from: where the columns are that b
+ * shares. */
+static void sli_scales_add(const sli_bounds *p, const sli_step *step, sl_int from, sl_int lanes,
+                           sl_int count, double (*squares)[SLI_TILE]) {
+    const double *y = p->y + (ptrdiff_t)step->base * lanes;
+    sl_int k, r;
+    for (k = 0; k < sli_step_columns(step); k++, y += lanes) {
+        const sl_int column = step->column + k;
+        double *to = squares[column >= from ? SLI_SCALE_COMMON : SLI_SCALE_REST];
+        for (r = 0; r < count && !sli_is_skipped(p->F, column); r++) {
+            to[r] += y[r] * y[r] / p->F->D[column];
+        }
+    }
+}
+
+/* Computes the scales of the `count` rows of x in p->order[first ..]. */
+static void sli_scales_block(sli_bounds *p, sl_int first, sl_int count) {
+    const sl_symbolic *S = p->q->S;
+    const int kind = sli_lanes_kind(count);
+    const sl_int lanes = (sl_int)1 << kind;
+    double squares[2][SLI_TILE];
+    sli_reach R;
+    sl_int s, r, at = 0;
+    sli_reach_fill(S, p->order + first, count, p->steps, p->rows, &R);
+    memset(p->y, 0, (size_t)R.columns * (size_t)lanes * sizeof(double));
+    for (r = 0; r < count; r++) {
+        const sl_int row = sli_reach_index(&R, &at, sli_key(p->order[first + r]));
+        p->y[(ptrdiff_t)row * lanes + r] = 1.0;
+    }
+    sli_forward_sweep(p->F, kind, &R, p->y, p->scratch);
+    memset(squares, 0, sizeof squares);
+    for (s = 0; s < R.count; s++) {
+        const sl_int last = R.steps[s].column + sli_step_columns(&R.steps[s]) - 1;
+        const sl_int in_b = sli_reach_step_of(&p->q->forward, last);
+        sli_scales_add(p, &R.steps[s], in_b == -1 ? last + 1 : p->q->forward.steps[in_b].column,
+                       lanes, count, squares);
+    }
+    for (r = 0; r < count; r++) {
+        const uint64_t row = p->order[first + r];
+        const double common = squares[SLI_SCALE_COMMON][r], rest = squares[SLI_SCALE_REST][r];
+        const double all = sqrt(common + rest), least = SLI_NORM_FLOOR * all;
+        double *scale = p->scales + 2 + (ptrdiff_t)sli_value(row) * SLI_SCALES;
+        const sl_int joint = sli_path_joint(p->q, S->super_of[sli_key(row)]);
+        scale[SLI_SCALE_COMMON] = joint == -1 ? 0.0 : fmax(sqrt(common), least);
+        scale[SLI_SCALE_REST] = fmax(sqrt(rest), least);
+        scale[SLI_SCALE_ALL] = joint == -1 ? 0.0 : all;
+        scale[SLI_SCALE_JOINT] = sli_is_skipped(p->F, sli_key(row)) ? SLI_JOINT_NULL : joint;
+    }
+}
+
+/* Sorts the rows of x by column of L, and computes their scales in blocks of up to 8. */
+static void sli_scales_fill(sli_bounds *p) {
+    const sli_reach *R = &p->q->backward;
+    sl_int k, at = 0;
+    for (k = 0; k < p->q->nx; k++) {
+        p->order[k] = sli_keyed(p->q->x_index[k], k);
+    }
+    sli_sort(p->order, p->q->nx, p->sorting);
+    for (k = 0; k < p->q->nx; k++) {
+        const sl_int index = sli_key(p->order[k]);
+        while (index >= R->steps[at].base + sli_step_columns(&R->steps[at])) {
+            at++;
+        }
+        p->order[k] =
+            sli_keyed(index - R->steps[at].base + R->steps[at].column, sli_value(p->order[k]));
+    }
+    for (k = 0; k < p->q->nx; k += SLI_TILE) {
+        sli_scales_block(p, k, sli_min(SLI_TILE, p->q->nx - k));
+    }
+}
+
+/* The norms of one block from its forward vector. */
+static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes) {
+    const sli_reach *R = &p->q->forward;
+    double *all = p->norms + (ptrdiff_t)R->count * lanes;
+    sl_int s, k, r;
+    memset(all, 0, (size_t)lanes * sizeof(double));
+    for (s = R->count - 1; s >= 0; s--) {
+        const sli_step *step = &R->steps[s];
+        const double *row = y + (ptrdiff_t)step->base * lanes;
+        double *own = p->norms + (ptrdiff_t)s * lanes;
+        memset(own, 0, (size_t)lanes * sizeof(double));
+        for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
+            const double d =
+                sli_is_skipped(p->F, step->column + k) ? 0.0 : 1.0 / p->F->D[step->column + k];
+            for (r = 0; r < lanes; r++) {
+                own[r] += row[r] * row[r] * d;
+            }
+        }
+        for (r = 0; r < lanes; r++) {
+            all[r] += own[r];
+            own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
+        }
+    }
+    for (r = 0; r < lanes; r++) {
+        all[r] = sqrt(all[r]);
+    }
+    for (s = 0; s < R->count; s++) {
+        for (r = 0; r < lanes; r++) {
+            double *own = p->norms + (ptrdiff_t)s * lanes + r;
+            *own = fmax(sqrt(*own), SLI_NORM_FLOOR * all[r]);
+        }
+    }
+}
+
+/* Writes the bounds of one block, whose solutions are in X. */
+static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) {
+    const sli_dense at = sli_dense_of(X->ldx);
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(X->nrhs);
+    const double *all = p->norms + (ptrdiff_t)p->q->forward.count * lanes;
+    const double given = p->F->certificate.eta;
+    const double eta = given / (1.0 - 2.0 * given) * (1.0 + 1e-8); /* roundings of the norms */
+    sl_int k, r;
+    for (k = 0; k < p->q->nx; k++) {
+        const double *scale = p->scales + 2 + (ptrdiff_t)k * SLI_SCALES;
+        const double common = scale[SLI_SCALE_COMMON], rest = scale[SLI_SCALE_REST];
+        const sl_int joint = (sl_int)scale[SLI_SCALE_JOINT];
+        const double *shared = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
+        for (r = 0; r < X->nrhs; r++) {
+            const size_t here = (size_t)k * at.row + (size_t)r * at.column;
+            const double whole = scale[SLI_SCALE_ALL] * all[r];
+            const double part = joint < 0 ? 0.0 : common * all[r] + rest * shared[r];
+            to[here] = joint == SLI_JOINT_NULL
+                           ? fabs(X->X[here])
+                           : eta * (part < whole ? part : whole) + 4.0 * eta * eta * whole;
+        }
+    }
+}
+
+/* sli_sweep_blocks with bounds. */
+static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *bounds) {
+    sl_int r, count;
+    for (r = 0; r < rhs->nrhs; r += count) {
+        sli_rhs block;
+        sli_vectors v;
+        count = sli_block_size(rhs->nrhs - r, sli_block_most(p->F));
+        block = sli_rhs_part(rhs, r, count);
+        v = sli_vectors_of(p->q, count, p->memory);
+        (void)sli_sweep_load(p->F, p->q, &v, &block);
+        sli_bounds_norms(p, v.y, (sl_int)1 << sli_lanes_kind(count));
+        sli_sweep_backward(p->F, p->q, &v, count);
+        sli_unpack(p->F, p->q, &block, v.x);
+        sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
+    }
+}
+
+/* Solves in a workspace. */
+static sl_status sli_bounds_run(sli_bounds *p, const sli_rhs *rhs, double *bounds, sl_work *W) {
+    const int has_scales = p->scales != NULL;
+    sli_block b = {NULL, 0, 0};
+    sl_status status;
+    sli_hash identity;
+    sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+    status = sli_work_block(W, &b);
+    if (status != SL_OK) {
+        return status;
+    }
+    sli_bounds_layout(p, &b, rhs->nrhs, has_scales);
+    if (p->F->null.checks && sli_sweep_check(p->F, p->q, rhs, p->memory) != SL_OK) {
+        return SL_ERR_INCONSISTENT;
+    }
+    identity = sli_scales_identity(p);
+    if (!has_scales || memcmp(p->scales, &identity, sizeof identity) != 0) {
+        sli_scales_fill(p);
+        memcpy(p->scales, &identity, sizeof identity);
+    }
+    sli_bounds_blocks(p, rhs, bounds);
+    return SL_OK;
+}
+
+SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, double *X, size_t ldx,
+                                       double *bounds, const double *B, size_t ldb, sl_int nrhs,
+                                       double *scales, sl_work *W, sl_stats *stats) {
+    const sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    sli_bounds p;
+    sl_work own;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (P == NULL || F == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_rhs_check(&rhs, P->query.nx, P->query.nb);
+    if (status != SL_OK ||
+        (nrhs > 0 && P->query.nx > 0 && (bounds == NULL || bounds == X || bounds == B))) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (!sli_query_fits(&P->query, F) || F->certificate.certainty == SL_UNCERTIFIED ||
+        F->certificate.generation != F->generation) {
+        return SL_ERR_STATE;
+    }
+    if (P->query.ending != NULL) {
+        return SL_ERR_UNSUPPORTED;
+    }
+    if (stats != NULL) {
+        memset(&stats->certificate, 0, sizeof stats->certificate);
+        stats->certificate.certainty = (sl_certainty)F->certificate.certainty;
+        stats->certificate.eta = F->certificate.eta;
+    }
+    if (nrhs == 0 || P->query.nx == 0) {
+        return SL_OK;
+    }
+    p.F = F;
+    p.q = &P->query;
+    p.scales = scales;
+    own = sli_work_own(&F->allocator);
+    status = sli_bounds_run(&p, &rhs, bounds, W == NULL ? &own : W);
+    sli_free(&own.allocator, own.block);
+    return status;
+}
+
+#endif
