@@ -85,6 +85,9 @@ _ReuseInfo = _struct("_ReuseInfo", [
 _PinsInfo = _struct("_PinsInfo", [
     ("method", _ENUM), ("reason", _ENUM), ("count", _INT), ("eliminated", _INT),
     ("seconds_capacitance", _REAL), ("seconds_elimination", _REAL), ("seconds", _REAL)])
+_CertificateInfo = _struct("_CertificateInfo", [
+    ("certainty", _ENUM), ("solves", _INT), ("eta", _REAL), ("eigenvalue_min", _REAL),
+    ("seconds", _REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", _INT), ("backward_error", _REAL)])
 
 
@@ -95,7 +98,8 @@ class Stats(ctypes.Structure):
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", _OFF), ("reuse", _ReuseInfo),
-                ("pins", _PinsInfo), ("reserved", _OFF * 24)]
+                ("pins", _PinsInfo), ("certificate", _CertificateInfo),
+                ("reserved", _OFF * 20)]
 
 
 class SavedSet(ctypes.Structure):
@@ -132,9 +136,11 @@ _CALLS = {
     "factor_refine": [_PTR, _CSC, _PTR, _SIZE, _PTR, _SIZE, _INT, _INT, _PTR, _STATS],
     "factor_logdet": [_PTR, ctypes.POINTER(_REAL), ctypes.POINTER(_REAL)],
     "factor_rcond": [_PTR, _CSC, ctypes.POINTER(_REAL), _PTR],
+    "factor_certify": [_PTR, _CSC, _ENUM, _PTR, _STATS],
     "work_create": [_OUT, _OPT],
     "plan_create": [_OUT, _PTR, _PTR, _INT, _PTR, _INT, _OPT, _STATS],
     "plan_solve": [_PTR, _PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
+    "plan_solve_bounded": [_PTR, _PTR, _PTR, _SIZE, _PTR, _PTR, _SIZE, _INT, _PTR, _PTR, _STATS],
     "plan_solve_part": [_PTR, _PTR, ctypes.c_uint, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "plan_columns": [_PTR, _ENUM, _PTR, _INT, ctypes.POINTER(_INT)],
     "local_solve": [_PTR, _PTR, _INT, _PTR, _INT, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR, _STATS],

@@ -1,5 +1,6 @@
 """Plan and Region: prepared local solves, and parts of the matrix in which they stay."""
 import ctypes
+import threading
 
 import numpy as np
 
@@ -55,6 +56,7 @@ class Plan:
                                  x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats)
         self._factor = factor
         self._plan = Handle("plan", pointer.value, factor._symbolic, region)
+        self._scales = threading.local()
         self.nb = factor.n if bset is None else nb
         self.nx = factor.n if xset is None else nx
 
@@ -65,6 +67,24 @@ class Plan:
         check(lib.sl_plan_solve(self._plan.pointer, factor._factor.pointer, *dense.arguments(),
                                 factor._work()))
         return dense.X
+
+    def solve_bounded(self, B):
+        """x as solve returns it, and a bound for the error of each number.
+
+        The factor has been certified: Factor.certify. The first call computes what the bounds need
+        of the plan and the factor; it is kept for each thread.
+        """
+        dense = arrays.Dense(B, self.nb, self.nx)
+        bounds = np.empty_like(dense.X)
+        if not hasattr(self._scales, "numbers"):
+            self._scales.numbers = np.zeros(4 * self.nx + 2)
+        factor, stats = self._factor, Stats()
+        x, ldx, b, ldb, count = dense.arguments()
+        check(lib.sl_plan_solve_bounded(self._plan.pointer, factor._factor.pointer, x, ldx,
+                                        arrays.address(bounds), b, ldb, count,
+                                        arrays.address(self._scales.numbers), factor._work(),
+                                        ctypes.byref(stats)), stats)
+        return dense.X, bounds
 
     def solve_part(self, parts, B):
         """Half of the solve: 'P L' forward, 'LT PT' backward, either with 'D' or 'sqrtD'.

@@ -239,6 +239,31 @@ def test_inverse_and_determinant(A, F):
     assert error < 1e-14 and np.allclose(A @ X, b)
 
 
+@pytest.mark.parametrize("certainty", ["estimated", "guaranteed"])
+def test_bounds_hold(A, F, certainty):
+    rows = [5, 17, 399]
+    plan = F.plan(rows, None)
+    B = right_hand_sides(3, 4)
+    with pytest.raises(sl.StateError):
+        plan.solve_bounded(B)
+    eta = F.certify(A, certainty)
+    assert 0 < eta < 1e-6
+    full = np.zeros((400, 4))
+    full[rows] = B
+    exact = F.solve(full)
+    residual = np.longdouble(full) - A.astype(np.longdouble).toarray() @ np.longdouble(exact)
+    exact = np.longdouble(exact) + F.solve(np.float64(residual))
+    for b, wanted in ((B, exact), (B[:, 0], exact[:, 0])):
+        for _ in range(2):  # the second call has the scales
+            x, bounds = plan.solve_bounded(b)
+            assert np.array_equal(x, plan.solve(b)) and bounds.shape == x.shape
+            assert np.all(np.abs(x - wanted) <= bounds)
+    with pytest.raises(sl.ArgumentError):
+        F.certify(A, "perhaps")
+    with pytest.raises(sl.InaccurateError if certainty == "estimated" else sl.StateError):
+        F.certify(2 * A, certainty)
+
+
 # ---- half solves ----
 
 def test_parts_make_up_the_solve(A, F):
