@@ -30,6 +30,7 @@ h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 """
 CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
             ("singular", "Singular systems"), ("bounds", "Bounds of errors"),
+            ("derivatives", "Derivatives"),
             ("indefinite", "Indefinite and KKT systems"),
             ("float", "L in float"), ("inverse", "Entries of the inverse"),
             ("changes", "Changes of a matrix"), ("files", "Files")]
