@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8fb925de9f5ea4bb
+ * FNV-1a of the lines after this comment, without the license: 606a09b79aba0ac9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -40,20 +40,20 @@
  *  11529 impl/ factor: the numbers of L and D
  *  14291 impl/ solve: full and local solves
  *  15871 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17446 impl/ pivots: the order of the pivots by the values of a matrix
- *  17860 impl/ float: L and fronts in single precision
- *  18317 impl/ inverse: entries of the inverse, regions
- *  20858 impl/ change: a factor that follows changes of its matrix
- *  27410 impl/ io: files that are replaced only when they are complete
- *  27622 impl/ files: Matrix Market files, 64-bit indices
- *  28148 impl/ save: factors in files
- *  30070 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  30728 impl/ batch: diagonals of many inverses
- *  30868 impl/ complex: complex Hermitian systems over real factors
- *  31386 impl/ complex: entries of the inverse
- *  31438 impl/ packs: the tables through which the core calls packs
- *  31470 impl/ last: undefine every internal macro
- *  31770 impl/ templates: the header includes them from itself, once for each instruction set
+ *  17461 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17875 impl/ float: L and fronts in single precision
+ *  18332 impl/ inverse: entries of the inverse, regions
+ *  20873 impl/ change: a factor that follows changes of its matrix
+ *  27425 impl/ io: files that are replaced only when they are complete
+ *  27637 impl/ files: Matrix Market files, 64-bit indices
+ *  28163 impl/ save: factors in files
+ *  30085 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  30743 impl/ batch: diagonals of many inverses
+ *  30883 impl/ complex: complex Hermitian systems over real factors
+ *  31401 impl/ complex: entries of the inverse
+ *  31453 impl/ packs: the tables through which the core calls packs
+ *  31485 impl/ last: undefine every internal macro
+ *  31785 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -17305,23 +17305,38 @@ static void sli_scales_fill(sli_bounds *p) {
   }
 }
 
+static void sli_norms_step(const sl_factor *F, const sli_step *step, const double *row,
+               sl_int lanes, double *own) {
+  const sl_int columns = sli_step_columns(step);
+  double chains[4] = {0.0, 0.0, 0.0, 0.0};
+  sl_int k = 0, r;
+  memset(own, 0, (size_t)lanes * sizeof(double));
+  if (lanes == 1 && F->null.count == 0) {
+    const double *D = F->D + step->column;
+    for (; k + 4 <= columns; k += 4) {
+      for (r = 0; r < 4; r++) {
+        chains[r] += row[k + r] * row[k + r] / D[k + r];
+      }
+    }
+    own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
+  }
+  for (; k < columns; k++) {
+    const double d = sli_is_skipped(F, step->column + k) ? 0.0 : 1.0 / F->D[step->column + k];
+    for (r = 0; r < lanes; r++) {
+      own[r] += row[(ptrdiff_t)k * lanes + r] * row[(ptrdiff_t)k * lanes + r] * d;
+    }
+  }
+}
+
 static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes) {
   const sli_reach *R = &p->q->forward;
   double *all = p->norms + (ptrdiff_t)R->count * lanes;
-  sl_int s, k, r;
+  sl_int s, r;
   memset(all, 0, (size_t)lanes * sizeof(double));
   for (s = R->count - 1; s >= 0; s--) {
     const sli_step *step = &R->steps[s];
-    const double *row = y + (ptrdiff_t)step->base * lanes;
     double *own = p->norms + (ptrdiff_t)s * lanes;
-    memset(own, 0, (size_t)lanes * sizeof(double));
-    for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-      const double d =
-        sli_is_skipped(p->F, step->column + k) ? 0.0 : 1.0 / p->F->D[step->column + k];
-      for (r = 0; r < lanes; r++) {
-        own[r] += row[r] * row[r] * d;
-      }
-    }
+    sli_norms_step(p->F, step, y + (ptrdiff_t)step->base * lanes, lanes, own);
     for (r = 0; r < lanes; r++) {
       all[r] += own[r];
       own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];

@@ -24,14 +24,16 @@ static inline twice_t twice_subtract_product(twice_t r, double a, twice_t x) {
     return twice_sum(r, -(a * x.low));
 }
 
-/* The lower triangle of A alone is read. X: the solution of A X = b by a factor of A or of a
- * matrix close to it; rows that hold[i] marks keep 0. */
+/* The solution x of A x = b by a factor of A or of a matrix close to it; rows that hold[i] marks
+ * keep 0. */
 static inline void exact_solve(const sl_factor *F, const sl_csc *A, const double *b,
                                const int *hold, twice_t *x) {
     const unsigned all = SL_PART_P | SL_PART_L | SL_PART_D | SL_PART_LT | SL_PART_PT;
     const sl_int n = A->n_cols;
     twice_t *r = (twice_t *)test_array((size_t)n + 1, sizeof *r);
     double *d = test_reals((size_t)n + 1), change = 1.0;
+    sl_triangle triangle = SL_TRIANGLE_NONE;
+    SL_CHECK(sl_csc_triangle(A, &triangle, NULL, NULL));
     memset(x, 0, (size_t)n * sizeof *x);
     for (int step = 0; step < 60 && change > 1e-27; step++) {
         for (sl_int i = 0; i < n; i++) {
@@ -41,10 +43,12 @@ static inline void exact_solve(const sl_factor *F, const sl_csc *A, const double
         for (sl_int j = 0; j < n; j++) {
             for (sl_int q = A->p[j]; q < A->p[j + 1]; q++) {
                 const sl_int i = A->i[q];
-                if (i >= j) {
-                    r[i] = twice_subtract_product(r[i], A->x[q], x[j]);
+                const int is_other = (i < j) != (triangle == SL_TRIANGLE_UPPER);
+                if (i != j && is_other) { /* of both triangles the lower one counts */
+                    continue;
                 }
-                if (i > j) {
+                r[i] = twice_subtract_product(r[i], A->x[q], x[j]);
+                if (i != j) {
                     r[j] = twice_subtract_product(r[j], A->x[q], x[i]);
                 }
             }

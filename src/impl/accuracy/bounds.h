@@ -152,24 +152,40 @@ static void sli_scales_fill(sli_bounds *p) {
     }
 }
 
+/* own(r) := the sum of y(k, r)^2 / d(k) over the columns of a step. */
+static void sli_norms_step(const sl_factor *F, const sli_step *step, const double *row,
+                           sl_int lanes, double *own) {
+    const sl_int columns = sli_step_columns(step);
+    double chains[4] = {0.0, 0.0, 0.0, 0.0};
+    sl_int k = 0, r;
+    memset(own, 0, (size_t)lanes * sizeof(double));
+    if (lanes == 1 && F->null.count == 0) { /* independent sums hide the latency */
+        const double *D = F->D + step->column;
+        for (; k + 4 <= columns; k += 4) {
+            for (r = 0; r < 4; r++) {
+                chains[r] += row[k + r] * row[k + r] / D[k + r];
+            }
+        }
+        own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
+    }
+    for (; k < columns; k++) {
+        const double d = sli_is_skipped(F, step->column + k) ? 0.0 : 1.0 / F->D[step->column + k];
+        for (r = 0; r < lanes; r++) {
+            own[r] += row[(ptrdiff_t)k * lanes + r] * row[(ptrdiff_t)k * lanes + r] * d;
+        }
+    }
+}
+
 /* The norms of one block from its forward vector. */
 static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes) {
     const sli_reach *R = &p->q->forward;
     double *all = p->norms + (ptrdiff_t)R->count * lanes;
-    sl_int s, k, r;
+    sl_int s, r;
     memset(all, 0, (size_t)lanes * sizeof(double));
     for (s = R->count - 1; s >= 0; s--) {
         const sli_step *step = &R->steps[s];
-        const double *row = y + (ptrdiff_t)step->base * lanes;
         double *own = p->norms + (ptrdiff_t)s * lanes;
-        memset(own, 0, (size_t)lanes * sizeof(double));
-        for (k = 0; k < sli_step_columns(step); k++, row += lanes) {
-            const double d =
-                sli_is_skipped(p->F, step->column + k) ? 0.0 : 1.0 / p->F->D[step->column + k];
-            for (r = 0; r < lanes; r++) {
-                own[r] += row[r] * row[r] * d;
-            }
-        }
+        sli_norms_step(p->F, step, y + (ptrdiff_t)step->base * lanes, lanes, own);
         for (r = 0; r < lanes; r++) {
             all[r] += own[r];
             own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
