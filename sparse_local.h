@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 606a09b79aba0ac9
+ * FNV-1a of the lines after this comment, without the license: aa8e5c087eaace58
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -13,47 +13,47 @@
  *    902 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *    976 factor.h     the numerical factorization P A P' = L D L'
  *   1097 solve.h      full solves, and the workspace of all solves
- *   1190 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1268 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1367 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1473 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1547 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1626 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1720 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1826 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1865 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   1993 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2025 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2214 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2324 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2451 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2491 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2579 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2688 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2725 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2798 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2838 impl/ base: the compiler, status, memory, sorting, threads
- *   3820 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4663 impl/ matrix: sparse matrices of the caller and of the library
- *   5206 impl/ ordering: fill-reducing orderings of a graph
- *   9583 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11529 impl/ factor: the numbers of L and D
- *  14291 impl/ solve: full and local solves
- *  15871 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17461 impl/ pivots: the order of the pivots by the values of a matrix
- *  17875 impl/ float: L and fronts in single precision
- *  18332 impl/ inverse: entries of the inverse, regions
- *  20873 impl/ change: a factor that follows changes of its matrix
- *  27425 impl/ io: files that are replaced only when they are complete
- *  27637 impl/ files: Matrix Market files, 64-bit indices
- *  28163 impl/ save: factors in files
- *  30085 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  30743 impl/ batch: diagonals of many inverses
- *  30883 impl/ complex: complex Hermitian systems over real factors
- *  31401 impl/ complex: entries of the inverse
- *  31453 impl/ packs: the tables through which the core calls packs
- *  31485 impl/ last: undefine every internal macro
- *  31785 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1191 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1269 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1368 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1474 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1548 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1632 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1728 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1840 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1879 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2007 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2039 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2228 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2338 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2465 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2505 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2593 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2702 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2739 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2812 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2852 impl/ base: the compiler, status, memory, sorting, threads
+ *   3834 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4677 impl/ matrix: sparse matrices of the caller and of the library
+ *   5220 impl/ ordering: fill-reducing orderings of a graph
+ *   9597 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11543 impl/ factor: the numbers of L and D
+ *  14305 impl/ solve: full and local solves
+ *  15885 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  17475 impl/ pivots: the order of the pivots by the values of a matrix
+ *  17889 impl/ float: L and fronts in single precision
+ *  18346 impl/ inverse: entries of the inverse, regions
+ *  21274 impl/ change: a factor that follows changes of its matrix
+ *  27826 impl/ io: files that are replaced only when they are complete
+ *  28038 impl/ files: Matrix Market files, 64-bit indices
+ *  28564 impl/ save: factors in files
+ *  30486 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31144 impl/ batch: diagonals of many inverses
+ *  31284 impl/ complex: complex Hermitian systems over real factors
+ *  31802 impl/ complex: entries of the inverse
+ *  31854 impl/ packs: the tables through which the core calls packs
+ *  31886 impl/ last: undefine every internal macro
+ *  32188 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1151,7 +1151,8 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  sl_batch_diagonal                | try each set of rows                                   |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
- *  leading dimensions, make no difference.
+ *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both
+ *  signs, where values decide between the methods.
  *
  *  W      [in,out]  a larger one is left as it is.
  *  bytes  [in]      any number.
@@ -1551,6 +1552,11 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
  * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
  * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these.
  *
+ * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
+ * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative
+ * to an entry of the inverse, sweeps take the place of selected inversion: they are right, and take
+ * the whole diagonal some 10 to 100 times as long.
+ *
  * All calls below
  *  F      [in]      a factor of A, n x n.
  *  W      [in,out]  workspace; NULL: allocated for this call.
@@ -1631,7 +1637,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *  kernels. Z_kl of Z = P A^-1 P' is computed if the panel of a supernode has an entry L_kl,
  *  including the entries that relaxation adds. For a set of rows only the supernodes on the paths
  *  from the set to the roots are computed. All numbers have the same bits as in the complete
- *  selected inverse.
+ *  selected inverse. Where that would lose digits, as pivots have both signs (inverse.h), the
+ *  columns are solved for, up to 8 at a time. Entries of null pivots that were skipped are 0.
  *
  *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
  *                change if F is refactored or released, until sl_selected_refactor.
@@ -1644,7 +1651,8 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *  stats  [out]  selected; error.row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
- *  Cost     about twice the flops of the factorization of the same supernodes. Keeps entries
+ *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
+ *           solved for, some 10 to 100 times as long, on one thread. Keeps entries
  *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
  *           memory: 8 height^2 bytes per active front, where height counts the columns of a
  *           supernode and the rows below them. Active are the fronts on the path from the current
@@ -1730,6 +1738,11 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  * the generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency
  * of b is then checked only for null rows inside the region, and where components have several null
  * vectors (options.null_vector_count), only if the region has no boundary.
+ *
+ * If pivots have both signs and L has grown in T, u is so large that the rounding of (A^-1)_SS
+ * shows: solves would lose the square of stats.factor.growth. Where a bound on that exceeds 1e-8,
+ * relative to an entry of the inverse, a region is refused with SL_ERR_INACCURATE; local solves
+ * without it are right.
  */
 
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
@@ -1756,7 +1769,7 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  *  stats  [out]  region; error.row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
  *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_INACCURATE: solves would lose digits; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
  *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
@@ -1773,14 +1786,15 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
 
 /** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
  *
- *  R      [in,out]  unchanged on error.
+ *  R      [in,out]  unchanged on error; but after SL_ERR_INACCURATE its plans are refused with
+ *                   SL_ERR_STATE until the next sl_region_refactor that succeeds.
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
- *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED: as sl_region_create;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as
+ *           sl_region_create; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  *  Example  tests/core/test_region.c
@@ -19220,7 +19234,8 @@ static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const s
   sli_forward_clear(f, block->count);
   for (k = 0; k < block->count; k++) {
     const sl_int row = sli_reach_index(&f->reach, &at, sli_key(block->seeds[k]));
-    f->y[(ptrdiff_t)row * f->lanes + k] = 1.0;
+    f->y[(ptrdiff_t)row * f->lanes + k] =
+      sli_is_skipped(F, sli_key(block->seeds[k])) ? 0.0 : 1.0;
   }
   sli_forward_run(f, F, stats);
 }
@@ -19315,6 +19330,13 @@ static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
   sli_forward_layout_run(&q->forward, b, &capacity);
 }
 
+SLI_INLINE void sli_bilinear_add(const sli_bilinear *q, sl_int column, sl_int row, sl_int lane,
+                 double b) {
+  if (!sli_is_skipped(q->F, column)) {
+    q->forward.y[(ptrdiff_t)row * q->forward.lanes + lane] += b;
+  }
+}
+
 static void sli_bilinear_pack(sli_bilinear *q) {
   const sl_symbolic *S = q->F->S;
   sli_forward *f = &q->forward;
@@ -19327,7 +19349,7 @@ static void sli_bilinear_pack(sli_bilinear *q) {
       const sl_int row = sli_reach_index(&f->reach, &at, sli_key(q->seeds[k]));
       const sl_int from = sli_value(q->seeds[k]);
       lane = from >= nc;
-      f->y[(ptrdiff_t)row * f->lanes + lane] += q->values[lane][from - lane * nc];
+      sli_bilinear_add(q, sli_key(q->seeds[k]), row, lane, q->values[lane][from - lane * nc]);
     }
     return;
   }
@@ -19335,8 +19357,8 @@ static void sli_bilinear_pack(sli_bilinear *q) {
   sli_forward_clear(f, q->vectors);
   for (lane = 0; lane < q->vectors; lane++) {
     for (k = 0; k < q->count[lane]; k++) {
-      const sl_int row = q->set[lane] == NULL ? k : q->set[lane][k];
-      f->y[(ptrdiff_t)S->iperm[row] * f->lanes + lane] += q->values[lane][k];
+      const sl_int column = S->iperm[q->set[lane] == NULL ? k : q->set[lane][k]];
+      sli_bilinear_add(q, column, column, lane, q->values[lane][k]);
     }
   }
 }
@@ -19397,12 +19419,181 @@ SL_API sl_status sl_inverse_bilinear(const sl_factor *F, double *out, const sl_i
   return status;
 }
 
+/* src/impl/inverse/loss.h: a bound on what entries of the inverse lose when they are computed from other entries */
+
+#define SLI_LOSS_LIMIT 1e-10
+#define SLI_LOSS_REFUSED 1e-8
+
+typedef struct sli_loss {
+  const sl_factor *F;
+  const sl_int *supers, *parent;
+  sl_int first, count;
+  double outside;
+  double limit;
+  sl_off *begin;
+  double *s;
+  double *y, *up;
+} sli_loss;
+
+SLI_INLINE int sli_has_both_signs(const sl_factor *F) {
+  return F->stats.factor.positive > 0 && F->stats.factor.negative > 0;
+}
+
+SLI_INLINE sl_int sli_loss_super(const sli_loss *q, sl_int k) {
+  return q->supers == NULL ? q->first + k : q->supers[k];
+}
+
+SLI_INLINE sl_int sli_loss_parent(const sli_loss *q, sl_int k) {
+  const sl_int up =
+    q->supers == NULL ? q->F->S->super_parent[q->first + k] - q->first : q->parent[k];
+  return up >= 0 && up < q->count ? up : -1;
+}
+
+SLI_INLINE sl_off sli_loss_height(const sli_step *step) {
+  return (sl_off)SLI_TILE * sli_tiles(step->width + step->below);
+}
+
+static void sli_loss_layout(sli_loss *q, sli_block *b) {
+  const sl_symbolic *S = q->F->S;
+  const uint64_t tallest = (uint64_t)SLI_TILE * (uint64_t)sli_tiles(S->tallest);
+  uint64_t size = 0;
+  sl_int k;
+  for (k = 0; k < q->count; k++) {
+    size += (uint64_t)sli_loss_height(&S->steps[sli_loss_super(q, k)]);
+  }
+  q->begin = SLI_TAKE(b, sl_off, (uint64_t)q->count + 1);
+  q->s = SLI_TAKE(b, double, size);
+  q->y = SLI_TAKE(b, double, tallest);
+  q->up = SLI_TAKE(b, double, tallest);
+}
+
+SLI_INLINE const double *sli_loss_tile(const sl_factor *F, const sli_step *step, sl_int t, sl_int j,
+                     double *room) {
+  const sl_off at = step->panel + sli_tile_offset(step->width, t) + (sl_off)SLI_TILE * j;
+  sl_int r;
+  if (F->type->entry == NULL) {
+    return (const double *)F->values + at;
+  }
+  for (r = 0; r < SLI_TILE; r++) {
+    room[r] = F->type->entry(F->values, at + r);
+  }
+  return room;
+}
+
+SLI_INLINE double sli_loss_sum(const double *l, const double *s) {
+  return ((fabs(l[0]) * s[0] + fabs(l[1]) * s[1]) + (fabs(l[2]) * s[2] + fabs(l[3]) * s[3])) +
+       ((fabs(l[4]) * s[4] + fabs(l[5]) * s[5]) + (fabs(l[6]) * s[6] + fabs(l[7]) * s[7]));
+}
+
+static void sli_loss_subtract(const sl_factor *F, const sli_step *step, sl_int j, double *x,
+                double y) {
+  double room[SLI_TILE];
+  sl_int t, r;
+  for (t = j / SLI_TILE; t < sli_tiles(step->width + step->below); t++) {
+    const double *l = sli_loss_tile(F, step, t, j, room);
+    for (r = 0; r < SLI_TILE; r++) {
+      x[SLI_TILE * (ptrdiff_t)t + r] -= l[r] * y;
+    }
+  }
+}
+
+static double sli_loss_diagonal(const sli_loss *q, sl_int k) {
+  const sl_factor *F = q->F;
+  const sl_symbolic *S = F->S;
+  sl_int s = S->super_of[k], up, j = k - S->super_first[s], i;
+  double z = 0.0, *y = q->y, *next = q->up;
+  memset(y, 0, (size_t)sli_loss_height(&S->steps[s]) * sizeof *y);
+  y[j] = 1.0;
+  for (; s != -1; s = up, j = 0) {
+    const sli_step *step = &S->steps[s];
+    double *t = y;
+    for (; j < step->width; j++) {
+      z += y[j] * (y[j] / F->D[step->column + j]);
+      sli_loss_subtract(F, step, j, y, y[j]);
+    }
+    up = S->super_parent[s];
+    if (up != -1) {
+      memset(next, 0, (size_t)sli_loss_height(&S->steps[up]) * sizeof *next);
+      for (i = 0; i < step->below; i++) {
+        next[S->relative[S->rows_begin[s] + i]] = y[step->width + i];
+      }
+    }
+    y = next;
+    next = t;
+  }
+  return z;
+}
+
+typedef struct sli_loss_tree {
+  double most;
+  sl_int at;
+  int signs;
+} sli_loss_tree;
+
+static int sli_loss_judge(const sli_loss *q, const sli_loss_tree *tree) {
+  const double loss = DBL_EPSILON * tree->most * tree->most;
+  return (tree->signs != 3 && q->outside == 0.0) || loss <= q->limit * q->outside ||
+       loss <= q->limit * fabs(sli_loss_diagonal(q, tree->at));
+}
+
+static void sli_loss_front(const sli_loss *q, sl_int k, sli_loss_tree *tree) {
+  const sli_step *step = &q->F->S->steps[sli_loss_super(q, k)];
+  double *s = q->s + q->begin[k], *sums = q->y, room[SLI_TILE];
+  sl_int t, j;
+  memset(sums, 0, (size_t)step->width * sizeof *sums);
+  for (t = sli_tiles(step->width + step->below) - 1; t >= 0; t--) {
+    for (j = sli_min(step->width, SLI_TILE * (t + 1)) - 1; j >= 0; j--) {
+      const double d = q->F->D[step->column + j];
+      sums[j] += sli_loss_sum(sli_loss_tile(q->F, step, t, j, room), s + SLI_TILE * t);
+      if (j < SLI_TILE * t) {
+        continue;
+      }
+      s[j] = sqrt(1.0 / fabs(d) + sums[j] * sums[j]);
+      tree->signs |= fabs(d) == SLI_NULL_PIVOT ? 0 : d > 0.0 ? 1 : 2;
+      if (!(s[j] <= tree->most)) {
+        tree->most = s[j];
+        tree->at = step->column + j;
+      }
+    }
+  }
+}
+
+static int sli_loss_is_small(sli_loss *q) {
+  const sl_symbolic *S = q->F->S;
+  sli_loss_tree tree = {0.0, 0, 0};
+  sl_int k, i;
+  int is_small = 1;
+  q->begin[0] = 0;
+  for (k = 0; k < q->count; k++) {
+    q->begin[k + 1] = q->begin[k] + sli_loss_height(&S->steps[sli_loss_super(q, k)]);
+  }
+  memset(q->s, 0, (size_t)q->begin[q->count] * sizeof *q->s);
+  for (k = q->count - 1; k >= 0 && is_small; k--) {
+    const sl_int s = sli_loss_super(q, k), up = sli_loss_parent(q, k);
+    double *below = q->s + q->begin[k] + S->steps[s].width;
+    if (k > 0) {
+      sli_traverse_prefetch(q->F, sli_loss_super(q, k - 1));
+    }
+    if (up == -1 && tree.signs != 0) {
+      is_small = sli_loss_judge(q, &tree);
+      memset(&tree, 0, sizeof tree);
+    }
+    for (i = 0; i < S->steps[s].below; i++) {
+      below[i] = up == -1 ? sqrt(q->outside)
+                : q->s[q->begin[up] + S->relative[S->rows_begin[s] + i]];
+    }
+    sli_loss_front(q, k, &tree);
+  }
+  return is_small && sli_loss_judge(q, &tree);
+}
+
 /* src/impl/inverse/entries.h: entries of A^-1: by forward sweeps or a top-down traversal, whichever is faster */
 
 typedef struct sli_entries {
   const sl_factor *F;
   const sl_threads *threads;
   double *out;
+  int is_all;
   sli_requests requests;
   sl_inverse_method method;
   sli_capacity capacity;
@@ -19410,11 +19601,10 @@ typedef struct sli_entries {
   sli_traversal traversal;
   sli_traversal_run run;
   sl_int *first_request;
+  sli_loss loss;
+  int is_lossy;
+  sl_int *all;
 } sli_entries;
-
-SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
-  return q->requests.rows == NULL;
-}
 
 SLI_INLINE sl_int sli_entries_column(const sli_entries *q, sl_int k) {
   return sli_min(sli_request_row(&q->requests, k), sli_request_column(&q->requests, k));
@@ -19469,7 +19659,8 @@ static void sli_entries_choose(void *call) {
   double limit = HUGE_VAL;
   sl_int supers = q->F->S->n_supers;
   memset(&q->capacity, 0, sizeof q->capacity);
-  if (sli_entries_is_all(q)) {
+  q->is_lossy = 0;
+  if (q->is_all) {
     q->method = SL_INVERSE_SELECTED;
   } else {
     if (q->requests.count > 1 && sli_entries_are_in_pattern(q)) {
@@ -19483,34 +19674,31 @@ static void sli_entries_choose(void *call) {
   if (q->method == SL_INVERSE_SELECTED) {
     q->traversal =
       sli_traversal_of(q->F->S, supers, sli_traversal_workers(q->F->S, q->threads));
-    q->traversal.is_partial = !sli_entries_is_all(q);
+    q->traversal.is_partial = !q->is_all;
   }
 }
 
 static void sli_entries_layout_requests(void *call, sli_block *b) {
   sli_entries *q = (sli_entries *)call;
-  if (!sli_entries_is_all(q)) {
+  if (!q->is_all) {
     sli_requests_layout(&q->requests, b);
   }
 }
 
 static void sli_entries_layout_method(void *call, sli_block *b) {
   sli_entries *q = (sli_entries *)call;
-  if (q->method == SL_INVERSE_FORWARD) {
-    sli_forward_layout(&q->forward, b, &q->capacity);
-    sli_forward_layout_run(&q->forward, b, &q->capacity);
-  } else {
+  if (q->method == SL_INVERSE_SELECTED) {
     sli_traversal_layout(&q->traversal, b);
     sli_traversal_layout_work(&q->traversal, b);
-    q->first_request = SLI_TAKE(
-      b, sl_int, sli_entries_is_all(q) ? 0 : (uint64_t)q->traversal.forest.count + 1);
+    q->first_request =
+      SLI_TAKE(b, sl_int, q->is_all ? 0 : (uint64_t)q->traversal.forest.count + 1);
   }
 }
 
 static void sli_entries_plan(void *call) {
   sli_entries *q = (sli_entries *)call;
   const sli_requests *r = &q->requests;
-  const int is_all = sli_entries_is_all(q);
+  const int is_all = q->is_all;
   sl_int k = 0, index;
   if (q->method != SL_INVERSE_SELECTED) {
     return;
@@ -19531,10 +19719,54 @@ static void sli_entries_plan(void *call) {
   }
 }
 
+static void sli_entries_layout_loss(void *call, sli_block *b) {
+  sli_entries *q = (sli_entries *)call;
+  if (q->method == SL_INVERSE_SELECTED) {
+    q->loss.F = q->F;
+    q->loss.limit = SLI_LOSS_LIMIT;
+    q->loss.supers = q->traversal.supers;
+    q->loss.parent = q->traversal.forest.parent;
+    q->loss.count = q->traversal.forest.count;
+    sli_loss_layout(&q->loss, b);
+  }
+}
+
+static void sli_entries_judge(void *call) {
+  sli_entries *q = (sli_entries *)call;
+  q->is_lossy = q->method == SL_INVERSE_SELECTED && !sli_loss_is_small(&q->loss);
+}
+
+static void sli_entries_layout_sweeps(void *call, sli_block *b) {
+  sli_entries *q = (sli_entries *)call;
+  if (q->is_lossy && q->is_all) {
+    q->all = SLI_TAKE(b, sl_int, q->requests.count);
+    sli_requests_layout(&q->requests, b);
+  }
+}
+
+static void sli_entries_partition(void *call) {
+  sli_entries *q = (sli_entries *)call;
+  sl_int k;
+  if (!q->is_lossy) {
+    return;
+  }
+  for (k = 0; k < q->requests.count && q->is_all; k++) {
+    q->all[k] = k;
+  }
+  if (q->is_all) {
+    q->requests.rows = q->requests.columns = q->all;
+  }
+  q->method = SL_INVERSE_FORWARD;
+  sli_requests_partition(&q->requests, &q->capacity);
+}
+
 static void sli_entries_layout_run(void *call, sli_block *b) {
   sli_entries *q = (sli_entries *)call;
   if (q->method == SL_INVERSE_SELECTED) {
     sli_traversal_layout_run(&q->run, &q->traversal, q->F->type->storage, b);
+  } else {
+    sli_forward_layout(&q->forward, b, &q->capacity);
+    sli_forward_layout_run(&q->forward, b, &q->capacity);
   }
 }
 
@@ -19544,7 +19776,7 @@ static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front 
   const sl_symbolic *S = q->F->S;
   const sl_int s = q->traversal.supers[index], first = S->super_first[s], h = f->width + f->below;
   sl_int k, j;
-  if (sli_entries_is_all(q)) {
+  if (q->is_all) {
     const sl_int *row = S->perm + first, last = sli_min(SLI_TILE * t1, f->width);
     for (j = SLI_TILE * t0; j < last; j++) {
       q->out[row[j]] = f->front[sli_square_offset(h, j / SLI_TILE) + SLI_TILE * (ptrdiff_t)j +
@@ -19590,6 +19822,21 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
   }
 }
 
+static void sli_entries_clear_nulls(const sli_entries *q) {
+  const sl_factor *F = q->F;
+  const sl_int *iperm = F->S->iperm;
+  const sli_requests *r = &q->requests;
+  sl_int k;
+  for (k = 0; k < F->null.count && q->is_all; k++) {
+    q->out[F->S->perm[F->null.pivots[k]]] = 0.0;
+  }
+  for (k = 0; k < r->count && F->null.count > 0 && !q->is_all; k++) {
+    if (sli_is_skipped(F, iperm[r->rows[k]]) || sli_is_skipped(F, iperm[r->columns[k]])) {
+      q->out[k] = 0.0;
+    }
+  }
+}
+
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
                   const sl_int *columns, sl_int count) {
   sli_entries q;
@@ -19597,6 +19844,7 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
   q.F = F;
   q.threads = &F->threads;
   q.out = out;
+  q.is_all = rows == NULL;
   q.requests = sli_requests_of(F, rows, columns, count);
   return q;
 }
@@ -19604,9 +19852,16 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
 static const sli_stage sli_entries_stages[3] = {{sli_entries_layout_requests, sli_entries_choose},
                         {sli_entries_layout_method, sli_entries_plan},
                         {sli_entries_layout_run, NULL}};
+static const sli_stage sli_entries_judged_stages[5] = {
+  {sli_entries_layout_requests, sli_entries_choose},
+  {sli_entries_layout_method, sli_entries_plan},
+  {sli_entries_layout_loss, sli_entries_judge},
+  {sli_entries_layout_sweeps, sli_entries_partition},
+  {sli_entries_layout_run, NULL}};
 
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-  return sli_work_stages(W, sli_entries_stages, 3, q);
+  return sli_has_both_signs(q->F) ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
+                  : sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
 static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
@@ -19623,6 +19878,7 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
     q->run.visit = sli_entries_visit;
     q->run.context = q;
     sli_traverse(&q->run);
+    sli_entries_clear_nulls(q);
   }
   if (stats != NULL && q->method == SL_INVERSE_SELECTED) {
     stats->inverse.method = SL_INVERSE_SELECTED;
@@ -20003,27 +20259,125 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
   }
 }
 
-static void sli_selected_layout_run(void *context, sli_block *b) {
-  sli_traversal_run *run = (sli_traversal_run *)context;
-  sli_traversal_layout_run(run, run->traversal, run->F->type->storage, b);
+typedef struct sli_selected_run {
+  sl_selected *Z;
+  const sl_factor *F;
+  sli_loss loss;
+  int is_lossy;
+  sli_traversal_run run;
+  sli_capacity capacity;
+  sli_forward forward;
+} sli_selected_run;
+
+static void sli_selected_layout_loss(void *context, sli_block *b) {
+  sli_selected_run *q = (sli_selected_run *)context;
+  q->is_lossy = 0;
+  if (sli_has_both_signs(q->F)) {
+    q->loss.F = q->F;
+    q->loss.limit = SLI_LOSS_LIMIT;
+    q->loss.supers = q->Z->traversal.supers;
+    q->loss.parent = q->Z->traversal.forest.parent;
+    q->loss.count = q->Z->traversal.forest.count;
+    sli_loss_layout(&q->loss, b);
+  }
 }
 
-static const sli_stage sli_selected_stage = {sli_selected_layout_run, NULL};
+static void sli_selected_judge(void *context) {
+  sli_selected_run *q = (sli_selected_run *)context;
+  const sl_symbolic *S = q->F->S;
+  sl_int k;
+  q->is_lossy = sli_has_both_signs(q->F) && !sli_loss_is_small(&q->loss);
+  memset(&q->capacity, 0, sizeof q->capacity);
+  for (k = 0; k < q->loss.count && q->is_lossy; k++) {
+    const sl_int first = S->super_first[q->loss.supers[k]];
+    const uint64_t seed = sli_keyed(first, 0);
+    sli_reach R;
+    sli_reach_measure(S, &seed, 1, &R);
+    sli_capacity_add(&q->capacity, &R, SLI_LANES_MAX);
+    sli_capacity_add(&q->capacity, &R, 2);
+  }
+}
+
+static void sli_selected_layout_run(void *context, sli_block *b) {
+  sli_selected_run *q = (sli_selected_run *)context;
+  if (q->is_lossy) {
+    sli_forward_layout(&q->forward, b, &q->capacity);
+    sli_forward_layout_run(&q->forward, b, &q->capacity);
+  } else {
+    sli_traversal_layout_run(&q->run, &q->Z->traversal, q->F->type->storage, b);
+  }
+}
+
+static const sli_stage sli_selected_stages[2] = {{sli_selected_layout_loss, sli_selected_judge},
+                         {sli_selected_layout_run, NULL}};
+
+static void sli_selected_solve(const sli_selected_run *q, sl_int k, sl_int j0) {
+  const sl_symbolic *S = q->F->S;
+  const sl_int s = q->loss.supers[k], w = S->steps[s].width, h = w + S->steps[s].below;
+  double *panel = q->Z->Z + q->Z->begin[k];
+  sli_forward f = q->forward;
+  const double *x = f.y;
+  sli_rhs_block block;
+  sl_int j, r;
+  block.count = sli_min(w - j0, SLI_LANES_MAX);
+  for (j = 0; j < block.count; j++) {
+    block.seeds[j] = sli_keyed(S->super_first[s] + j0 + j, 0);
+  }
+  sli_forward_unit_vectors(&f, q->F, &block, NULL);
+  sli_backward_sweep(q->F, f.kind, &f.reach, q->F->D, f.y, f.scratch);
+  for (r = j0; r < h; r++) {
+    const sl_int row = r < w ? r - SLI_TILE * f.steps->first_tile : f.rows[r - w];
+    for (j = 0; j < sli_min(block.count, r - j0 + 1); j++) {
+      panel[sli_panel_at(w, r, j0 + j)] = x[(ptrdiff_t)row * f.lanes + j];
+    }
+  }
+}
+
+static void sli_selected_clear_nulls(const sl_selected *Z, const sl_factor *F) {
+  const sl_symbolic *S = F->S;
+  sl_int k, r, j;
+  for (k = 0; k < Z->traversal.forest.count && F->null.count > 0; k++) {
+    const sl_int s = Z->traversal.supers[k], w = S->steps[s].width;
+    for (r = 0; r < w + S->steps[s].below; r++) {
+      const sl_int row = r < w ? S->super_first[s] + r : S->rows[S->rows_begin[s] + r - w];
+      const int is_null = sli_is_skipped(F, row);
+      for (j = 0; j < sli_min(w, r + 1); j++) {
+        if (is_null || sli_is_skipped(F, S->super_first[s] + j)) {
+          Z->Z[Z->begin[k] + sli_panel_at(w, r, j)] = 0.0;
+        }
+      }
+    }
+  }
+}
 
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
   const double started = sli_seconds();
+  const sl_int count = Z->traversal.forest.count;
   sl_work own = sli_work_own(&Z->allocator);
-  sli_traversal_run run;
+  sli_selected_run q;
   sl_status status;
-  memset(&run, 0, sizeof run);
-  run.F = F;
-  run.traversal = &Z->traversal;
-  run.threads = &Z->threads;
-  run.visit = sli_selected_visit;
-  run.context = Z;
-  status = sli_work_stages(W == NULL ? &own : W, &sli_selected_stage, 1, &run);
+  sl_int k, j;
+  memset(&q, 0, sizeof q);
+  q.Z = Z;
+  q.F = F;
+  q.run.F = F;
+  q.run.traversal = &Z->traversal;
+  q.run.threads = &Z->threads;
+  q.run.visit = sli_selected_visit;
+  q.run.context = Z;
+  status = sli_work_stages(W == NULL ? &own : W, sli_selected_stages, 2, &q);
+  if (status == SL_OK && q.is_lossy) {
+    memset(Z->Z, 0, (size_t)Z->begin[count] * sizeof *Z->Z);
+    for (k = 0; k < count; k++) {
+      for (j = 0; j < F->S->steps[q.loss.supers[k]].width; j += SLI_LANES_MAX) {
+        sli_selected_solve(&q, k, j);
+      }
+    }
+  } else if (status == SL_OK) {
+    sli_traverse(&q.run);
+  }
   if (status == SL_OK) {
-    sli_traverse(&run);
+    sli_selected_clear_nulls(Z, F);
     Z->numbers = sli_numbers_of(F);
     Z->seconds = sli_seconds() - started;
   }
@@ -20751,22 +21105,69 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
   return 1;
 }
 
+static sli_loss sli_region_loss(const sl_region *R, const sl_factor *F, sl_int k) {
+  sli_loss q;
+  memset(&q, 0, sizeof q);
+  q.F = F;
+  q.limit = SLI_LOSS_REFUSED;
+  q.first = R->S->first_descendant[R->roots[k]];
+  q.count = R->roots[k] + 1 - q.first;
+  return q;
+}
+
+static sl_status sli_region_reserve_loss(const sl_region *R, const sl_factor *F, sl_work *W) {
+  sl_status status = SL_OK;
+  sl_int k;
+  for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && status == SL_OK; k++) {
+    sli_loss q = sli_region_loss(R, F, k);
+    sli_block b = {NULL, 0, 0};
+    sli_loss_layout(&q, &b);
+    status = sli_work_grow(W, b.used);
+  }
+  return status;
+}
+
+static int sli_region_loss_is_small(const sl_region *R, const sl_factor *F, sl_work *W) {
+  const sl_off entries = R->begin[sli_region_chunks(R->extent.n_rows)];
+  double most = 0.0;
+  sl_off at;
+  sl_int k;
+  int is_small = 1;
+  for (at = 0; at < entries && sli_has_both_signs(F); at++) {
+    most = fmax(most, 2.0 * fabs(R->Z[at]));
+  }
+  for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && is_small; k++) {
+    sli_loss q = sli_region_loss(R, F, k);
+    sli_block b = {(unsigned char *)W->block, 0, 0};
+    sli_loss_layout(&q, &b);
+    q.outside = R->S->super_parent[R->roots[k]] == -1 ? 0.0 : most;
+    is_small = q.outside == 0.0 || sli_loss_is_small(&q);
+  }
+  return is_small;
+}
+
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
                  sl_work *W) {
   const double started = sli_seconds();
   sl_work own = sli_work_own(&R->allocator);
   sl_status status = SL_OK;
-  const int is_copied = Z != NULL && sli_region_copy(R, Z);
-  if (!is_copied) {
-    status = sli_inverse_all_pairs(F, R->requested, R->extent.n_rows, sli_region_write, R,
-                     W == NULL ? &own : W);
-    sli_free(&own.allocator, own.block);
+  int is_copied;
+  W = W == NULL ? &own : W;
+  status = sli_region_reserve_loss(R, F, W);
+  is_copied = status == SL_OK && Z != NULL && sli_region_copy(R, Z);
+  if (status == SL_OK && !is_copied) {
+    status = sli_inverse_all_pairs(F, R->requested, R->extent.n_rows, sli_region_write, R, W);
   }
   if (status == SL_OK) {
     R->numbers = sli_numbers_of(F);
     R->is_copied = is_copied;
+    if (!sli_region_loss_is_small(R, F, W)) {
+      R->numbers.generation = 0;
+      status = SL_ERR_INACCURATE;
+    }
     R->seconds = sli_seconds() - started;
   }
+  sli_free(&own.allocator, own.block);
   return status;
 }
 
@@ -30793,8 +31194,8 @@ static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
   sl_status status = SL_OK;
   sl_int k;
   for (k = 0; k < d->count && status == SL_OK; k++) {
-    if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels ||
-      d->workers == 1) {
+    if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels || d->workers == 1 ||
+      sli_has_both_signs(d->factors[k])) {
       sli_entries q = sli_diagonal_batch_entries(d, k);
       status = sli_entries_prepare(&q, d->works[0]);
     }
@@ -31713,6 +32114,8 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_LANES_MAX
 #undef SLI_BLOCK_REQUESTS_MAX
 #undef SLI_BLOCK_KEPT
+#undef SLI_LOSS_LIMIT
+#undef SLI_LOSS_REFUSED
 #undef SLI_REGION_COLUMNS
 #undef SLI_REGION_PASSES
 #undef SLI_REGION_DETOUR

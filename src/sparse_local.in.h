@@ -185,6 +185,7 @@ extern "C" {
 #include "impl/inverse/costs.h"
 #include "impl/inverse/unit_vectors.h"
 #include "impl/inverse/bilinear.h"
+#include "impl/inverse/loss.h"
 #include "impl/inverse/entries.h"
 #include "impl/inverse/block.h"
 #include "impl/inverse/selected.h"

@@ -16,6 +16,11 @@
  * the generalized inverse that solves apply: 0 in the rows and columns of null pivots. Consistency
  * of b is then checked only for null rows inside the region, and where components have several null
  * vectors (options.null_vector_count), only if the region has no boundary.
+ *
+ * If pivots have both signs and L has grown in T, u is so large that the rounding of (A^-1)_SS
+ * shows: solves would lose the square of stats.factor.growth. Where a bound on that exceeds 1e-8,
+ * relative to an entry of the inverse, a region is refused with SL_ERR_INACCURATE; local solves
+ * without it are right.
  */
 
 /** Creates the region of a set of rows: what solves with b and x in the set need of the inverse.
@@ -42,7 +47,7 @@
  *  stats  [out]  region; error.row: a row out of range; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, or Z is not of the present F;
  *           SL_ERR_UNSUPPORTED: a factor made with options.mass or with 2x2 pivots;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           SL_ERR_INACCURATE: solves would lose digits; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     a plan for the set; for every 8 rows of the boundary one forward sweep of 8 lanes to
  *           the roots, and (boundary)^2 / 2 times the columns of such a path for the sums, or one
  *           binary search per entry of Z. Keeps 4 (boundary)^2 bytes and about 100 per row of the
@@ -59,14 +64,15 @@ SL_API SL_WARN_UNUSED sl_status sl_region_create(sl_region **out, const sl_facto
 
 /** Recomputes a region from the present numbers of F, in the same memory; its plans stay valid.
  *
- *  R      [in,out]  unchanged on error.
+ *  R      [in,out]  unchanged on error; but after SL_ERR_INACCURATE its plans are refused with
+ *                   SL_ERR_STATE until the next sl_region_refactor that succeeds.
  *  F      [in]      a factor over the analysis that R was made for; from now on the only one that R
  *                   accepts.
  *  Z      [in]      as in sl_region_create; may be NULL.
  *  W      [in,out]  workspace; NULL: allocated for this call.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor, a factor of another analysis, Z
- *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED: as sl_region_create;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           is not of the present F, or R is mapped; SL_ERR_UNSUPPORTED, SL_ERR_INACCURATE: as
+ *           sl_region_create; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     as sl_region_create without the plan; no allocation once W has grown.
  *  Threads  exclusive use of R and of its plans.
  *  Example  tests/core/test_region.c

@@ -60,7 +60,8 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  sl_batch_diagonal                | try each set of rows                                   |
  *
  *  Each workspace of a batch needs what its largest request does. The values of A, B and X, and
- *  leading dimensions, make no difference.
+ *  leading dimensions, make no difference, but for entries of the inverse of A with pivots of both
+ *  signs, where values decide between the methods.
  *
  *  W      [in,out]  a larger one is left as it is.
  *  bytes  [in]      any number.

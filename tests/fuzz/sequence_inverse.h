@@ -94,8 +94,15 @@ static void create_region(input_t *in) {
         PROMISE(status == SL_ERR_UNSUPPORTED || (z && status == SL_ERR_STATE));
     } else if (z && memcmp(z->a, f->v.a, sizeof z->a) != 0) {
         PROMISE(status == SL_ERR_STATE);
-    } else {
-        PROMISE(status == SL_OK || (z && status == SL_ERR_STATE));
+    } else { /* with pivots of both signs solves in it could lose digits */
+        sl_stats stats;
+        sl_factor_stats(f->F, &stats);
+        PROMISE(status == SL_OK || (z && status == SL_ERR_STATE) ||
+                (status == SL_ERR_INACCURATE && stats.factor.positive > 0 &&
+                 stats.factor.negative > 0));
+    }
+    if (status == SL_ERR_INACCURATE && !is_new) { /* it has no numbers any more */
+        free_region(which);
     }
     if (status == SL_OK) {
         r->analysis = f->analysis;

@@ -16,11 +16,14 @@ typedef enum judge_verdict_t {
     JUDGE_VERDICTS
 } judge_verdict_t;
 
-enum { JUDGE_WAYS_MOST = 24 };
+enum { JUDGE_WAYS_MOST = 24, JUDGE_DECADES = 17 };
 
 typedef struct judge_tally_t {
     sl_off verdicts[JUDGE_WAYS_MOST][JUDGE_VERDICTS];
     double worst[JUDGE_WAYS_MOST]; /* of the good ones */
+    /* by decades of growth: the largest error of entries of the inverse, and of their sweeps beside
+     * full solves */
+    double entries[JUDGE_DECADES], sweeps[JUDGE_DECADES];
 } judge_tally_t;
 
 /* A system under judgement. */
@@ -48,6 +51,14 @@ static inline void judge_count(judge_t *t, judge_verdict_t verdict, double error
                     t->family, judge_name(t->family), (unsigned long long)t->seed, (int)t->n, error,
                     t->stats.factor.growth);
     }
+}
+
+/* Records the error of entries of the inverse by the growth of the factor. */
+static inline void judge_grown(judge_t *t, double entries, double sweeps) {
+    const int decade = (int)log10(fmax(t->stats.factor.growth, 1.0));
+    const int k = decade < JUDGE_DECADES ? decade : JUDGE_DECADES - 1;
+    t->tally->entries[k] = fmax(t->tally->entries[k], entries);
+    t->tally->sweeps[k] = fmax(t->tally->sweeps[k], sweeps);
 }
 
 /* Counts a call that did not succeed; returns 1 if it did. SL_ERR_STATE and SL_ERR_ARGUMENT are no
@@ -133,11 +144,10 @@ static inline double judge_error(const sl_csc *A, const sl_int *of, const double
     return worst;
 }
 
-/* What two ways to one answer may differ by, relative to the largest entry. rcond: of A; 0: not
- * known. Selected inversion has lost 32 growth * epsilon / rcond in one of 125,000 systems. */
-static inline double judge_forward(const judge_t *t, double rcond) {
-    const double growth = fmax(t->stats.factor.growth, 1e3);
-    return judge_limit(&t->stats) + (rcond > 0.0 ? 100.0 * growth * DBL_EPSILON / rcond : 1e-3);
+/* What two ways to one answer may differ by, relative to the largest entry. spread: what two ways
+ * differ by that are as accurate as L; not known of singular matrices. */
+static inline double judge_forward(const judge_t *t, double least, double spread) {
+    return t->y->skips ? judge_limit(&t->stats) + 1e-3 : least + 1000.0 * spread;
 }
 
 /* Judges one answer that came with SL_OK. told: a field of stats has warned. */

@@ -220,48 +220,110 @@ static inline void judge_way_pins(judge_t *t) {
     free(p.C);
 }
 
-/* Columns of the inverse are solutions, and all ways to its entries agree with them as far as the
- * condition allows. */
+/* The largest difference of entries from those of the block B of all, relative to the largest one.
+ */
+static inline double judge_entries(const judge_t *t, const double *B, const sl_int *rows,
+                                   const sl_int *columns, const double *z, sl_int count,
+                                   double most) {
+    double worst = 0.0;
+    for (sl_int k = 0; k < count; k++) {
+        const double d = fabs(z[k] - B[(size_t)rows[k] + (size_t)columns[k] * t->n]);
+        worst = d <= worst ? worst : d;
+    }
+    return most > 0.0 ? worst / most : worst;
+}
+
+/* Every way to an entry that is not a sweep: entries of the pattern of A and the diagonal by
+ * selected inversion, whole and for a set, pairs, the diagonal and a batch of diagonals. */
+static inline double judge_all_ways(judge_t *t, const double *B, double most) {
+    const sl_int n = (sl_int)t->n, *p = t->y->M.p, count = p[n];
+    const sl_factor *const F = t->F;
+    sl_int *rows = test_ints((size_t)count + 1), *columns = test_ints((size_t)count + 1);
+    sl_int *all = test_ints(t->n), c = gen_below(&t->state, n), set = 0;
+    double *z = test_reals((size_t)count + t->n), worst = 0.0;
+    sl_selected *Z = NULL;
+    for (sl_int j = 0; j < n; j++) {
+        all[j] = j;
+        for (sl_int k = p[j]; k < p[j + 1]; k++) {
+            rows[k] = t->y->M.i[k];
+            columns[k] = j;
+        }
+    }
+    for (int way = 0; way < 6; way++) {
+        const sl_int *r = way < 2 ? rows : all, *s = way < 2 ? columns : all;
+        set = way < 2 ? count : n;
+        if (way == 0) {
+            SL_CHECK(sl_inverse_pairs(F, z, r, s, set, NULL, NULL));
+        } else if (way == 1) {
+            SL_CHECK(sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+            SL_CHECK(sl_selected_entries(Z, z, r, s, set, NULL));
+            sl_selected_free(Z);
+        } else if (way == 2) {
+            SL_CHECK(sl_inverse_diagonal(F, z, NULL, 0, NULL, NULL));
+        } else if (way == 3) {
+            SL_CHECK(sl_batch_diagonal(&F, 1, z, t->n, all, n, NULL, NULL, NULL, NULL));
+        } else if (way == 4) {
+            SL_CHECK(sl_inverse_diagonal(F, z, all, n, NULL, NULL));
+        } else {
+            set = 1;
+            r = s = &c;
+            SL_CHECK(sl_selected_create(&Z, F, &c, 1, NULL, NULL));
+            SL_CHECK(sl_selected_entries(Z, z, &c, NULL, 1, NULL));
+            sl_selected_free(Z);
+        }
+        worst = fmax(worst, judge_entries(t, B, r, s, z, set, most));
+    }
+    free(rows);
+    free(columns);
+    free(all);
+    free(z);
+    return worst;
+}
+
+/* Columns of the inverse are judged as solutions, and entries by all other ways beside them: they
+ * may differ by 1000 times as much as sweeps from full solves. */
 static inline void judge_way_inverse(judge_t *t) {
     const size_t n = t->n;
-    const sl_int c = gen_below(&t->state, (sl_int)n);
-    double *Z = test_reals(n), *d = test_reals(n), *e = test_reals(n), *x = test_reals(n);
-    double most = 0.0, rcond = 0.0, worst = 0.0, pair = 0.0, form = 0.0;
+    double *B = test_reals(n * n), *e = test_reals(n), *x = test_reals(n);
+    double most = 0.0, spread = 0.0, worst = 0.0, form = 0.0;
     sl_int *rows = test_ints(n);
-    sl_selected *selected = NULL;
-    gen_permutation(rows, (sl_int)n, gen_bits(&t->state));
-    if (judge_succeeded(t, sl_inverse_block(t->F, Z, n, rows, (sl_int)n, &c, 1, NULL, NULL),
-                        "inverse")) {
-        for (size_t k = 0; k < n; k++) {
-            x[rows[k]] = Z[k];
-        }
-        e[c] = 1.0;
-        const int told = judge_is_told(&t->stats);
-        if (!t->y->skips) {
-            judge_answer(t, judge_error(&t->y->M.view, t->y->of, x, e, NULL, NULL, 0),
-                         judge_limit(&t->stats), told, "column of the inverse");
-        }
-        SL_CHECK(sl_inverse_diagonal(t->F, d, NULL, 0, NULL, NULL));
-        SL_CHECK(sl_inverse_pairs(t->F, &pair, &c, &c, 1, NULL, NULL));
-        const double one = 1.0;
-        SL_CHECK(sl_inverse_bilinear(t->F, &form, &c, &one, 1, &c, &one, 1, NULL, NULL));
-        SL_CHECK(sl_factor_rcond(t->F, &t->y->M.view, &rcond, NULL));
-        for (size_t i = 0; i < n; i++) {
-            most = fmax(most, fabs(d[i]));
-        }
-        worst = fmax(fabs(d[c] - x[c]), fmax(fabs(pair - x[c]), fabs(form - x[c])));
-        if (sl_selected_create(&selected, t->F, &c, 1, NULL, NULL) == SL_OK) {
-            double own = 0.0;
-            SL_CHECK(sl_selected_entries(selected, &own, &c, NULL, 1, NULL));
-            worst = fmax(worst, fabs(own - x[c]));
-        }
-        judge_answer(t, most > 0.0 && most <= 1e300 ? worst / most : -1.0,
-                     judge_forward(t, t->y->skips ? 0.0 : rcond), told, "entries of the inverse");
+    for (size_t i = 0; i < n; i++) {
+        rows[i] = (sl_int)i;
     }
-    sl_selected_free(selected);
+    if (judge_succeeded(t,
+                        sl_inverse_block(t->F, B, n, rows, (sl_int)n, rows, (sl_int)n, NULL, NULL),
+                        "inverse")) {
+        const size_t c = (size_t)gen_below(&t->state, (sl_int)n);
+        const double one = 1.0;
+        for (size_t k = 0; k < n * n; k++) {
+            most = fmax(most, fabs(B[k]));
+        }
+        for (size_t j = 0; j < n && !t->y->skips; j++) {
+            e[j] = 1.0;
+            SL_CHECK(sl_factor_solve(t->F, x, n, e, n, 1, NULL));
+            for (size_t i = 0; i < n; i++) {
+                spread = fmax(spread, fabs(x[i] - B[i + j * n]) / most);
+            }
+            if (j == c) {
+                judge_answer(t, judge_error(&t->y->M.view, t->y->of, B + j * n, e, NULL, NULL, 0),
+                             judge_limit(&t->stats), judge_is_told(&t->stats),
+                             "column of the inverse");
+            }
+            e[j] = 0.0;
+        }
+        const sl_int row = (sl_int)c, other = gen_below(&t->state, (sl_int)n);
+        SL_CHECK(sl_inverse_bilinear(t->F, &form, &row, &one, 1, &other, &one, 1, NULL, NULL));
+        if (most <= 1e300) {
+            worst = judge_entries(t, B, &other, &row, &form, 1, most);
+            worst = fmax(worst, judge_all_ways(t, B, most));
+            judge_grown(t, worst, spread);
+        }
+        judge_answer(t, most > 0.0 && most <= 1e300 ? worst : -1.0,
+                     judge_forward(t, 1e-9, spread), 0,
+                     "entries of the inverse");
+    }
     free(rows);
-    free(Z);
-    free(d);
+    free(B);
     free(e);
     free(x);
 }

@@ -59,14 +59,14 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
     return d->count == 0 ? SL_OK : sli_check_rows(d->factors[0]->S, d->rows, d->n_rows, 0, stats);
 }
 
-/* Grows every workspace to what any of the factors needs: that depends on the rows and on the
- * instruction set. */
+/* Grows every workspace to what any of the factors needs: that depends on the rows, on the
+ * instruction set, and with pivots of both signs on the numbers. */
 static sl_status sli_diagonal_batch_reserve(const sli_diagonal_batch *d) {
     sl_status status = SL_OK;
     sl_int k;
     for (k = 0; k < d->count && status == SL_OK; k++) {
-        if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels ||
-            d->workers == 1) { /* one worker: a factor's own threads count */
+        if (k == 0 || d->factors[k]->kernels != d->factors[k - 1]->kernels || d->workers == 1 ||
+            sli_has_both_signs(d->factors[k])) { /* one worker: a factor's own threads count */
             sli_entries q = sli_diagonal_batch_entries(d, k);
             status = sli_entries_prepare(&q, d->works[0]);
         }

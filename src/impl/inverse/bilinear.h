@@ -105,6 +105,14 @@ static void sli_bilinear_layout_sweep(void *form, sli_block *b) {
     sli_forward_layout_run(&q->forward, b, &capacity);
 }
 
+/* Adds b to the lane, unless its row has a null pivot. */
+SLI_INLINE void sli_bilinear_add(const sli_bilinear *q, sl_int column, sl_int row, sl_int lane,
+                                 double b) {
+    if (!sli_is_skipped(q->F, column)) {
+        q->forward.y[(ptrdiff_t)row * q->forward.lanes + lane] += b;
+    }
+}
+
 /* Compiles the reach and scatters both vectors into the lanes. */
 static void sli_bilinear_pack(sli_bilinear *q) {
     const sl_symbolic *S = q->F->S;
@@ -118,7 +126,7 @@ static void sli_bilinear_pack(sli_bilinear *q) {
             const sl_int row = sli_reach_index(&f->reach, &at, sli_key(q->seeds[k]));
             const sl_int from = sli_value(q->seeds[k]);
             lane = from >= nc;
-            f->y[(ptrdiff_t)row * f->lanes + lane] += q->values[lane][from - lane * nc];
+            sli_bilinear_add(q, sli_key(q->seeds[k]), row, lane, q->values[lane][from - lane * nc]);
         }
         return;
     }
@@ -126,8 +134,8 @@ static void sli_bilinear_pack(sli_bilinear *q) {
     sli_forward_clear(f, q->vectors);
     for (lane = 0; lane < q->vectors; lane++) {
         for (k = 0; k < q->count[lane]; k++) {
-            const sl_int row = q->set[lane] == NULL ? k : q->set[lane][k];
-            f->y[(ptrdiff_t)S->iperm[row] * f->lanes + lane] += q->values[lane][k];
+            const sl_int column = S->iperm[q->set[lane] == NULL ? k : q->set[lane][k]];
+            sli_bilinear_add(q, column, column, lane, q->values[lane][k]);
         }
     }
 }

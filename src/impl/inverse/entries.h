@@ -4,6 +4,7 @@
 
 #include "traversal_run.h"
 #include "bilinear.h"
+#include "loss.h"
 
 /* One call for entries. A traversal is possible if every entry is in the pattern of L: the front of
  * the entry's first column then has it. */
@@ -11,6 +12,7 @@ typedef struct sli_entries {
     const sl_factor *F;
     const sl_threads *threads; /* for a traversal */
     double *out;
+    int is_all; /* the whole diagonal: there is no list of requests unless it is swept */
     sli_requests requests;
     sl_inverse_method method;
     /* SL_INVERSE_FORWARD */
@@ -20,12 +22,10 @@ typedef struct sli_entries {
     sli_traversal traversal;
     sli_traversal_run run;
     sl_int *first_request; /* supernodes + 1: the sorted requests that each front has */
+    sli_loss loss;         /* with pivots of both signs */
+    int is_lossy;          /* 1: a traversal would lose too much; sweeps take its place */
+    sl_int *all;           /* count: all rows, if sweeps compute the whole diagonal */
 } sli_entries;
-
-/* The whole diagonal: there is no list of requests. */
-SLI_INLINE int sli_entries_is_all(const sli_entries *q) {
-    return q->requests.rows == NULL;
-}
 
 /* The first column of the k-th request; the front of its supernode has the entry. */
 SLI_INLINE sl_int sli_entries_column(const sli_entries *q, sl_int k) {
@@ -87,7 +87,8 @@ static void sli_entries_choose(void *call) {
     double limit = HUGE_VAL;
     sl_int supers = q->F->S->n_supers;
     memset(&q->capacity, 0, sizeof q->capacity);
-    if (sli_entries_is_all(q)) {
+    q->is_lossy = 0;
+    if (q->is_all) {
         q->method = SL_INVERSE_SELECTED;
     } else {
         if (q->requests.count > 1 && sli_entries_are_in_pattern(q)) {
@@ -101,27 +102,24 @@ static void sli_entries_choose(void *call) {
     if (q->method == SL_INVERSE_SELECTED) {
         q->traversal =
             sli_traversal_of(q->F->S, supers, sli_traversal_workers(q->F->S, q->threads));
-        q->traversal.is_partial = !sli_entries_is_all(q);
+        q->traversal.is_partial = !q->is_all;
     }
 }
 
 static void sli_entries_layout_requests(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
-    if (!sli_entries_is_all(q)) {
+    if (!q->is_all) {
         sli_requests_layout(&q->requests, b);
     }
 }
 
 static void sli_entries_layout_method(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
-    if (q->method == SL_INVERSE_FORWARD) {
-        sli_forward_layout(&q->forward, b, &q->capacity);
-        sli_forward_layout_run(&q->forward, b, &q->capacity);
-    } else {
+    if (q->method == SL_INVERSE_SELECTED) {
         sli_traversal_layout(&q->traversal, b);
         sli_traversal_layout_work(&q->traversal, b);
-        q->first_request = SLI_TAKE(
-            b, sl_int, sli_entries_is_all(q) ? 0 : (uint64_t)q->traversal.forest.count + 1);
+        q->first_request =
+            SLI_TAKE(b, sl_int, q->is_all ? 0 : (uint64_t)q->traversal.forest.count + 1);
     }
 }
 
@@ -129,7 +127,7 @@ static void sli_entries_layout_method(void *call, sli_block *b) {
 static void sli_entries_plan(void *call) {
     sli_entries *q = (sli_entries *)call;
     const sli_requests *r = &q->requests;
-    const int is_all = sli_entries_is_all(q);
+    const int is_all = q->is_all;
     sl_int k = 0, index;
     if (q->method != SL_INVERSE_SELECTED) {
         return;
@@ -150,10 +148,56 @@ static void sli_entries_plan(void *call) {
     }
 }
 
+static void sli_entries_layout_loss(void *call, sli_block *b) {
+    sli_entries *q = (sli_entries *)call;
+    if (q->method == SL_INVERSE_SELECTED) {
+        q->loss.F = q->F;
+        q->loss.limit = SLI_LOSS_LIMIT;
+        q->loss.supers = q->traversal.supers;
+        q->loss.parent = q->traversal.forest.parent;
+        q->loss.count = q->traversal.forest.count;
+        sli_loss_layout(&q->loss, b);
+    }
+}
+
+/* Would the traversal lose too much? */
+static void sli_entries_judge(void *call) {
+    sli_entries *q = (sli_entries *)call;
+    q->is_lossy = q->method == SL_INVERSE_SELECTED && !sli_loss_is_small(&q->loss);
+}
+
+/* Sweeps of the whole diagonal need a list of all rows. */
+static void sli_entries_layout_sweeps(void *call, sli_block *b) {
+    sli_entries *q = (sli_entries *)call;
+    if (q->is_lossy && q->is_all) {
+        q->all = SLI_TAKE(b, sl_int, q->requests.count);
+        sli_requests_layout(&q->requests, b);
+    }
+}
+
+static void sli_entries_partition(void *call) {
+    sli_entries *q = (sli_entries *)call;
+    sl_int k;
+    if (!q->is_lossy) {
+        return;
+    }
+    for (k = 0; k < q->requests.count && q->is_all; k++) {
+        q->all[k] = k;
+    }
+    if (q->is_all) {
+        q->requests.rows = q->requests.columns = q->all;
+    }
+    q->method = SL_INVERSE_FORWARD;
+    sli_requests_partition(&q->requests, &q->capacity);
+}
+
 static void sli_entries_layout_run(void *call, sli_block *b) {
     sli_entries *q = (sli_entries *)call;
     if (q->method == SL_INVERSE_SELECTED) {
         sli_traversal_layout_run(&q->run, &q->traversal, q->F->type->storage, b);
+    } else {
+        sli_forward_layout(&q->forward, b, &q->capacity);
+        sli_forward_layout_run(&q->forward, b, &q->capacity);
     }
 }
 
@@ -164,7 +208,7 @@ static void sli_entries_visit(void *call, sl_int index, const sli_inverse_front 
     const sl_symbolic *S = q->F->S;
     const sl_int s = q->traversal.supers[index], first = S->super_first[s], h = f->width + f->below;
     sl_int k, j;
-    if (sli_entries_is_all(q)) {
+    if (q->is_all) {
         const sl_int *row = S->perm + first, last = sli_min(SLI_TILE * t1, f->width);
         for (j = SLI_TILE * t0; j < last; j++) {
             q->out[row[j]] = f->front[sli_square_offset(h, j / SLI_TILE) + SLI_TILE * (ptrdiff_t)j +
@@ -212,6 +256,22 @@ static void sli_entries_forward(sli_entries *q, sl_stats *stats) {
     }
 }
 
+/* Entries in rows or columns of null pivots are 0. The traversal has divided by SLI_NULL_PIVOT. */
+static void sli_entries_clear_nulls(const sli_entries *q) {
+    const sl_factor *F = q->F;
+    const sl_int *iperm = F->S->iperm;
+    const sli_requests *r = &q->requests;
+    sl_int k;
+    for (k = 0; k < F->null.count && q->is_all; k++) {
+        q->out[F->S->perm[F->null.pivots[k]]] = 0.0;
+    }
+    for (k = 0; k < r->count && F->null.count > 0 && !q->is_all; k++) {
+        if (sli_is_skipped(F, iperm[r->rows[k]]) || sli_is_skipped(F, iperm[r->columns[k]])) {
+            q->out[k] = 0.0;
+        }
+    }
+}
+
 /* A call for count entries; rows NULL: the whole diagonal. */
 static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int *rows,
                                   const sl_int *columns, sl_int count) {
@@ -220,6 +280,7 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
     q.F = F;
     q.threads = &F->threads;
     q.out = out;
+    q.is_all = rows == NULL;
     q.requests = sli_requests_of(F, rows, columns, count);
     return q;
 }
@@ -227,10 +288,18 @@ static sli_entries sli_entries_of(const sl_factor *F, double *out, const sl_int 
 static const sli_stage sli_entries_stages[3] = {{sli_entries_layout_requests, sli_entries_choose},
                                                 {sli_entries_layout_method, sli_entries_plan},
                                                 {sli_entries_layout_run, NULL}};
+/* With pivots of both signs. */
+static const sli_stage sli_entries_judged_stages[5] = {
+    {sli_entries_layout_requests, sli_entries_choose},
+    {sli_entries_layout_method, sli_entries_plan},
+    {sli_entries_layout_loss, sli_entries_judge},
+    {sli_entries_layout_sweeps, sli_entries_partition},
+    {sli_entries_layout_run, NULL}};
 
 /* Chooses the method and lays out all arrays. Only W is written; it may grow. */
 static sl_status sli_entries_prepare(sli_entries *q, sl_work *W) {
-    return sli_work_stages(W, sli_entries_stages, 3, q);
+    return sli_has_both_signs(q->F) ? sli_work_stages(W, sli_entries_judged_stages, 5, q)
+                                    : sli_work_stages(W, sli_entries_stages, 3, q);
 }
 
 static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
@@ -247,6 +316,7 @@ static sl_status sli_entries_run(sli_entries *q, sl_work *W, sl_stats *stats) {
         q->run.visit = sli_entries_visit;
         q->run.context = q;
         sli_traverse(&q->run);
+        sli_entries_clear_nulls(q);
     }
     if (stats != NULL && q->method == SL_INVERSE_SELECTED) {
         stats->inverse.method = SL_INVERSE_SELECTED;

@@ -131,23 +131,74 @@ static int sli_region_copy(sl_region *R, const sl_selected *Z) {
     return 1;
 }
 
-/* Computes the numbers. F and Z are valid and belong to R. */
+/* The subtree of the k-th root, for the bound on what solves in the region lose. */
+static sli_loss sli_region_loss(const sl_region *R, const sl_factor *F, sl_int k) {
+    sli_loss q;
+    memset(&q, 0, sizeof q);
+    q.F = F;
+    q.limit = SLI_LOSS_REFUSED;
+    q.first = R->S->first_descendant[R->roots[k]];
+    q.count = R->roots[k] + 1 - q.first;
+    return q;
+}
+
+/* Grows W to what the bounds need, before anything is written. */
+static sl_status sli_region_reserve_loss(const sl_region *R, const sl_factor *F, sl_work *W) {
+    sl_status status = SL_OK;
+    sl_int k;
+    for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && status == SL_OK; k++) {
+        sli_loss q = sli_region_loss(R, F, k);
+        sli_block b = {NULL, 0, 0};
+        sli_loss_layout(&q, &b);
+        status = sli_work_grow(W, b.used);
+    }
+    return status;
+}
+
+/* Do solves lose little when they end at the boundary? Its entries are known. */
+static int sli_region_loss_is_small(const sl_region *R, const sl_factor *F, sl_work *W) {
+    const sl_off entries = R->begin[sli_region_chunks(R->extent.n_rows)];
+    double most = 0.0;
+    sl_off at;
+    sl_int k;
+    int is_small = 1;
+    for (at = 0; at < entries && sli_has_both_signs(F); at++) { /* of N: of Z, or half of it */
+        most = fmax(most, 2.0 * fabs(R->Z[at]));
+    }
+    for (k = 0; k < R->extent.n_roots && sli_has_both_signs(F) && is_small; k++) {
+        sli_loss q = sli_region_loss(R, F, k);
+        sli_block b = {(unsigned char *)W->block, 0, 0};
+        sli_loss_layout(&q, &b);
+        q.outside = R->S->super_parent[R->roots[k]] == -1 ? 0.0 : most;
+        is_small = q.outside == 0.0 || sli_loss_is_small(&q);
+    }
+    return is_small;
+}
+
+/* Computes the numbers. F and Z are valid and belong to R. If solves in the region would lose too
+ * much, R has no numbers. */
 static sl_status sli_region_fill(sl_region *R, const sl_factor *F, const sl_selected *Z,
                                  sl_work *W) {
     const double started = sli_seconds();
     sl_work own = sli_work_own(&R->allocator);
     sl_status status = SL_OK;
-    const int is_copied = Z != NULL && sli_region_copy(R, Z);
-    if (!is_copied) { /* an error comes before anything is written */
-        status = sli_inverse_all_pairs(F, R->requested, R->extent.n_rows, sli_region_write, R,
-                                       W == NULL ? &own : W);
-        sli_free(&own.allocator, own.block);
+    int is_copied;
+    W = W == NULL ? &own : W;
+    status = sli_region_reserve_loss(R, F, W);
+    is_copied = status == SL_OK && Z != NULL && sli_region_copy(R, Z);
+    if (status == SL_OK && !is_copied) { /* an error comes before anything is written */
+        status = sli_inverse_all_pairs(F, R->requested, R->extent.n_rows, sli_region_write, R, W);
     }
     if (status == SL_OK) {
         R->numbers = sli_numbers_of(F);
         R->is_copied = is_copied;
+        if (!sli_region_loss_is_small(R, F, W)) {
+            R->numbers.generation = 0;
+            status = SL_ERR_INACCURATE;
+        }
         R->seconds = sli_seconds() - started;
     }
+    sli_free(&own.allocator, own.block);
     return status;
 }
 

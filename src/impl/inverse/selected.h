@@ -3,8 +3,10 @@
 #define SLI_INVERSE_SELECTED_H
 
 #include "../../public/selected.h"
+#include "loss.h"
 #include "row_sets.h"
 #include "traversal_run.h"
+#include "unit_vectors.h"
 #include "../factor/factor.h"
 #include "../solve/work.h"
 
@@ -110,29 +112,132 @@ static void sli_selected_visit(void *context, sl_int k, const sli_inverse_front 
     }
 }
 
-static void sli_selected_layout_run(void *context, sli_block *b) {
-    sli_traversal_run *run = (sli_traversal_run *)context;
-    sli_traversal_layout_run(run, run->traversal, run->F->type->storage, b);
+/* A computation of the numbers. */
+typedef struct sli_selected_run {
+    sl_selected *Z;
+    const sl_factor *F;
+    sli_loss loss; /* with pivots of both signs */
+    int is_lossy;  /* 1: a traversal would lose too much; columns are solved for instead */
+    sli_traversal_run run;
+    sli_capacity capacity; /* of the sweeps of columns */
+    sli_forward forward;
+} sli_selected_run;
+
+static void sli_selected_layout_loss(void *context, sli_block *b) {
+    sli_selected_run *q = (sli_selected_run *)context;
+    q->is_lossy = 0;
+    if (sli_has_both_signs(q->F)) {
+        q->loss.F = q->F;
+        q->loss.limit = SLI_LOSS_LIMIT;
+        q->loss.supers = q->Z->traversal.supers;
+        q->loss.parent = q->Z->traversal.forest.parent;
+        q->loss.count = q->Z->traversal.forest.count;
+        sli_loss_layout(&q->loss, b);
+    }
 }
 
-static const sli_stage sli_selected_stage = {sli_selected_layout_run, NULL};
+/* Judges the loss, and measures the sweeps that take the place of a lossy traversal. */
+static void sli_selected_judge(void *context) {
+    sli_selected_run *q = (sli_selected_run *)context;
+    const sl_symbolic *S = q->F->S;
+    sl_int k;
+    q->is_lossy = sli_has_both_signs(q->F) && !sli_loss_is_small(&q->loss);
+    memset(&q->capacity, 0, sizeof q->capacity);
+    for (k = 0; k < q->loss.count && q->is_lossy; k++) {
+        const sl_int first = S->super_first[q->loss.supers[k]];
+        const uint64_t seed = sli_keyed(first, 0);
+        sli_reach R;
+        sli_reach_measure(S, &seed, 1, &R);
+        sli_capacity_add(&q->capacity, &R, SLI_LANES_MAX);
+        sli_capacity_add(&q->capacity, &R, 2); /* narrow sweeps need other scratch */
+    }
+}
+
+static void sli_selected_layout_run(void *context, sli_block *b) {
+    sli_selected_run *q = (sli_selected_run *)context;
+    if (q->is_lossy) {
+        sli_forward_layout(&q->forward, b, &q->capacity);
+        sli_forward_layout_run(&q->forward, b, &q->capacity);
+    } else {
+        sli_traversal_layout_run(&q->run, &q->Z->traversal, q->F->type->storage, b);
+    }
+}
+
+static const sli_stage sli_selected_stages[2] = {{sli_selected_layout_loss, sli_selected_judge},
+                                                 {sli_selected_layout_run, NULL}};
+
+/* Solves for up to 8 columns of the inverse, from column j0 of the k-th supernode on, on their path
+ * to the root, and copies what its panel holds. */
+static void sli_selected_solve(const sli_selected_run *q, sl_int k, sl_int j0) {
+    const sl_symbolic *S = q->F->S;
+    const sl_int s = q->loss.supers[k], w = S->steps[s].width, h = w + S->steps[s].below;
+    double *panel = q->Z->Z + q->Z->begin[k];
+    sli_forward f = q->forward;
+    const double *x = f.y;
+    sli_rhs_block block;
+    sl_int j, r;
+    block.count = sli_min(w - j0, SLI_LANES_MAX);
+    for (j = 0; j < block.count; j++) {
+        block.seeds[j] = sli_keyed(S->super_first[s] + j0 + j, 0);
+    }
+    sli_forward_unit_vectors(&f, q->F, &block, NULL);
+    sli_backward_sweep(q->F, f.kind, &f.reach, q->F->D, f.y, f.scratch);
+    for (r = j0; r < h; r++) {
+        const sl_int row = r < w ? r - SLI_TILE * f.steps->first_tile : f.rows[r - w];
+        for (j = 0; j < sli_min(block.count, r - j0 + 1); j++) {
+            panel[sli_panel_at(w, r, j0 + j)] = x[(ptrdiff_t)row * f.lanes + j];
+        }
+    }
+}
+
+/* Entries in rows or columns of null pivots are 0; sweeps have divided by SLI_NULL_PIVOT. */
+static void sli_selected_clear_nulls(const sl_selected *Z, const sl_factor *F) {
+    const sl_symbolic *S = F->S;
+    sl_int k, r, j;
+    for (k = 0; k < Z->traversal.forest.count && F->null.count > 0; k++) {
+        const sl_int s = Z->traversal.supers[k], w = S->steps[s].width;
+        for (r = 0; r < w + S->steps[s].below; r++) {
+            const sl_int row = r < w ? S->super_first[s] + r : S->rows[S->rows_begin[s] + r - w];
+            const int is_null = sli_is_skipped(F, row);
+            for (j = 0; j < sli_min(w, r + 1); j++) {
+                if (is_null || sli_is_skipped(F, S->super_first[s] + j)) {
+                    Z->Z[Z->begin[k] + sli_panel_at(w, r, j)] = 0.0;
+                }
+            }
+        }
+    }
+}
 
 /* Computes the numbers with the caller's workspace or one for this call. F is valid and of the same
  * analysis. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
     const double started = sli_seconds();
+    const sl_int count = Z->traversal.forest.count;
     sl_work own = sli_work_own(&Z->allocator);
-    sli_traversal_run run;
+    sli_selected_run q;
     sl_status status;
-    memset(&run, 0, sizeof run);
-    run.F = F;
-    run.traversal = &Z->traversal;
-    run.threads = &Z->threads;
-    run.visit = sli_selected_visit;
-    run.context = Z;
-    status = sli_work_stages(W == NULL ? &own : W, &sli_selected_stage, 1, &run);
+    sl_int k, j;
+    memset(&q, 0, sizeof q);
+    q.Z = Z;
+    q.F = F;
+    q.run.F = F;
+    q.run.traversal = &Z->traversal;
+    q.run.threads = &Z->threads;
+    q.run.visit = sli_selected_visit;
+    q.run.context = Z;
+    status = sli_work_stages(W == NULL ? &own : W, sli_selected_stages, 2, &q);
+    if (status == SL_OK && q.is_lossy) {
+        memset(Z->Z, 0, (size_t)Z->begin[count] * sizeof *Z->Z);
+        for (k = 0; k < count; k++) {
+            for (j = 0; j < F->S->steps[q.loss.supers[k]].width; j += SLI_LANES_MAX) {
+                sli_selected_solve(&q, k, j);
+            }
+        }
+    } else if (status == SL_OK) {
+        sli_traverse(&q.run);
+    }
     if (status == SL_OK) {
-        sli_traverse(&run);
+        sli_selected_clear_nulls(Z, F);
         Z->numbers = sli_numbers_of(F);
         Z->seconds = sli_seconds() - started;
     }

@@ -235,7 +235,7 @@ static void sli_forward_run(sli_forward *f, const sl_factor *F, sl_stats *stats)
     }
 }
 
-/* y := L^-1 times the unit vectors of a block. */
+/* y := L^-1 times the unit vectors of a block, or 0 for those of null pivots that were skipped. */
 static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const sli_rhs_block *block,
                                      sl_stats *stats) {
     sl_int k, at = 0;
@@ -243,7 +243,8 @@ static void sli_forward_unit_vectors(sli_forward *f, const sl_factor *F, const s
     sli_forward_clear(f, block->count);
     for (k = 0; k < block->count; k++) {
         const sl_int row = sli_reach_index(&f->reach, &at, sli_key(block->seeds[k]));
-        f->y[(ptrdiff_t)row * f->lanes + k] = 1.0;
+        f->y[(ptrdiff_t)row * f->lanes + k] =
+            sli_is_skipped(F, sli_key(block->seeds[k])) ? 0.0 : 1.0;
     }
     sli_forward_run(f, F, stats);
 }
