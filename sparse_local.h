@@ -1,59 +1,60 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: aa8e5c087eaace58
+ * FNV-1a of the lines after this comment, without the license: cae10d6dc003350f
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     61 intro.h      what the library does, a quick start, which call for which question, references
- *    167 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    200 config.h     macros that a user may define before the include, the version, and the integer types
- *    278 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    456 options.h    options of all calls, threads, and the allocator
- *    595 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    804 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    902 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    976 factor.h     the numerical factorization P A P' = L D L'
- *   1097 solve.h      full solves, and the workspace of all solves
- *   1191 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1269 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1368 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1474 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1548 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1632 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1728 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1840 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1879 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2007 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2039 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2228 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2338 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2465 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2505 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2593 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2702 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2739 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2812 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2852 impl/ base: the compiler, status, memory, sorting, threads
- *   3834 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4677 impl/ matrix: sparse matrices of the caller and of the library
- *   5220 impl/ ordering: fill-reducing orderings of a graph
- *   9597 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11543 impl/ factor: the numbers of L and D
- *  14305 impl/ solve: full and local solves
- *  15885 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17475 impl/ pivots: the order of the pivots by the values of a matrix
- *  17889 impl/ float: L and fronts in single precision
- *  18346 impl/ inverse: entries of the inverse, regions
- *  21274 impl/ change: a factor that follows changes of its matrix
- *  27826 impl/ io: files that are replaced only when they are complete
- *  28038 impl/ files: Matrix Market files, 64-bit indices
- *  28564 impl/ save: factors in files
- *  30486 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31144 impl/ batch: diagonals of many inverses
- *  31284 impl/ complex: complex Hermitian systems over real factors
- *  31802 impl/ complex: entries of the inverse
- *  31854 impl/ packs: the tables through which the core calls packs
- *  31886 impl/ last: undefine every internal macro
- *  32188 impl/ templates: the header includes them from itself, once for each instruction set
+ *     62 intro.h      what the library does, a quick start, which call for which question, references
+ *    169 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    202 config.h     macros that a user may define before the include, the version, and the integer types
+ *    280 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    458 options.h    options of all calls, threads, and the allocator
+ *    597 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    806 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    904 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    978 factor.h     the numerical factorization P A P' = L D L'
+ *   1099 solve.h      full solves, and the workspace of all solves
+ *   1193 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1271 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1370 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1410 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1516 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1591 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1676 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1772 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1884 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1923 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2051 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2083 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2272 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2382 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2509 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2549 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2637 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2746 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2783 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2856 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2896 impl/ base: the compiler, status, memory, sorting, threads
+ *   3878 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4721 impl/ matrix: sparse matrices of the caller and of the library
+ *   5264 impl/ ordering: fill-reducing orderings of a graph
+ *   9641 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11587 impl/ factor: the numbers of L and D
+ *  14349 impl/ solve: full and local solves
+ *  15929 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  17664 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18078 impl/ float: L and fronts in single precision
+ *  18535 impl/ inverse: entries of the inverse, regions
+ *  21463 impl/ change: a factor that follows changes of its matrix
+ *  28015 impl/ io: files that are replaced only when they are complete
+ *  28227 impl/ files: Matrix Market files, 64-bit indices
+ *  28753 impl/ save: factors in files
+ *  30675 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31333 impl/ batch: diagonals of many inverses
+ *  31473 impl/ complex: complex Hermitian systems over real factors
+ *  31991 impl/ complex: entries of the inverse
+ *  32043 impl/ packs: the tables through which the core calls packs
+ *  32075 impl/ last: undefine every internal macro
+ *  32377 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -102,6 +103,7 @@
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
+ *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_batch_factor                        several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
@@ -1365,6 +1367,46 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_part(const sl_plan *P, const sl_fa
 SL_API SL_WARN_UNUSED sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns,
                                                 sl_int capacity, sl_int *count);
 
+/* src/public/pseudo.h: what makes the pseudo-inverse of the entries, samples and determinant of a factor */
+
+/** The null space of A, as sl_factor_pseudo_inverse computes it. The caller provides the arrays. */
+typedef struct sl_pseudo_inverse {
+    sl_int columns;    /* of Q and K: before, how many there is room for; after, how many there are,
+                        * the most null vectors of a component */
+    sl_int *component; /* n: the same number for rows of one component; -1: it is regular */
+    double *Q;         /* n x columns, column-major, leading dimension n */
+    double *K;         /* likewise */
+    double log_det;    /* of the pseudo-determinant, less that of sl_factor_logdet */
+} sl_pseudo_inverse;
+
+/** EXPERIMENTAL. Null vectors of A, and what turns the inverse G that a factor with skipped null
+ *  pivots stands for into the pseudo-inverse.
+ *
+ *  G is the inverse of A without the null rows: its entries depend on which rows these are. With an
+ *  orthonormal basis Q of the null space of each component and K = G Q - Q Q' G Q / 2
+ *
+ *      (A^+)_ij = G_ij - sum over c of Q_ic K_jc + K_ic Q_jc    for i, j of the same component,
+ *      samples:   x - Q Q' x, for x of sl_factor_solve_part with SL_PART_SQRT_D,
+ *      log pdet:  sl_factor_logdet + log_det.
+ *
+ *  A statistician's marginal variances under a sum-to-zero constraint are the diagonal of A^+.
+ *  Components that entries of A that are 0 join count as one, with all of their null vectors. Rows
+ *  of Q and K are 0 in regular components, columns where a component has fewer null vectors.
+ *
+ *  F      [in]      a factor of A, n x n.
+ *  P      [in,out]  component, Q and K NULL: only columns is written. On error columns may be.
+ *  W      [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: a NULL, or too few columns; SL_ERR_STATE: failed factor;
+ *           SL_ERR_UNSUPPORTED: 2x2 pivots; SL_ERR_TOO_LARGE, SL_ERR_MEMORY: W could not grow.
+ *  Cost     a full solve for each column, half a one where null vectors are not known, and
+ *           O(n columns^2).
+ *  Threads  any number at once on one F, each with its own W.
+ *  Manual   tools/docs/singular.md
+ *  Example  tests/core/test_pseudo.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse *P,
+                                                         sl_work *W);
+
 /* src/public/accuracy.h: refinement of solutions, condition estimate, consistency of singular systems */
 
 /** Iterative refinement of A X = B, until the backward error no longer halves.
@@ -1537,6 +1579,7 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 #define sl_factor_multiply_part(...) sl_factor_multiply_part_needs_SL_WITH_ACCURACY
 #define sl_plan_solve_part(...) sl_plan_solve_part_needs_SL_WITH_ACCURACY
 #define sl_plan_columns(...) sl_plan_columns_needs_SL_WITH_ACCURACY
+#define sl_factor_pseudo_inverse(...) sl_factor_pseudo_inverse_needs_SL_WITH_ACCURACY
 #define sl_factor_refine(...) sl_factor_refine_needs_SL_WITH_ACCURACY
 #define sl_plan_solve_refined(...) sl_plan_solve_refined_needs_SL_WITH_ACCURACY
 #define sl_factor_rcond(...) sl_factor_rcond_needs_SL_WITH_ACCURACY
@@ -1550,7 +1593,8 @@ SL_API SL_WARN_UNUSED sl_status sl_plan_solve_bounded(const sl_plan *P, const sl
 /* Entries come from forward sweeps, or from selected inversion where that is cheaper, as it is for
  * the whole diagonal (stats.inverse.method). Results equal those of full solves up to rounding; the
  * last bits depend on the other requests of the same call, which may share sweeps. If null pivots
- * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these.
+ * were skipped, the inverse is that of the matrix without their rows and columns, and 0 in these;
+ * sl_factor_pseudo_inverse makes it the pseudo-inverse.
  *
  * If pivots have both signs, selected inversion may lose the square of stats.factor.growth, where
  * solves lose growth itself. A bound on the loss is computed first, from L. Beyond 1e-10, relative
@@ -16139,6 +16183,151 @@ SL_API sl_status sl_plan_columns(const sl_plan *P, sl_part part, sl_int *columns
   }
   *count = R->columns;
   return SL_OK;
+}
+
+/* src/impl/accuracy/pseudo.h: an orthonormal basis of the null space, and the correction to the pseudo-inverse */
+
+typedef struct sli_pseudo_tree {
+  sl_int first, root, count;
+  const sl_int *null;
+} sli_pseudo_tree;
+
+static sli_pseudo_tree sli_pseudo_tree_of(const sl_factor *F, sl_int s) {
+  const sl_symbolic *S = F->S;
+  sli_pseudo_tree t;
+  sl_int m;
+  t.first = S->super_first[S->first_descendant[s]];
+  t.root = S->super_first[s + 1] - 1;
+  m = sli_lower_bound(F->null.pivots, F->null.count, t.first);
+  t.null = F->null.pivots + m;
+  t.count = sli_lower_bound(F->null.pivots, F->null.count, t.root + 1) - m;
+  return t;
+}
+
+static double sli_pseudo_dot(const sl_factor *F, const sli_pseudo_tree *t, const double *a,
+               const double *b) {
+  double sum = 0.0;
+  sl_int k;
+  for (k = t->first; k <= t->root; k++) {
+    sum += a[F->S->perm[k]] * b[F->S->perm[k]];
+  }
+  return sum;
+}
+
+static void sli_pseudo_add(const sl_factor *F, const sli_pseudo_tree *t, double *a, double scale,
+               const double *b, double factor) {
+  sl_int k;
+  for (k = t->first; k <= t->root; k++) {
+    const sl_int row = F->S->perm[k];
+    a[row] = scale * a[row] - factor * b[row];
+  }
+}
+
+static void sli_pseudo_load(const sl_factor *F, const sli_pseudo_tree *t, double *Q) {
+  const size_t n = (size_t)F->S->n;
+  sl_int c, k;
+  for (c = 0; c < t->count; c++) {
+    const sl_int null = t->null[c], column = sli_null_column(F, null);
+    const double *z = F->null.g + (size_t)column * n;
+    for (k = t->first; k <= t->root && column != -1; k++) {
+      Q[(size_t)F->S->perm[k] + (size_t)c * n] = z[k] / z[null];
+    }
+  }
+}
+
+static double sli_pseudo_orthonormalize(const sl_factor *F, const sli_pseudo_tree *t, double *Q) {
+  const size_t n = (size_t)F->S->n;
+  double log_det = 0.0;
+  sl_int c, b;
+  for (c = 0; c < t->count; c++) {
+    double *q = Q + (size_t)c * n, norm;
+    for (b = 0; b < 2 * c; b++) {
+      const double *p = Q + (size_t)(b % c) * n;
+      sli_pseudo_add(F, t, q, 1.0, p, sli_pseudo_dot(F, t, p, q));
+    }
+    norm = sqrt(sli_pseudo_dot(F, t, q, q));
+    log_det += 2.0 * log(norm);
+    sli_pseudo_add(F, t, q, 1.0 / norm, q, 0.0);
+  }
+  return log_det;
+}
+
+static void sli_pseudo_halve(const sl_factor *F, const sli_pseudo_tree *t, const double *Q,
+               double *K) {
+  const size_t n = (size_t)F->S->n;
+  sl_int c, b;
+  for (c = 0; c < t->count; c++) {
+    double *k = K + (size_t)c * n;
+    for (b = 0; b < t->count; b++) {
+      const double *q = Q + (size_t)b * n;
+      sli_pseudo_add(F, t, k, 1.0, q, 0.5 * sli_pseudo_dot(F, t, q, k));
+    }
+  }
+}
+
+static sl_int sli_pseudo_count(const sl_factor *F, sl_int *component) {
+  const sl_symbolic *S = F->S;
+  sl_int s, k, most = 0;
+  for (s = 0; s < S->n_supers; s++) {
+    if (S->super_parent[s] == -1) {
+      const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
+      most = sli_max(most, t.count);
+      for (k = t.first; k <= t.root && component != NULL; k++) {
+        component[S->perm[k]] = t.count == 0 ? -1 : S->perm[t.root];
+      }
+    }
+  }
+  return most;
+}
+
+SL_API sl_status sl_factor_pseudo_inverse(const sl_factor *F, sl_pseudo_inverse *P, sl_work *W) {
+  const unsigned all = SL_PART_P | SL_PART_L | SL_PART_D | SL_PART_LT | SL_PART_PT;
+  sl_int room, s, c;
+  size_t n;
+  sl_status status;
+  if (F == NULL || P == NULL || (P->Q == NULL) != (P->K == NULL) ||
+    (P->Q == NULL) != (P->component == NULL)) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_parts_check(F, all);
+  if (status != SL_OK || F->E != NULL) {
+    return status != SL_OK ? status : SL_ERR_UNSUPPORTED;
+  }
+  room = P->columns;
+  P->columns = sli_pseudo_count(F, P->component);
+  P->log_det = 0.0;
+  if (P->Q == NULL || P->columns == 0) {
+    return SL_OK;
+  }
+  if (room < P->columns) {
+    return SL_ERR_ARGUMENT;
+  }
+  n = (size_t)F->S->n;
+  memset(P->Q, 0, n * (size_t)P->columns * sizeof(double));
+  for (s = 0; s < F->S->n_supers; s++) {
+    const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
+    for (c = 0; c < t.count && F->S->super_parent[s] == -1; c++) {
+      P->Q[(size_t)t.null[c] + (size_t)c * n] = 1.0;
+    }
+  }
+  status = sl_factor_solve_part(F, SL_PART_LT | SL_PART_PT, P->Q, n, P->Q, n, P->columns, W);
+  for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
+    if (F->S->super_parent[s] == -1) {
+      const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
+      sli_pseudo_load(F, &t, P->Q);
+      P->log_det += sli_pseudo_orthonormalize(F, &t, P->Q);
+    }
+  }
+  if (status == SL_OK) {
+    status = sl_factor_solve_part(F, all, P->K, n, P->Q, n, P->columns, W);
+  }
+  for (s = 0; s < F->S->n_supers && status == SL_OK; s++) {
+    if (F->S->super_parent[s] == -1) {
+      const sli_pseudo_tree t = sli_pseudo_tree_of(F, s);
+      sli_pseudo_halve(F, &t, P->Q, P->K);
+    }
+  }
+  return status;
 }
 
 /* src/impl/accuracy/refine.h: sl_factor_refine: refinement by the componentwise backward error */

@@ -18,6 +18,7 @@ extern "C" {
 #include "public/plan.h"
 #if defined(SL_WITH_ACCURACY)
 #include "public/parts.h"
+#include "public/pseudo.h"
 #include "public/accuracy.h"
 #include "public/bounds.h"
 #endif
@@ -153,6 +154,7 @@ extern "C" {
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 #include "impl/accuracy/parts.h"
+#include "impl/accuracy/pseudo.h"
 #include "impl/accuracy/refine.h"
 #include "impl/accuracy/refine_local.h"
 #include "impl/accuracy/rcond.h"

@@ -44,6 +44,7 @@
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
+ *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_batch_factor                        several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h

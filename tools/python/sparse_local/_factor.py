@@ -9,6 +9,7 @@ from . import _arrays as arrays
 from ._errors import ArgumentError
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._plan import Plan, Region, choice, part_bits
+from ._pseudo import NullSpace
 
 _ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
@@ -30,6 +31,9 @@ class Factor:
     perm      n row numbers: perm[k] is pivot k; implies 'given'.
     block_size      rows of one node, such as 3 for x, y and z.
     null_pivots     'refuse' (PivotError), or 'skip': singular semidefinite matrices, Laplacians.
+                    The inverse is then the pseudo-inverse: diagonal, block, Selected, sample and
+                    logdet are those of A^+, unless pseudo=False asks for those of the matrix
+                    without the null rows, which depend on the order.
     null_tolerance  see sparse_local.h; 0 is its default, negative: only an exact 0 is null.
     mass            n weights m: solutions of a singular A have sum m x = 0 in each component.
     null_vector     n numbers, if the null vector is not constant; n x k: several null vectors a
@@ -92,6 +96,7 @@ class Factor:
         self._factor = Handle("factor", factor.value, self._symbolic)
         self.n = n
         self._works = threading.local()
+        self._nulls = None
 
     @property
     def shape(self):
@@ -117,6 +122,7 @@ class Factor:
         stats = Stats()
         if self._triangle is None:
             matrix.check_symmetric()
+        self._nulls = None
         check(lib.sl_factor_refactor(self._factor.pointer, matrix.reference(),
                                      ctypes.byref(stats)), stats)
         return self
@@ -133,6 +139,7 @@ class Factor:
         matrix, stats = arrays.Matrix(A), Stats()
         if self._triangle is None:
             matrix.check_symmetric()
+        self._nulls = None
         check(lib.sl_factor_refactor_changed(self._factor.pointer, matrix.reference(), address,
                                              count, ctypes.byref(stats)), stats)
         return self
@@ -189,7 +196,18 @@ class Factor:
         self._factor = Handle("factor", factor, self._symbolic)
         self.n = lib.sl_symbolic_view(self._symbolic.pointer).n
         self._works = threading.local()
+        self._nulls = None
         return self
+
+    def _null_space(self, pseudo=True):
+        """What corrects entries to those of the pseudo-inverse; None: A is regular."""
+        stats = Stats()
+        lib.sl_factor_stats(self._factor.pointer, ctypes.byref(stats))
+        if not pseudo or stats.factor.null == 0:
+            return None
+        if self._nulls is None:
+            self._nulls = NullSpace(self)
+        return self._nulls
 
     def solve_part(self, parts, B):
         """X = P' L'^-1 D^-1 L^-1 P B with only the parts that are named, as 'P L' or ['LT', 'PT'].
@@ -210,15 +228,18 @@ class Factor:
         check(call(self._factor.pointer, part_bits(parts), *dense.arguments(), self._work()))
         return dense.X
 
-    def sample(self, count=None, rng=None):
-        """Samples of the normal distribution with mean 0 and covariance A^-1, for a definite A.
+    def sample(self, count=None, rng=None, *, pseudo=True):
+        """Samples of the normal distribution with mean 0 and covariance A^-1, for a definite A, or
+        A^+, for a semidefinite one: such samples have no part in the null space.
 
         count  columns of the result (n, count); None: one sample (n,).
         rng    numpy.random.Generator; None: a new one.
         """
         rng = np.random.default_rng() if rng is None else rng
         shape = self.n if count is None else (self.n, count)
-        return self.solve_part("sqrtD LT PT", rng.standard_normal(shape))
+        nulls = self._null_space(pseudo)
+        samples = self.solve_part("sqrtD LT PT", rng.standard_normal(shape))
+        return samples if nulls is None else nulls.project(samples)
 
     def solve(self, B):
         """X with A X = B; B has the shape (n,) or (n, count), and so has X.
@@ -271,17 +292,20 @@ class Factor:
         """A part of the matrix in which local solves do not depend on the rest; see Region."""
         return Region(self, rows)
 
-    def diagonal(self, rows=None):
-        """Diagonal entries of the inverse: (A^-1)[r, r] for r in rows; None: all."""
+    def diagonal(self, rows=None, *, pseudo=True):
+        """Diagonal entries of the inverse: (A^-1)[r, r] for r in rows; None: all. For a singular A
+        those of A^+, the variances of samples."""
         keep, address, count = arrays.rows(rows)
         out = np.empty(self.n if rows is None else count)
         stats = Stats()
         check(lib.sl_inverse_diagonal(self._factor.pointer, arrays.address(out), address, count,
                                       self._work(), ctypes.byref(stats)), stats)
-        return out
+        nulls = self._null_space(pseudo)
+        chosen = slice(None) if rows is None else keep
+        return out if nulls is None else nulls.pairs(out, chosen, chosen)
 
-    def block(self, rows, columns):
-        """The dense block (A^-1)[rows, columns] of the inverse."""
+    def block(self, rows, columns, *, pseudo=True):
+        """The dense block (A^-1)[rows, columns] of the inverse; of A^+ for a singular A."""
         keep_r, r_rows, n_rows = arrays.rows(rows)
         keep_c, c_rows, n_columns = (keep_r, r_rows, n_rows) if columns is rows else arrays.rows(
             columns)
@@ -292,13 +316,16 @@ class Factor:
         check(lib.sl_inverse_block(self._factor.pointer, arrays.address(out), max(n_rows, 1),
                                    r_rows, n_rows, c_rows, n_columns, self._work(),
                                    ctypes.byref(stats)), stats)
-        return out
+        nulls = self._null_space(pseudo)
+        return out if nulls is None else nulls.block(out, keep_r, keep_c)
 
-    def logdet(self):
-        """(sign, log |det A|), as numpy.linalg.slogdet."""
+    def logdet(self, *, pseudo=True):
+        """(sign, log |det A|), as numpy.linalg.slogdet; for a singular A of the pseudo-determinant,
+        the product of the eigenvalues that are not 0."""
         log, sign = ctypes.c_double(), ctypes.c_double()
         check(lib.sl_factor_logdet(self._factor.pointer, ctypes.byref(log), ctypes.byref(sign)))
-        return sign.value, log.value
+        nulls = self._null_space(pseudo)
+        return sign.value, log.value + (0.0 if nulls is None else nulls.log_det)
 
     def certify(self, A, certainty="estimated"):
         """Finds eta, the largest relative error of any solve in the energy norm of A, which

@@ -117,6 +117,12 @@ class SymbolicArrays(ctypes.Structure):
             (name, _PTR) for name in ("node_of", "node_parent", "node_level")]
 
 
+class PseudoInverse(ctypes.Structure):
+    """sl_pseudo_inverse"""
+    _fields_ = [("columns", _INT), ("component", _PTR), ("Q", _PTR), ("K", _PTR),
+                ("log_det", _REAL)]
+
+
 _OUT = ctypes.POINTER(_PTR)
 _CSC, _OPT, _STATS = (ctypes.POINTER(Csc), ctypes.POINTER(Options), ctypes.POINTER(Stats))
 _SET = ctypes.POINTER(SavedSet)
@@ -135,6 +141,7 @@ _CALLS = {
     "factor_solve": [_PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "factor_refine": [_PTR, _CSC, _PTR, _SIZE, _PTR, _SIZE, _INT, _INT, _PTR, _STATS],
     "factor_logdet": [_PTR, ctypes.POINTER(_REAL), ctypes.POINTER(_REAL)],
+    "factor_pseudo_inverse": [_PTR, ctypes.POINTER(PseudoInverse), _PTR],
     "factor_rcond": [_PTR, _CSC, ctypes.POINTER(_REAL), _PTR],
     "factor_certify": [_PTR, _CSC, _ENUM, _PTR, _STATS],
     "work_create": [_OUT, _OPT],

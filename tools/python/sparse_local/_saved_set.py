@@ -15,7 +15,8 @@ class Selected:
     """The entries of the inverse in the pattern of the factor: all, or those that rows need.
 
     They are those of the numbers that the factor had; update() computes them again. Reading an
-    entry takes less than a microsecond, whatever the size of the matrix.
+    entry takes less than a microsecond, whatever the size of the matrix. Of a singular matrix they
+    are those of the pseudo-inverse, unless pseudo=False is passed where they are read.
     """
 
     def __init__(self, factor, rows=None):
@@ -28,21 +29,24 @@ class Selected:
     def _own(self, factor, pointer):
         self._factor = factor
         self._selected = Handle("selected", pointer, factor._factor, factor._symbolic)
+        self._nulls = factor._null_space()
 
     def update(self):
         """Computes the entries from the present numbers of the factor; StateError: mapped."""
         check(lib.sl_selected_refactor(self._selected.pointer, self._factor._factor.pointer,
                                        self._factor._work()))
+        self._nulls = self._factor._null_space()
 
-    def diagonal(self, rows=None):
+    def diagonal(self, rows=None, *, pseudo=True):
         """(A^-1)[r, r] for r in rows; None: all. PatternError: a row that is not kept."""
         keep, address, count = arrays.rows(rows)
         out, stats = np.empty(self._factor.n if rows is None else count), Stats()
         check(lib.sl_selected_entries(self._selected.pointer, arrays.address(out), address, None,
                                       count, ctypes.byref(stats)), stats)
-        return out
+        chosen = slice(None) if rows is None else keep
+        return self._nulls.pairs(out, chosen, chosen) if pseudo and self._nulls else out
 
-    def entries(self, rows, columns):
+    def entries(self, rows, columns, *, pseudo=True):
         """(A^-1)[r, c] for the pairs of rows and columns. PatternError: one is not kept."""
         keep_r, r_rows, count = arrays.rows(rows)
         keep_c, c_rows, n_columns = arrays.rows(columns)
@@ -51,7 +55,7 @@ class Selected:
         out, stats = np.empty(count), Stats()
         check(lib.sl_selected_entries(self._selected.pointer, arrays.address(out), r_rows, c_rows,
                                       count, ctypes.byref(stats)), stats)
-        return out
+        return self._nulls.pairs(out, keep_r, keep_c) if pseudo and self._nulls else out
 
     @property
     def stats(self):
