@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: cae10d6dc003350f
+ * FNV-1a of the lines after this comment, without the license: 7bab086de7edd760
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -13,48 +13,48 @@
  *    904 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
  *    978 factor.h     the numerical factorization P A P' = L D L'
  *   1099 solve.h      full solves, and the workspace of all solves
- *   1193 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1271 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1370 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1410 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1516 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1591 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1676 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1772 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1884 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1923 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2051 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2083 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2272 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2382 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2509 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2549 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2637 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2746 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2783 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2856 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2896 impl/ base: the compiler, status, memory, sorting, threads
- *   3878 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4721 impl/ matrix: sparse matrices of the caller and of the library
- *   5264 impl/ ordering: fill-reducing orderings of a graph
- *   9641 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11587 impl/ factor: the numbers of L and D
- *  14349 impl/ solve: full and local solves
- *  15929 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17664 impl/ pivots: the order of the pivots by the values of a matrix
- *  18078 impl/ float: L and fronts in single precision
- *  18535 impl/ inverse: entries of the inverse, regions
- *  21463 impl/ change: a factor that follows changes of its matrix
- *  28015 impl/ io: files that are replaced only when they are complete
- *  28227 impl/ files: Matrix Market files, 64-bit indices
- *  28753 impl/ save: factors in files
- *  30675 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31333 impl/ batch: diagonals of many inverses
- *  31473 impl/ complex: complex Hermitian systems over real factors
- *  31991 impl/ complex: entries of the inverse
- *  32043 impl/ packs: the tables through which the core calls packs
- *  32075 impl/ last: undefine every internal macro
- *  32377 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1194 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1272 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1371 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1411 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1517 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1592 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1677 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1773 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1885 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1924 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2052 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2084 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2273 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2383 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2510 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2550 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2638 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2747 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2784 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2857 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2897 impl/ base: the compiler, status, memory, sorting, threads
+ *   3879 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4722 impl/ matrix: sparse matrices of the caller and of the library
+ *   5265 impl/ ordering: fill-reducing orderings of a graph
+ *   9642 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11588 impl/ factor: the numbers of L and D
+ *  14350 impl/ solve: full and local solves
+ *  15930 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  17665 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18079 impl/ float: L and fronts in single precision
+ *  18536 impl/ inverse: entries of the inverse, regions
+ *  21464 impl/ change: a factor that follows changes of its matrix
+ *  28016 impl/ io: files that are replaced only when they are complete
+ *  28228 impl/ files: Matrix Market files, 64-bit indices
+ *  28754 impl/ save: factors in files
+ *  30676 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31334 impl/ batch: diagonals of many inverses
+ *  31474 impl/ complex: complex Hermitian systems over real factors
+ *  31992 impl/ complex: entries of the inverse
+ *  32044 impl/ packs: the tables through which the core calls packs
+ *  32076 impl/ last: undefine every internal macro
+ *  32378 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1144,6 +1144,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
  *  |  _refine, _rcond                  | but a single one may with threads: try both            |
+ *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |
@@ -1379,11 +1380,11 @@ typedef struct sl_pseudo_inverse {
     double log_det;    /* of the pseudo-determinant, less that of sl_factor_logdet */
 } sl_pseudo_inverse;
 
-/** EXPERIMENTAL. Null vectors of A, and what turns the inverse G that a factor with skipped null
- *  pivots stands for into the pseudo-inverse.
+/** EXPERIMENTAL. Null vectors of A, and what makes the pseudo-inverse of entries of the inverse.
  *
- *  G is the inverse of A without the null rows: its entries depend on which rows these are. With an
- *  orthonormal basis Q of the null space of each component and K = G Q - Q Q' G Q / 2
+ *  If null pivots were skipped, those entries are of G, the inverse of A without the null rows, and
+ *  depend on which rows these are. With an orthonormal basis Q of the null space of each component
+ *  and K = G Q - Q Q' G Q / 2
  *
  *      (A^+)_ij = G_ij - sum over c of Q_ic K_jc + K_ic Q_jc    for i, j of the same component,
  *      samples:   x - Q Q' x, for x of sl_factor_solve_part with SL_PART_SQRT_D,

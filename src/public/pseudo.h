@@ -14,11 +14,11 @@ typedef struct sl_pseudo_inverse {
     double log_det;    /* of the pseudo-determinant, less that of sl_factor_logdet */
 } sl_pseudo_inverse;
 
-/** EXPERIMENTAL. Null vectors of A, and what turns the inverse G that a factor with skipped null
- *  pivots stands for into the pseudo-inverse.
+/** EXPERIMENTAL. Null vectors of A, and what makes the pseudo-inverse of entries of the inverse.
  *
- *  G is the inverse of A without the null rows: its entries depend on which rows these are. With an
- *  orthonormal basis Q of the null space of each component and K = G Q - Q Q' G Q / 2
+ *  If null pivots were skipped, those entries are of G, the inverse of A without the null rows, and
+ *  depend on which rows these are. With an orthonormal basis Q of the null space of each component
+ *  and K = G Q - Q Q' G Q / 2
  *
  *      (A^+)_ij = G_ij - sum over c of Q_ic K_jc + K_ic Q_jc    for i, j of the same component,
  *      samples:   x - Q Q' x, for x of sl_factor_solve_part with SL_PART_SQRT_D,

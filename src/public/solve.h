@@ -51,6 +51,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  | sl_factor_solve, _solve_part,     | the analysis, nrhs, the threads of W, and whether F    |
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
  *  |  _refine, _rcond                  | but a single one may with threads: try both            |
+ *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |

@@ -259,6 +259,11 @@ static void every_allocation_may_fail(void **state) {
             status = sl_factor_pseudo_inverse(F, &P, W);
             counter.fail_at = -1;
             assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            if (W != NULL && status == SL_OK) { /* which has grown enough */
+                const size_t calls = counter.calls;
+                SL_CHECK(sl_factor_pseudo_inverse(F, &P, W));
+                assert_int_equal(counter.calls, calls);
+            }
             sl_work_free(W);
         }
     }
