@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7bab086de7edd760
+ * FNV-1a of the lines after this comment, without the license: d9ac01dccdb3d812
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,17 +44,17 @@
  *  17665 impl/ pivots: the order of the pivots by the values of a matrix
  *  18079 impl/ float: L and fronts in single precision
  *  18536 impl/ inverse: entries of the inverse, regions
- *  21464 impl/ change: a factor that follows changes of its matrix
- *  28016 impl/ io: files that are replaced only when they are complete
- *  28228 impl/ files: Matrix Market files, 64-bit indices
- *  28754 impl/ save: factors in files
- *  30676 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31334 impl/ batch: diagonals of many inverses
- *  31474 impl/ complex: complex Hermitian systems over real factors
- *  31992 impl/ complex: entries of the inverse
- *  32044 impl/ packs: the tables through which the core calls packs
- *  32076 impl/ last: undefine every internal macro
- *  32378 impl/ templates: the header includes them from itself, once for each instruction set
+ *  21465 impl/ change: a factor that follows changes of its matrix
+ *  28017 impl/ io: files that are replaced only when they are complete
+ *  28229 impl/ files: Matrix Market files, 64-bit indices
+ *  28755 impl/ save: factors in files
+ *  30677 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31335 impl/ batch: diagonals of many inverses
+ *  31475 impl/ complex: complex Hermitian systems over real factors
+ *  31993 impl/ complex: entries of the inverse
+ *  32045 impl/ packs: the tables through which the core calls packs
+ *  32077 impl/ last: undefine every internal macro
+ *  32379 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -19657,17 +19657,18 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
   q->up = SLI_TAKE(b, double, tallest);
 }
 
+SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, double *room) {
+  sl_int r;
+  for (r = 0; r < SLI_TILE; r++) {
+    room[r] = sli_entry(F, at + r);
+  }
+  return room;
+}
+
 SLI_INLINE const double *sli_loss_tile(const sl_factor *F, const sli_step *step, sl_int t, sl_int j,
                      double *room) {
   const sl_off at = step->panel + sli_tile_offset(step->width, t) + (sl_off)SLI_TILE * j;
-  sl_int r;
-  if (F->type->entry == NULL) {
-    return (const double *)F->values + at;
-  }
-  for (r = 0; r < SLI_TILE; r++) {
-    room[r] = F->type->entry(F->values, at + r);
-  }
-  return room;
+  return F->type->entry == NULL ? (const double *)F->values + at : sli_loss_widen(F, at, room);
 }
 
 SLI_INLINE double sli_loss_sum(const double *l, const double *s) {

@@ -72,19 +72,21 @@ static void sli_loss_layout(sli_loss *q, sli_block *b) {
     q->up = SLI_TAKE(b, double, tallest);
 }
 
-/* Column j of row tile t of supernode s, in double; room: for a tile in another storage. Entries on
+/* A tile of a column of L in another storage, as doubles. */
+SLI_NOINLINE static const double *sli_loss_widen(const sl_factor *F, sl_off at, double *room) {
+    sl_int r;
+    for (r = 0; r < SLI_TILE; r++) {
+        room[r] = sli_entry(F, at + r);
+    }
+    return room;
+}
+
+/* Column j of row tile t of a supernode, in double; room: for a tile in another storage. Entries on
  * and above the diagonal and in the padding are 0. */
 SLI_INLINE const double *sli_loss_tile(const sl_factor *F, const sli_step *step, sl_int t, sl_int j,
                                        double *room) {
     const sl_off at = step->panel + sli_tile_offset(step->width, t) + (sl_off)SLI_TILE * j;
-    sl_int r;
-    if (F->type->entry == NULL) {
-        return (const double *)F->values + at;
-    }
-    for (r = 0; r < SLI_TILE; r++) {
-        room[r] = F->type->entry(F->values, at + r);
-    }
-    return room;
+    return F->type->entry == NULL ? (const double *)F->values + at : sli_loss_widen(F, at, room);
 }
 
 /* The sum of |l(r)| s(r) over a tile. */
