@@ -185,6 +185,9 @@ static void a_refused_region_takes_other_numbers_later(void **state) {
     sl_factor *bad = NULL;
     sl_region *R = NULL;
     sl_plan *P = NULL;
+    sl_saved_set set_of;
+    size_t bytes = 0;
+    memset(&set_of, 0, sizeof set_of);
     SL_CHECK(sl_factor_create(&bad, good.S, &M.view, NULL, NULL));
     for (sl_int k = 0;
          k < n - count && sl_region_create(&R, bad, set, count, NULL, NULL, NULL) == SL_OK;
@@ -198,6 +201,11 @@ static void a_refused_region_takes_other_numbers_later(void **state) {
     SL_CHECK(sl_plan_create(&P, good.S, set, count, set, count, &opt, NULL));
     SL_CHECK(sl_plan_solve(P, good.F, before, (size_t)count, b, (size_t)count, 1, NULL));
     SL_EXPECT(SL_ERR_INACCURATE, sl_region_refactor(R, bad, NULL, NULL));
+    set_of.symbolic = good.S;
+    set_of.factor = good.F;
+    set_of.regions = &R;
+    set_of.n_regions = 1;
+    SL_EXPECT(SL_ERR_STATE, sl_save_bytes(&bytes, &set_of));
     SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, bad, after, (size_t)count, b, (size_t)count, 1, NULL));
     SL_EXPECT(SL_ERR_STATE,
               sl_plan_solve(P, good.F, after, (size_t)count, b, (size_t)count, 1, NULL));
