@@ -111,6 +111,13 @@ static sl_status logdet(arguments_t *a) {
     return sl_factor_logdet(a->F, &log_abs, &sign);
 }
 
+static sl_status pseudo(arguments_t *a) {
+    sl_int component[N];
+    double Q[N], K[N];
+    sl_pseudo_inverse room = {1, component, Q, K, 0.0};
+    return sl_factor_pseudo_inverse(a->F, &room, a->W);
+}
+
 static sl_status null_rows(arguments_t *a) {
     sl_int rows[1], count;
     return sl_factor_pivot_rows(a->F, SL_PIVOT_NULL, rows, NULL, 1, &count);
@@ -271,6 +278,7 @@ static const struct {
     {"sl_factor_restrict", restriction, SQUARE_ | VALUES_ | F_ | FAILED_ | LIST_},
     {"sl_factor_logdet", logdet, F_ | FAILED_},
     {"sl_factor_pivot_rows", null_rows, F_ | FAILED_},
+    {"sl_factor_pseudo_inverse", pseudo, F_ | FAILED_},
     {"sl_factor_lower", lower, F_ | FAILED_},
     {"sl_factor_defects", defects, F_ | FAILED_ | B_ | LDB_ | NRHS_},
     {"sl_factor_solve", solve, SOLVE_},
