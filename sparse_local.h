@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d9ac01dccdb3d812
+ * FNV-1a of the lines after this comment, without the license: d0779ef34917e5d9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -44,17 +44,17 @@
  *  17665 impl/ pivots: the order of the pivots by the values of a matrix
  *  18079 impl/ float: L and fronts in single precision
  *  18536 impl/ inverse: entries of the inverse, regions
- *  21465 impl/ change: a factor that follows changes of its matrix
- *  28017 impl/ io: files that are replaced only when they are complete
- *  28229 impl/ files: Matrix Market files, 64-bit indices
- *  28755 impl/ save: factors in files
- *  30677 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31335 impl/ batch: diagonals of many inverses
- *  31475 impl/ complex: complex Hermitian systems over real factors
- *  31993 impl/ complex: entries of the inverse
- *  32045 impl/ packs: the tables through which the core calls packs
- *  32077 impl/ last: undefine every internal macro
- *  32379 impl/ templates: the header includes them from itself, once for each instruction set
+ *  21475 impl/ change: a factor that follows changes of its matrix
+ *  28027 impl/ io: files that are replaced only when they are complete
+ *  28239 impl/ files: Matrix Market files, 64-bit indices
+ *  28765 impl/ save: factors in files
+ *  30687 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31345 impl/ batch: diagonals of many inverses
+ *  31485 impl/ complex: complex Hermitian systems over real factors
+ *  32003 impl/ complex: entries of the inverse
+ *  32055 impl/ packs: the tables through which the core calls packs
+ *  32087 impl/ last: undefine every internal macro
+ *  32389 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1697,10 +1697,10 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
- *           solved for, some 10 to 100 times as long, on one thread. Keeps entries
- *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
- *           memory: 8 height^2 bytes per active front, where height counts the columns of a
- *           supernode and the rows below them. Active are the fronts on the path from the current
+ *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
+ *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
+ *           per active front, where height counts the columns of a supernode and the rows below
+ *           them. Active are the fronts on the path from the current
  *           supernode to its root that have unvisited children; with several threads, those of
  *           every thread and the roots of the subtrees distributed among them, a few dozen.
  *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of
@@ -20492,8 +20492,11 @@ static void sli_selected_judge(void *context) {
 static void sli_selected_layout_run(void *context, sli_block *b) {
   sli_selected_run *q = (sli_selected_run *)context;
   if (q->is_lossy) {
-    sli_forward_layout(&q->forward, b, &q->capacity);
-    sli_forward_layout_run(&q->forward, b, &q->capacity);
+    const uint64_t workers = (uint64_t)q->Z->traversal.schedule.workers;
+    const sli_capacity all = {q->capacity.steps * workers, q->capacity.rows * workers,
+                  q->capacity.values * workers, q->capacity.scratch * workers};
+    sli_forward_layout(&q->forward, b, &all);
+    sli_forward_layout_run(&q->forward, b, &all);
   } else {
     sli_traversal_layout_run(&q->run, &q->Z->traversal, q->F->type->storage, b);
   }
@@ -20502,14 +20505,17 @@ static void sli_selected_layout_run(void *context, sli_block *b) {
 static const sli_stage sli_selected_stages[2] = {{sli_selected_layout_loss, sli_selected_judge},
                          {sli_selected_layout_run, NULL}};
 
-static void sli_selected_solve(const sli_selected_run *q, sl_int k, sl_int j0) {
+static void sli_selected_solve(const sli_selected_run *q, sl_int worker, sl_int k, sl_int j0) {
   const sl_symbolic *S = q->F->S;
   const sl_int s = q->loss.supers[k], w = S->steps[s].width, h = w + S->steps[s].below;
   double *panel = q->Z->Z + q->Z->begin[k];
   sli_forward f = q->forward;
-  const double *x = f.y;
   sli_rhs_block block;
   sl_int j, r;
+  f.steps += (ptrdiff_t)q->capacity.steps * worker;
+  f.rows += (ptrdiff_t)q->capacity.rows * worker;
+  f.y += (ptrdiff_t)q->capacity.values * worker;
+  f.scratch += (ptrdiff_t)q->capacity.scratch * worker;
   block.count = sli_min(w - j0, SLI_LANES_MAX);
   for (j = 0; j < block.count; j++) {
     block.seeds[j] = sli_keyed(S->super_first[s] + j0 + j, 0);
@@ -20519,7 +20525,17 @@ static void sli_selected_solve(const sli_selected_run *q, sl_int k, sl_int j0) {
   for (r = j0; r < h; r++) {
     const sl_int row = r < w ? r - SLI_TILE * f.steps->first_tile : f.rows[r - w];
     for (j = 0; j < sli_min(block.count, r - j0 + 1); j++) {
-      panel[sli_panel_at(w, r, j0 + j)] = x[(ptrdiff_t)row * f.lanes + j];
+      panel[sli_panel_at(w, r, j0 + j)] = f.y[(ptrdiff_t)row * f.lanes + j];
+    }
+  }
+}
+
+static void sli_selected_solve_worker(void *data, sl_int worker) {
+  const sli_selected_run *q = (const sli_selected_run *)data;
+  sl_int k, j;
+  for (k = worker; k < q->loss.count; k += q->Z->traversal.schedule.workers) {
+    for (j = 0; j < q->F->S->steps[q->loss.supers[k]].width; j += SLI_LANES_MAX) {
+      sli_selected_solve(q, worker, k, j);
     }
   }
 }
@@ -20543,11 +20559,9 @@ static void sli_selected_clear_nulls(const sl_selected *Z, const sl_factor *F) {
 
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
   const double started = sli_seconds();
-  const sl_int count = Z->traversal.forest.count;
   sl_work own = sli_work_own(&Z->allocator);
   sli_selected_run q;
   sl_status status;
-  sl_int k, j;
   memset(&q, 0, sizeof q);
   q.Z = Z;
   q.F = F;
@@ -20558,12 +20572,8 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
   q.run.context = Z;
   status = sli_work_stages(W == NULL ? &own : W, sli_selected_stages, 2, &q);
   if (status == SL_OK && q.is_lossy) {
-    memset(Z->Z, 0, (size_t)Z->begin[count] * sizeof *Z->Z);
-    for (k = 0; k < count; k++) {
-      for (j = 0; j < F->S->steps[q.loss.supers[k]].width; j += SLI_LANES_MAX) {
-        sli_selected_solve(&q, k, j);
-      }
-    }
+    memset(Z->Z, 0, (size_t)Z->begin[Z->traversal.forest.count] * sizeof *Z->Z);
+    sli_parallel(&Z->threads, Z->traversal.schedule.workers, sli_selected_solve_worker, &q);
   } else if (status == SL_OK) {
     sli_traverse(&q.run);
   }

@@ -26,10 +26,10 @@
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: 2x2 pivots;
  *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     about twice the flops of the factorization of the same supernodes; of columns that are
- *           solved for, some 10 to 100 times as long, on one thread. Keeps entries
- *           doubles (stats.selected) and 28 bytes per supernode, 44 with several threads. Temporary
- *           memory: 8 height^2 bytes per active front, where height counts the columns of a
- *           supernode and the rows below them. Active are the fronts on the path from the current
+ *           solved for, some 10 to 100 times as long. Keeps entries doubles (stats.selected) and
+ *           28 bytes per supernode, 44 with several threads. Temporary memory: 8 height^2 bytes
+ *           per active front, where height counts the columns of a supernode and the rows below
+ *           them. Active are the fronts on the path from the current
  *           supernode to its root that have unvisited children; with several threads, those of
  *           every thread and the roots of the subtrees distributed among them, a few dozen.
  *  Threads  reads F; the object is immutable and may be shared. The same bits for any number of

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200112L /* nanosleep */
 #include "tests/lib/pools.h"
 #include "tests/lib/check_inverse.h"
+#include "tests/lib/grid_constraints.h"
 
 static sl_options options_threads(int run, sl_int count, int *calls) {
     sl_options opt = options_none();
@@ -147,12 +148,37 @@ static void extreme_numbers_of_threads_are_handled(void **state) {
     factored_free(&y);
 }
 
+/* Columns that are solved for, because selected inversion would lose digits. */
+static void solved_columns_have_the_same_bits(void **state) {
+    (void)state;
+    sl_stats stats;
+    factored_t y = grid_factored(1e-8, SHIFT_DIAGONAL, options_none(), &stats);
+    sl_selected *Z = NULL;
+    SL_CHECK(sl_selected_create(&Z, y.F, NULL, 0, NULL, NULL));
+    for (int run = 0; run < RUNS; run++) {
+        for (sl_int count = 1; count <= 4; count++) {
+            int calls = 0;
+            sl_selected *many = NULL;
+            const sl_options opt = options_threads(run, count, &calls);
+            SL_CHECK(sl_selected_create(&many, y.F, NULL, 0, FOR_OTHERS(&opt), NULL));
+            assert_int_equal(calls, count > 1);
+            assert_same_panels(Z, many);
+            SL_CHECK(sl_selected_refactor(many, y.F, NULL));
+            assert_same_panels(Z, many);
+            sl_selected_free(many);
+        }
+    }
+    sl_selected_free(Z);
+    factored_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bits_do_not_depend_on_the_number_of_threads),
         cmocka_unit_test(large_fronts_are_divided_among_threads),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(extreme_numbers_of_threads_are_handled),
+        cmocka_unit_test(solved_columns_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

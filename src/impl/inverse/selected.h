@@ -120,7 +120,7 @@ typedef struct sli_selected_run {
     int is_lossy;  /* 1: a traversal would lose too much; columns are solved for instead */
     sli_traversal_run run;
     sli_capacity capacity; /* of the sweeps of columns */
-    sli_forward forward;
+    sli_forward forward;   /* of the first worker; those of the others follow in its arrays */
 } sli_selected_run;
 
 static void sli_selected_layout_loss(void *context, sli_block *b) {
@@ -156,8 +156,11 @@ static void sli_selected_judge(void *context) {
 static void sli_selected_layout_run(void *context, sli_block *b) {
     sli_selected_run *q = (sli_selected_run *)context;
     if (q->is_lossy) {
-        sli_forward_layout(&q->forward, b, &q->capacity);
-        sli_forward_layout_run(&q->forward, b, &q->capacity);
+        const uint64_t workers = (uint64_t)q->Z->traversal.schedule.workers;
+        const sli_capacity all = {q->capacity.steps * workers, q->capacity.rows * workers,
+                                  q->capacity.values * workers, q->capacity.scratch * workers};
+        sli_forward_layout(&q->forward, b, &all);
+        sli_forward_layout_run(&q->forward, b, &all);
     } else {
         sli_traversal_layout_run(&q->run, &q->Z->traversal, q->F->type->storage, b);
     }
@@ -168,14 +171,17 @@ static const sli_stage sli_selected_stages[2] = {{sli_selected_layout_loss, sli_
 
 /* Solves for up to 8 columns of the inverse, from column j0 of the k-th supernode on, on their path
  * to the root, and copies what its panel holds. */
-static void sli_selected_solve(const sli_selected_run *q, sl_int k, sl_int j0) {
+static void sli_selected_solve(const sli_selected_run *q, sl_int worker, sl_int k, sl_int j0) {
     const sl_symbolic *S = q->F->S;
     const sl_int s = q->loss.supers[k], w = S->steps[s].width, h = w + S->steps[s].below;
     double *panel = q->Z->Z + q->Z->begin[k];
     sli_forward f = q->forward;
-    const double *x = f.y;
     sli_rhs_block block;
     sl_int j, r;
+    f.steps += (ptrdiff_t)q->capacity.steps * worker;
+    f.rows += (ptrdiff_t)q->capacity.rows * worker;
+    f.y += (ptrdiff_t)q->capacity.values * worker;
+    f.scratch += (ptrdiff_t)q->capacity.scratch * worker;
     block.count = sli_min(w - j0, SLI_LANES_MAX);
     for (j = 0; j < block.count; j++) {
         block.seeds[j] = sli_keyed(S->super_first[s] + j0 + j, 0);
@@ -185,7 +191,18 @@ static void sli_selected_solve(const sli_selected_run *q, sl_int k, sl_int j0) {
     for (r = j0; r < h; r++) {
         const sl_int row = r < w ? r - SLI_TILE * f.steps->first_tile : f.rows[r - w];
         for (j = 0; j < sli_min(block.count, r - j0 + 1); j++) {
-            panel[sli_panel_at(w, r, j0 + j)] = x[(ptrdiff_t)row * f.lanes + j];
+            panel[sli_panel_at(w, r, j0 + j)] = f.y[(ptrdiff_t)row * f.lanes + j];
+        }
+    }
+}
+
+/* A worker takes every workers-th supernode. */
+static void sli_selected_solve_worker(void *data, sl_int worker) {
+    const sli_selected_run *q = (const sli_selected_run *)data;
+    sl_int k, j;
+    for (k = worker; k < q->loss.count; k += q->Z->traversal.schedule.workers) {
+        for (j = 0; j < q->F->S->steps[q->loss.supers[k]].width; j += SLI_LANES_MAX) {
+            sli_selected_solve(q, worker, k, j);
         }
     }
 }
@@ -212,11 +229,9 @@ static void sli_selected_clear_nulls(const sl_selected *Z, const sl_factor *F) {
  * analysis. */
 static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *W) {
     const double started = sli_seconds();
-    const sl_int count = Z->traversal.forest.count;
     sl_work own = sli_work_own(&Z->allocator);
     sli_selected_run q;
     sl_status status;
-    sl_int k, j;
     memset(&q, 0, sizeof q);
     q.Z = Z;
     q.F = F;
@@ -227,12 +242,8 @@ static sl_status sli_selected_fill(sl_selected *Z, const sl_factor *F, sl_work *
     q.run.context = Z;
     status = sli_work_stages(W == NULL ? &own : W, sli_selected_stages, 2, &q);
     if (status == SL_OK && q.is_lossy) {
-        memset(Z->Z, 0, (size_t)Z->begin[count] * sizeof *Z->Z);
-        for (k = 0; k < count; k++) {
-            for (j = 0; j < F->S->steps[q.loss.supers[k]].width; j += SLI_LANES_MAX) {
-                sli_selected_solve(&q, k, j);
-            }
-        }
+        memset(Z->Z, 0, (size_t)Z->begin[Z->traversal.forest.count] * sizeof *Z->Z);
+        sli_parallel(&Z->threads, Z->traversal.schedule.workers, sli_selected_solve_worker, &q);
     } else if (status == SL_OK) {
         sli_traverse(&q.run);
     }
