@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: d0779ef34917e5d9
+ * FNV-1a of the lines after this comment, without the license: 09abd982b302aa74
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -45,16 +45,16 @@
  *  18079 impl/ float: L and fronts in single precision
  *  18536 impl/ inverse: entries of the inverse, regions
  *  21475 impl/ change: a factor that follows changes of its matrix
- *  28027 impl/ io: files that are replaced only when they are complete
- *  28239 impl/ files: Matrix Market files, 64-bit indices
- *  28765 impl/ save: factors in files
- *  30687 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31345 impl/ batch: diagonals of many inverses
- *  31485 impl/ complex: complex Hermitian systems over real factors
- *  32003 impl/ complex: entries of the inverse
- *  32055 impl/ packs: the tables through which the core calls packs
- *  32087 impl/ last: undefine every internal macro
- *  32389 impl/ templates: the header includes them from itself, once for each instruction set
+ *  28009 impl/ io: files that are replaced only when they are complete
+ *  28221 impl/ files: Matrix Market files, 64-bit indices
+ *  28747 impl/ save: factors in files
+ *  30669 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31327 impl/ batch: diagonals of many inverses
+ *  31467 impl/ complex: complex Hermitian systems over real factors
+ *  31985 impl/ complex: entries of the inverse
+ *  32037 impl/ packs: the tables through which the core calls packs
+ *  32069 impl/ last: undefine every internal macro
+ *  32371 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2367,12 +2367,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
  *           F has no numbers, or is mapped.
- *  Cost     the update matrices of all descendants of the supernodes reached: about 30 % of a
- *           factorization for one vertex of a 2D mesh. Temporary memory: 16 bytes per entry of the
- *           columns, 4 per row of A, of which only those reached are touched, and 4 per row of the
- *           largest front. With null pivots and mass, one complete sweep over L.
- *  Threads  exclusive use of F.
- *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
+ *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
+ *           25 % of a factorization for one vertex of a 2D mesh. Temporary memory: 4 bytes per
+ *           supernode, and for each worker an update matrix, 4 bytes per row of A and 4 per row of
+ *           the largest front. With null pivots and mass, one complete sweep over L.
+ *  Threads  exclusive use of F; uses the workers of F.
+ *  Source   the subtrees: left-looking supernodal factorization [NP93].
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_refactor_changed.c
  */
@@ -21545,62 +21545,7 @@ SLI_INLINE const sli_change_kernels *sli_change_kernels_of(sl_isa isa) {
   return tables[sli_isa_row(isa)];
 }
 
-/* src/impl/change/gather.h: adds the updates of descendants, computed from their panels, to a front */
-
-typedef struct sli_left_work {
-  sl_int *local;
-  sl_int *relative;
-  double *buffer;
-  const uint64_t *seeds;
-  sl_int n_seeds;
-} sli_left_work;
-
-typedef struct sli_descendant {
-  sl_int super, first, last;
-} sli_descendant;
-
-static void sli_left_update(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-              const sli_descendant *d, double *update) {
-  const sl_symbolic *S = F->S;
-  const sl_int *rows = S->rows + S->rows_begin[d->super];
-  const sl_int first = d->first, last = d->last;
-  sli_front from = sli_double_front_of(F, d->super, 0);
-  const sl_int w = from.width, tiles = sli_front_tiles(&from);
-  const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
-  sl_int t, r;
-  from.update = update;
-  for (t = c0; t < tiles; t++) {
-    memset(from.update + sli_triangle_offset(t - c0), 0,
-         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
-  }
-  F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
-  for (r = first; r < from.below; r++) {
-    p->relative[r - first] = p->local[rows[r]];
-  }
-  F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
-                 from.below - first);
-}
-
-static void sli_left_magnitudes(const sl_factor *F, const sli_left_work *p, const sli_front *f,
-                const sli_descendant *d) {
-  const sli_front from = sli_double_front_of(F, d->super, 0);
-  const sl_int w = from.width;
-  sl_int r, j;
-  for (r = d->first; r < d->last; r++) {
-    const double *l = from.panel + sli_panel_at(w, w + r, 0);
-    double *magnitude = f->magnitude + p->relative[r - d->first];
-    for (j = 0; j < w; j++, l += SLI_TILE) {
-      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
-        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
-        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
-      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
-        *magnitude += fabs(*l * *l * from.D[j]);
-      }
-    }
-  }
-}
-
-/* src/impl/change/kept.h: supernodes whose numbers are those of another factor: copies them, and computes what the */
+/* src/impl/change/kept.h: supernodes whose numbers are kept in a factorization: copies them where they are those of */
 
 typedef struct sli_kept {
   sli_copied copied;
@@ -21619,7 +21564,8 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
   const uint64_t workers = (uint64_t)G->schedule.workers;
   sl_status status = SL_OK;
   sl_int s;
-  p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
+  p->has_one_sign =
+    p->F->E == NULL && (p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0);
   for (s = 0; s < S->n_supers; s++) {
     const sli_step *step = &S->steps[s];
     const sl_off size =
@@ -21691,7 +21637,58 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
   }
 }
 
-static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
+typedef struct sli_gather_work {
+  sl_int *local;
+  sl_int *relative;
+  double *buffer;
+} sli_gather_work;
+
+typedef struct sli_descendant {
+  sl_int super, first, last;
+} sli_descendant;
+
+static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
+              const sli_descendant *d, double *update) {
+  const sl_symbolic *S = F->S;
+  const sl_int *rows = S->rows + S->rows_begin[d->super];
+  const sl_int first = d->first, last = d->last;
+  sli_front from = sli_double_front_of(F, d->super, 0);
+  const sl_int w = from.width, tiles = sli_front_tiles(&from);
+  const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
+  sl_int t, r;
+  from.update = update;
+  for (t = c0; t < tiles; t++) {
+    memset(from.update + sli_triangle_offset(t - c0), 0,
+         (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
+  }
+  F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
+  for (r = first; r < from.below; r++) {
+    p->relative[r - first] = p->local[rows[r]];
+  }
+  F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
+                 from.below - first);
+}
+
+static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
+                const sli_descendant *d) {
+  const sli_front from = sli_double_front_of(F, d->super, 0);
+  const sl_int w = from.width;
+  sl_int r, j;
+  for (r = d->first; r < d->last; r++) {
+    const double *l = from.panel + sli_panel_at(w, w + r, 0);
+    double *magnitude = f->magnitude + p->relative[r - d->first];
+    for (j = 0; j < w; j++, l += SLI_TILE) {
+      if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
+        const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
+        *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
+      } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
+        *magnitude += fabs(*l * *l * from.D[j]);
+      }
+    }
+  }
+}
+
+static void sli_kept_update_own(const sl_factor *G, const sli_gather_work *p, const sli_front *f,
                 sl_int s, int has_one_sign) {
   sl_int k;
   sli_front_update(&G->kernels->front, f, p->buffer);
@@ -21703,11 +21700,11 @@ static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, cons
     all.super = s;
     all.first = 0;
     all.last = f->below;
-    sli_left_magnitudes(G, p, f, &all);
+    sli_gather_magnitudes(G, p, f, &all);
   }
 }
 
-static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
+static void sli_kept_update(const sl_factor *G, const sli_gather_work *p, sl_int s, sl_int worker,
               int has_one_sign, double *update) {
   const sl_symbolic *S = G->S;
   const sli_front f = sli_double_front_of(G, s, worker);
@@ -21730,9 +21727,9 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
     from.first = sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
     from.last = below;
     if (from.first < below) {
-      sli_left_update(G, p, &f, &from, update);
+      sli_gather_update(G, p, &f, &from, update);
       if (!has_one_sign) {
-        sli_left_magnitudes(G, p, &f, &from);
+        sli_gather_magnitudes(G, p, &f, &from);
       }
       d--;
     } else {
@@ -21750,18 +21747,20 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
 static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
   const sli_kept *p = (const sli_kept *)(const void *)G->work.copied;
   const sl_int up = G->S->super_parent[s];
-  sli_left_work work;
+  sli_gather_work work;
   work.local = p->local + (ptrdiff_t)worker * G->S->n;
   work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
   work.buffer = G->work.buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
-  sli_kept_copy(G, s, work.relative);
+  if (p->F != G) {
+    sli_kept_copy(G, s, work.relative);
+  }
   if (up != -1 && p->copied.from[up] == -1) {
     sli_kept_update(G, &work, s, worker, p->has_one_sign,
             p->update + (ptrdiff_t)(p->update_room * worker));
   }
 }
 
-/* src/impl/change/leftlooking.h: refactors after local changes, left-looking over the supernodes they reach */
+/* src/impl/change/reached.h: refactors after local changes: keeps the supernodes that they do not reach */
 
 static int sli_nulls_remain(const sl_factor *F) {
   sl_int m, k;
@@ -21778,83 +21777,26 @@ static int sli_nulls_remain(const sl_factor *F) {
   return 1;
 }
 
-static void sli_left_work_layout(sli_left_work *p, sli_block *b, const sl_symbolic *S) {
-  p->local = SLI_TAKE(b, sl_int, S->n);
-  p->relative = SLI_TAKE(b, sl_int, S->tallest);
+static void sli_reached_begin(sli_kept *p, const sl_factor *F, sl_int *from) {
+  sl_int s;
+  memset(p, 0, sizeof *p);
+  p->F = F;
+  p->copied.from = from;
+  p->copied.copy = sli_kept_run;
+  p->is_subset = 1;
+  for (s = 0; s < F->S->n_supers; s++) {
+    from[s] = s;
+  }
 }
 
-static sl_status sli_left_factor(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                 sl_int s, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sli_front f = sli_double_front_of(F, s, 0);
-  const sl_int *rows = S->rows + S->rows_begin[s];
-  const sl_int start = S->super_first[s], end = S->super_first[s + 1];
-  sl_int k, d;
-  sl_status status;
-  for (k = 0; k < f.width; k++) {
-    p->local[start + k] = k;
+static void sli_reached_mark(const sl_symbolic *S, sl_int *from, sl_int k) {
+  sl_int s;
+  for (s = S->super_of[k]; s != -1 && from[s] != -1; s = S->super_parent[s]) {
+    from[s] = -1;
   }
-  for (k = 0; k < f.below; k++) {
-    p->local[rows[k]] = f.width + k;
-  }
-  memset(f.panel, 0, (size_t)sli_panel_size(f.width, f.below) * sizeof(double));
-  status = sli_double_front_load(F, from, &f, failure);
-  if (status != SL_OK) {
-    return status;
-  }
-  for (d = s - 1; d >= S->first_descendant[s];) {
-    const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
-    const sl_int first = sli_lower_bound(of, below, start);
-    sli_descendant by;
-    by.super = d;
-    by.first = first;
-    by.last = first + sli_lower_bound(of + first, below - first, end);
-    if (first < by.last) {
-      sli_left_update(F, p, &f, &by, (double *)F->work.stack);
-      sli_left_magnitudes(F, p, &f, &by);
-      d--;
-    } else {
-      d = S->first_descendant[d] - 1;
-    }
-  }
-  sli_front_eliminate(&F->kernels->front, &f, F->work.buffer);
-  return sli_double_front_check(F, &f, failure);
 }
 
-static sl_status sli_left_factor_all(sl_factor *F, const sli_left_work *p, const sli_source *from,
-                   sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  sl_status status = SL_OK;
-  sl_int k = 0, s, next;
-  while (k < p->n_seeds && status == SL_OK) {
-    s = S->super_of[sli_key(p->seeds[k])];
-    next = sli_next_seed(S, p->seeds, p->n_seeds, &k);
-    for (; s != -1 && s < next && status == SL_OK; s = S->super_parent[s]) {
-      status = sli_left_factor(F, p, from, s, failure);
-    }
-  }
-  return status;
-}
-
-static sl_int sli_changed_seeds(const sl_symbolic *S, const sl_csc *A, const sl_int *columns,
-                sl_int count, uint64_t *seeds, uint64_t *scratch) {
-  sl_int k, p, total = 0;
-  for (k = 0; k < count; k++) {
-    const sl_int j = S->iperm[columns[k]];
-    sl_int last = INT32_MAX;
-    for (p = A->p[columns[k]]; p < A->p[columns[k] + 1]; p++) {
-      const sl_int seed = sli_min(j, S->iperm[A->i[p]]);
-      if (seed != last) {
-        seeds[total++] = sli_keyed(seed, 0);
-        last = seed;
-      }
-    }
-  }
-  sli_sort(seeds, total, scratch);
-  return total;
-}
-
-static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const sli_source *from,
+static sl_status sli_reached_numbers(sl_factor *F, const sli_kept *p, const sli_source *from,
                    double started, sl_stats *stats) {
   sli_failure failure;
   memset(&failure, 0, sizeof failure);
@@ -21865,7 +21807,9 @@ static sl_status sli_left_refactor(sl_factor *F, const sli_left_work *p, const s
     return sli_factor_numbers(F, from, started, stats);
   }
   if (failure.status == SL_OK) {
-    (void)sli_left_factor_all(F, p, from, &failure);
+    F->work.copied = &p->copied;
+    (void)sli_multifrontal(F, from, &failure);
+    F->work.copied = NULL;
   }
   if (failure.status == SL_OK && sli_null_is_suspected(F)) {
     return sli_factor_numbers(F, from, started, stats);
@@ -21900,15 +21844,29 @@ static sl_status sli_changes_check(const sl_factor *F, const sl_csc *A, const sl
   return SL_OK;
 }
 
-static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const sli_changes *c,
-                       sl_stats *stats) {
+static void sli_changes_mark(const sli_changes *c, const sl_symbolic *S, const sl_csc *A,
+               sl_int *from) {
+  sl_int k, p;
+  for (k = 0; k < c->n_seeds; k++) {
+    sli_reached_mark(S, from, sli_key(c->seeds[k]));
+  }
+  for (k = 0; k < c->count && c->seeds == NULL; k++) {
+    const sl_int j = S->iperm[c->columns[k]];
+    for (p = A->p[c->columns[k]]; p < A->p[c->columns[k] + 1]; p++) {
+      sli_reached_mark(S, from, sli_min(j, S->iperm[A->i[p]]));
+    }
+  }
+}
+
+static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_changes *c,
+                    sl_stats *stats) {
   const double started = sli_seconds();
-  const sli_source from = sli_source_matrix(A);
-  sli_left_work work;
-  sli_block b = {NULL, 0, 0};
-  uint64_t *seeds = NULL, *scratch = NULL, entries = 0;
+  const sli_source source = sli_source_matrix(A);
+  sli_block b = {NULL, 0, 0}, room = {NULL, 0, 0};
+  sli_kept kept;
+  uint64_t entries = 0;
+  sl_int *from = NULL, k;
   sl_status status;
-  sl_int k;
   sli_stats_clear_error(stats);
   status = sli_changes_check(F, A, c, &entries, stats);
   if (status != SL_OK) {
@@ -21920,29 +21878,25 @@ static sl_status sli_left_refactor_columns(sl_factor *F, const sl_csc *A, const 
   }
   status = sli_factor_prepare(F);
   SLI_LAYOUT(&b, &F->allocator, status) {
-    seeds = SLI_TAKE(&b, uint64_t, entries);
-    scratch = SLI_TAKE(&b, uint64_t, entries);
-    sli_left_work_layout(&work, &b, F->S);
+    from = SLI_TAKE(&b, sl_int, F->S->n_supers);
   }
-  if (status != SL_OK) {
-    return status;
+  if (status == SL_OK) {
+    sli_reached_begin(&kept, F, from);
+    sli_changes_mark(c, F->S, A, from);
+    status = sli_kept_room(&kept, F, &room);
   }
-  work.buffer = F->work.buffer;
-  sli_factor_begin(F);
-  for (k = 0; k < c->count; k++) {
-    const sl_int p = A->p[c->columns[k]], q = A->p[c->columns[k] + 1];
-    F->identity = sli_hash_ints(F->identity, &c->columns[k], 1);
-    F->identity = sli_hash_words(F->identity, A->x + p, q - p);
+  if (status == SL_OK) {
+    sli_factor_begin(F);
+    for (k = 0; k < c->count; k++) {
+      const sl_int p = A->p[c->columns[k]], q = A->p[c->columns[k] + 1];
+      F->identity = sli_hash_ints(F->identity, &c->columns[k], 1);
+      F->identity = sli_hash_words(F->identity, A->x + p, q - p);
+    }
+    status = sli_reached_numbers(F, &kept, &source, started, stats);
+    F->history.scale = F->history.lowest =
+      fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
   }
-  work.seeds = c->seeds;
-  work.n_seeds = c->n_seeds;
-  if (c->seeds == NULL) {
-    work.seeds = seeds;
-    work.n_seeds = sli_changed_seeds(F->S, A, c->columns, c->count, seeds, scratch);
-  }
-  status = sli_left_refactor(F, &work, &from, started, stats);
-  F->history.scale = F->history.lowest =
-    fmin(F->stats.factor.entry_max, F->stats.factor.pivot_max);
+  sli_free(&F->allocator, room.base);
   sli_free(&F->allocator, b.base);
   return status;
 }
@@ -21954,7 +21908,7 @@ SL_API sl_status sl_factor_refactor_changed(sl_factor *F, const sl_csc *A, const
   c.count = count;
   c.seeds = NULL;
   c.n_seeds = 0;
-  return sli_left_refactor_columns(F, A, &c, stats);
+  return sli_reached_refactor(F, A, &c, stats);
 }
 
 /* src/impl/change/update_pivots.h: the state of a rank-k change, and the pivots that it changes */
@@ -23036,16 +22990,15 @@ static double sli_choose_front(const sl_symbolic *S, sl_int s) {
   return w * (h * h - h * w + w * w / 3.0);
 }
 
-static double sli_choose_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
-                sl_int *visits) {
-  double flops = 0.0;
+static double sli_choose_kept(const sl_symbolic *S, sl_int s, sl_int *visits) {
+  const sl_int end = S->super_first[s + 1];
+  double flops = (double)S->steps[s].width * S->steps[s].below * S->steps[s].below;
   sl_int d;
   for (d = s - 1; d >= S->first_descendant[s];) {
-    const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
-    const sl_int first = sli_lower_bound(of, below, start);
-    const sl_int m = sli_lower_bound(of + first, below - first, end);
-    if (m > 0) {
-      flops += (double)S->steps[d].width * m * (2.0 * (below - first) - m);
+    const sl_int below = S->steps[d].below;
+    const double m = below - sli_lower_bound(S->rows + S->rows_begin[d], below, end);
+    if (m > 0.0) {
+      flops += S->steps[d].width * m * m;
       ++*visits;
       d--;
     } else {
@@ -23055,22 +23008,48 @@ static double sli_choose_gather(const sl_symbolic *S, sl_int s, sl_int start, sl
   return flops;
 }
 
+static int sli_choose_is_reached(const sli_change_choice *c, const sl_symbolic *S, sl_int s) {
+  const uint64_t first = sli_keyed(S->super_first[S->first_descendant[s]], 0);
+  sl_int low = 0, high = c->n_seeds;
+  while (low < high) {
+    const sl_int middle = low + (high - low) / 2;
+    if (c->seeds[middle] < first) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < c->n_seeds && sli_key(c->seeds[low]) < S->super_first[s + 1];
+}
+
+static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, sl_int s,
+                sl_int *visits) {
+  double flops = sli_choose_front(S, s);
+  sl_int k;
+  for (k = s - 1; k >= S->first_descendant[s]; k = S->first_descendant[k] - 1) {
+    if (!sli_choose_is_reached(c, S, k)) {
+      flops += sli_choose_kept(S, k, visits);
+      ++*visits;
+    }
+  }
+  return flops;
+}
+
 static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double limit) {
   const sl_symbolic *S = F->S;
   const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
   const double flop = sli_costs_of(F->kernels->isa)->flop;
-  sl_int k = 0, s, next, visits = 0;
+  sl_int k = 0, s, next, fronts = 0, visits = 0;
   c->flops_changed = 0.0;
   c->changed = input;
   while (k < c->n_seeds && c->changed <= limit) {
     s = S->super_of[sli_key(c->seeds[k])];
     next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
     for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
-      visits++;
-      c->flops_changed +=
-        sli_choose_front(S, s) +
-        sli_choose_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
-      c->changed = input + SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
+      fronts++;
+      c->flops_changed += sli_choose_step(c, S, s, &visits);
+      c->changed = input + SLI_CHANGE_FRONT(flop) * fronts +
+             SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
     }
   }
 }
@@ -23144,7 +23123,7 @@ static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const
   changes.count = total;
   changes.seeds = c->seeds;
   changes.n_seeds = c->n_seeds;
-  return sli_left_refactor_columns(F, A, &changes, q->stats);
+  return sli_reached_refactor(F, A, &changes, q->stats);
 }
 
 static double sli_choose_update(const sli_rank *q, double entries, double pivots, double flops) {
@@ -24088,7 +24067,7 @@ typedef struct sli_holding {
   uint64_t *room, *seeds;
   sl_int n_seeds;
   sl_off couplings;
-  sli_left_work left;
+  sl_int *from;
   void *block;
   sli_change_choice choice;
   int is_new, is_local;
@@ -24101,7 +24080,7 @@ static void sli_holding_layout(sli_holding *h, sli_block *b, const sl_symbolic *
   h->marks = SLI_TAKE(b, unsigned char, S->n);
   h->values = SLI_TAKE(b, double, S->scatter_begin[S->n_supers]);
   h->room = SLI_TAKE(b, uint64_t, S->n_supers);
-  sli_left_work_layout(&h->left, b, S);
+  h->from = SLI_TAKE(b, sl_int, S->n_supers);
 }
 
 static void sli_holding_mask(sli_holding *h, const sl_pins *P) {
@@ -24205,27 +24184,31 @@ static int sli_held_is_local(const sl_factor *F, int is_new) {
 static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_holding *h) {
   const double started = sli_seconds(), one = 1.0;
   const double *const values = h->values;
-  const sl_symbolic *S = F->S;
-  sli_left_work left = h->left;
+  sli_block room = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  sli_kept kept;
   sli_source from;
-  left.buffer = G->work.buffer;
-  left.seeds = h->seeds;
-  left.n_seeds = h->n_seeds;
+  sl_int k;
   from.A = NULL;
   from.values = &values;
   from.coefficients = &one;
   from.terms = 1;
-  sli_factor_begin(G);
   if (!h->is_local) {
+    sli_factor_begin(G);
     return sli_factor_numbers(G, &from, started, NULL);
   }
-  if (h->is_new) {
-    memcpy(G->values, F->values, (size_t)S->panel_begin[S->n_supers] * sizeof(double));
-    memcpy(G->D, F->D, (size_t)S->n * sizeof(double));
-    memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
+  sli_reached_begin(&kept, h->is_new ? F : G, h->from);
+  for (k = 0; k < h->n_seeds; k++) {
+    sli_reached_mark(F->S, h->from, sli_key(h->seeds[k]));
   }
-  sli_factor_identify(G, &from);
-  return sli_left_refactor(G, &left, &from, started, NULL);
+  status = sli_kept_room(&kept, G, &room);
+  if (status == SL_OK) {
+    sli_factor_begin(G);
+    sli_factor_identify(G, &from);
+    status = sli_reached_numbers(G, &kept, &from, started, NULL);
+  }
+  sli_free(&G->allocator, room.base);
+  return status;
 }
 
 static int sli_held_is_loose(const sl_pins *P) {
@@ -27870,7 +27853,7 @@ static int sli_reuse_choose(sli_reuse *r) {
   double seconds;
   info->flops = r->flops;
   for (s = 0; s < T->n_supers; s++) {
-    const sl_int up = T->super_parent[s], below = T->steps[s].below;
+    const sl_int up = T->super_parent[s];
     if (r->from[s] == -1) {
       visits++;
       continue;
@@ -27879,8 +27862,7 @@ static int sli_reuse_choose(sli_reuse *r) {
     info->kept += T->steps[s].width;
     info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
     if (up != -1 && r->from[up] == -1) {
-      info->flops += (double)T->steps[s].width * below * below +
-               sli_choose_gather(T, s, T->super_first[s + 1], T->n, &visits);
+      info->flops += sli_choose_kept(T, s, &visits);
     }
   }
   info->computed = T->n - info->kept;

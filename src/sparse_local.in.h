@@ -200,9 +200,8 @@ extern "C" {
 /* change: a factor that follows changes of its matrix */
 #if defined(SL_WITH_CHANGE)
 #include "impl/change/change_kernels.h"
-#include "impl/change/gather.h"
 #include "impl/change/kept.h"
-#include "impl/change/leftlooking.h"
+#include "impl/change/reached.h"
 #include "impl/change/update_pivots.h"
 #include "impl/change/update.h"
 #include "impl/change/path.h"

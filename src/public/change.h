@@ -100,12 +100,12 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_change(sl_factor *F, const sl_csc *A, 
  *                     rounding; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_ARGUMENT: a column out of range (error.row); SL_ERR_STATE:
  *           F has no numbers, or is mapped.
- *  Cost     the update matrices of all descendants of the supernodes reached: about 30 % of a
- *           factorization for one vertex of a 2D mesh. Temporary memory: 16 bytes per entry of the
- *           columns, 4 per row of A, of which only those reached are touched, and 4 per row of the
- *           largest front. With null pivots and mass, one complete sweep over L.
- *  Threads  exclusive use of F.
- *  Source   left-looking supernodal factorization [NP93] over the reach of the changes.
+ *  Cost     the fronts reached, and the update matrices of the subtrees below them, from L: about
+ *           25 % of a factorization for one vertex of a 2D mesh. Temporary memory: 4 bytes per
+ *           supernode, and for each worker an update matrix, 4 bytes per row of A and 4 per row of
+ *           the largest front. With null pivots and mass, one complete sweep over L.
+ *  Threads  exclusive use of F; uses the workers of F.
+ *  Source   the subtrees: left-looking supernodal factorization [NP93].
  *  Manual   tools/docs/changes.md
  *  Example  tests/core/test_refactor_changed.c
  */

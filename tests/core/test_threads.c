@@ -117,6 +117,36 @@ static void large_fronts_are_kept(void **state) {
     factored_free(&y);
 }
 
+/* Local refactorizations: a vertex, a patch, rows everywhere. */
+static void local_refactorizations_give_the_same_bits(void **state) {
+    (void)state;
+    static const sl_int strides[3] = {400, 1, 9};
+    for (int kind = 0; kind < 3; kind++) {
+        factored_t y = factored_make(GEN_GRID2, 30 * 30, 1, 0, NULL);
+        const sl_int n = y.M.view.n_cols;
+        sl_int columns[40], count = 0;
+        sl_factor *F[2] = {NULL, NULL};
+        int calls[2] = {0, 0};
+        for (int k = 0; k < 2; k++) {
+            const sl_options opt = options_with_threads(run_backwards, k == 0 ? 1 : 3, &calls[k]);
+            SL_CHECK(sl_factor_create(&F[k], y.S, &y.M.view, &opt, NULL));
+        }
+        for (sl_int j = 435; j < n && count < 40; j += strides[kind], count++) {
+            columns[count] = j;
+            y.M.x[y.M.p[j]] *= 1.5;
+        }
+        for (int k = 0; k < 2; k++) {
+            SL_CHECK(sl_factor_refactor_changed(F[k], &y.M.view, columns, count, NULL));
+        }
+        assert_same_bits(F[0], F[1]);
+        assert_int_equal(calls[0], 0);
+        assert_int_equal(calls[1], 2);
+        sl_factor_free(F[0]);
+        sl_factor_free(F[1]);
+        factored_free(&y);
+    }
+}
+
 /* A shared front that fails is reported as it is without threads: a value that is not finite is met
  * before the front, a null pivot after it. */
 static void failures_in_large_fronts_are_reported(void **state) {
@@ -233,6 +263,7 @@ int main(void) {
         cmocka_unit_test(large_fronts_give_the_same_bits),
         cmocka_unit_test(large_fronts_with_rows_below_give_the_same_bits),
         cmocka_unit_test(large_fronts_are_kept),
+        cmocka_unit_test(local_refactorizations_give_the_same_bits),
         cmocka_unit_test(failures_in_large_fronts_are_reported),
         cmocka_unit_test(errors_do_not_depend_on_the_thread_count),
         cmocka_unit_test(every_allocation_may_fail),

@@ -3,7 +3,7 @@
 #define SLI_CHANGE_CHOOSE_H
 
 #include "../inverse/costs.h"
-#include "leftlooking.h"
+#include "reached.h"
 #include "edges.h"
 
 /* A choice between the three methods: rank-one changes, the reach of the change, all of L. */
@@ -31,22 +31,50 @@ static double sli_choose_front(const sl_symbolic *S, sl_int s) {
     return w * (h * h - h * w + w * w / 3.0); /* about the sum of (h - j)^2 over its columns */
 }
 
-/* Flops of the updates of the descendants of supernode s to columns start .. end-1, as
- * sli_left_factor and sli_kept_update compute them. *visits += descendants. */
-static double sli_choose_gather(const sl_symbolic *S, sl_int s, sl_int start, sl_int end,
-                                sl_int *visits) {
-    double flops = 0.0;
+/* Flops of the update matrix of kept supernode s, as sli_kept_update computes it. *visits +=
+ * descendants. */
+static double sli_choose_kept(const sl_symbolic *S, sl_int s, sl_int *visits) {
+    const sl_int end = S->super_first[s + 1];
+    double flops = (double)S->steps[s].width * S->steps[s].below * S->steps[s].below;
     sl_int d;
     for (d = s - 1; d >= S->first_descendant[s];) {
-        const sl_int *of = S->rows + S->rows_begin[d], below = S->steps[d].below;
-        const sl_int first = sli_lower_bound(of, below, start);
-        const sl_int m = sli_lower_bound(of + first, below - first, end);
-        if (m > 0) {
-            flops += (double)S->steps[d].width * m * (2.0 * (below - first) - m);
+        const sl_int below = S->steps[d].below;
+        const double m = below - sli_lower_bound(S->rows + S->rows_begin[d], below, end);
+        if (m > 0.0) {
+            flops += S->steps[d].width * m * m;
             ++*visits;
             d--;
         } else {
             d = S->first_descendant[d] - 1;
+        }
+    }
+    return flops;
+}
+
+/* Does a change reach supernode s? */
+static int sli_choose_is_reached(const sli_change_choice *c, const sl_symbolic *S, sl_int s) {
+    const uint64_t first = sli_keyed(S->super_first[S->first_descendant[s]], 0);
+    sl_int low = 0, high = c->n_seeds; /* finds the first seed from there on */
+    while (low < high) {
+        const sl_int middle = low + (high - low) / 2;
+        if (c->seeds[middle] < first) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < c->n_seeds && sli_key(c->seeds[low]) < S->super_first[s + 1];
+}
+
+/* Flops of supernode s, which is reached: of its front and of the kept ones below it. */
+static double sli_choose_step(const sli_change_choice *c, const sl_symbolic *S, sl_int s,
+                              sl_int *visits) {
+    double flops = sli_choose_front(S, s);
+    sl_int k;
+    for (k = s - 1; k >= S->first_descendant[s]; k = S->first_descendant[k] - 1) {
+        if (!sli_choose_is_reached(c, S, k)) {
+            flops += sli_choose_kept(S, k, visits);
+            ++*visits;
         }
     }
     return flops;
@@ -57,18 +85,17 @@ static void sli_choose_measure(sli_change_choice *c, const sl_factor *F, double 
     const sl_symbolic *S = F->S;
     const double input = SLI_CHANGE_INPUT * (double)S->scatter_begin[S->n_supers];
     const double flop = sli_costs_of(F->kernels->isa)->flop;
-    sl_int k = 0, s, next, visits = 0;
+    sl_int k = 0, s, next, fronts = 0, visits = 0;
     c->flops_changed = 0.0;
     c->changed = input;
     while (k < c->n_seeds && c->changed <= limit) {
         s = S->super_of[sli_key(c->seeds[k])];
         next = sli_next_seed(S, c->seeds, c->n_seeds, &k);
         for (; s != -1 && s < next && c->changed <= limit; s = S->super_parent[s]) {
-            visits++;
-            c->flops_changed +=
-                sli_choose_front(S, s) +
-                sli_choose_gather(S, s, S->super_first[s], S->super_first[s + 1], &visits);
-            c->changed = input + SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
+            fronts++;
+            c->flops_changed += sli_choose_step(c, S, s, &visits);
+            c->changed = input + SLI_CHANGE_FRONT(flop) * fronts +
+                         SLI_CHANGE_VISIT(flop) * visits + flop * c->flops_changed;
         }
     }
 }
@@ -147,7 +174,7 @@ static sl_status sli_choose_reach(sli_change_choice *c, const sli_rank *q, const
     changes.count = total;
     changes.seeds = c->seeds;
     changes.n_seeds = c->n_seeds;
-    return sli_left_refactor_columns(F, A, &changes, q->stats);
+    return sli_reached_refactor(F, A, &changes, q->stats);
 }
 
 /* Seconds of rank-one changes. */

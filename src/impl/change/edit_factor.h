@@ -152,7 +152,7 @@ static int sli_reuse_choose(sli_reuse *r) {
     double seconds;
     info->flops = r->flops;
     for (s = 0; s < T->n_supers; s++) {
-        const sl_int up = T->super_parent[s], below = T->steps[s].below;
+        const sl_int up = T->super_parent[s];
         if (r->from[s] == -1) {
             visits++;
             continue;
@@ -161,8 +161,7 @@ static int sli_reuse_choose(sli_reuse *r) {
         info->kept += T->steps[s].width;
         info->entries += T->panel_begin[s + 1] - T->panel_begin[s];
         if (up != -1 && r->from[up] == -1) {
-            info->flops += (double)T->steps[s].width * below * below +
-                           sli_choose_gather(T, s, T->super_first[s + 1], T->n, &visits);
+            info->flops += sli_choose_kept(T, s, &visits);
         }
     }
     info->computed = T->n - info->kept;

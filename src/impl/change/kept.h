@@ -1,16 +1,16 @@
-/* kept.h: supernodes whose numbers are those of another factor: copies them, and computes what the
- * fronts above them assemble */
+/* kept.h: supernodes whose numbers are kept in a factorization: copies them where they are those of
+ * another factor, and computes what the fronts above them assemble */
 #ifndef SLI_CHANGE_KEPT_H
 #define SLI_CHANGE_KEPT_H
 
-#include "gather.h"
+#include "../factor/multifrontal.h"
 
 /* Whole subtrees of L are kept. No front of theirs is assembled: the update matrix of the root of a
  * subtree is gathered from the panels of those of its supernodes that have rows below the root. */
 typedef struct sli_kept {
     sli_copied copied;     /* from: the supernode of F */
-    const sl_factor *F;    /* the factor that has the numbers */
-    const sl_int *columns; /* n: its column of L, or -1 */
+    const sl_factor *F;    /* the factor that has the numbers; it may be the one that is computed */
+    const sl_int *columns; /* n: its column of L, or -1; not read where its rows are the same */
     int is_subset;         /* the columns ascend: as many rows below as in F are the same ones */
     /* all its pivots have one sign, so that magnitudes are on the diagonals of update matrices */
     int has_one_sign;
@@ -28,7 +28,8 @@ static sl_status sli_kept_room(sli_kept *p, const sl_factor *G, sli_block *b) {
     const uint64_t workers = (uint64_t)G->schedule.workers;
     sl_status status = SL_OK;
     sl_int s;
-    p->has_one_sign = p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0;
+    p->has_one_sign =
+        p->F->E == NULL && (p->F->stats.factor.positive == 0 || p->F->stats.factor.negative == 0);
     for (s = 0; s < S->n_supers; s++) {
         const sli_step *step = &S->steps[s];
         const sl_off size =
@@ -103,8 +104,67 @@ static void sli_kept_copy(sl_factor *G, sl_int s, sl_int *keep) {
     }
 }
 
+/* Scratch of a worker that gathers updates. */
+typedef struct sli_gather_work {
+    /* n: the local row of each row of the current supernode; undefined for other rows */
+    sl_int *local;
+    /* rows of the tallest front: the relative indices of a descendant in the current supernode */
+    sl_int *relative;
+    double *buffer; /* kernel scratch */
+} sli_gather_work;
+
+/* A descendant of the supernode of a front: its rows first, first+1, .. below the diagonal are rows
+ * of the front, and its update has the columns before `last`. */
+typedef struct sli_descendant {
+    sl_int super, first, last;
+} sli_descendant;
+
+/* Adds the update of a descendant to the front f. update: room for its triangle. */
+static void sli_gather_update(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
+                            const sli_descendant *d, double *update) {
+    const sl_symbolic *S = F->S;
+    const sl_int *rows = S->rows + S->rows_begin[d->super];
+    const sl_int first = d->first, last = d->last;
+    sli_front from = sli_double_front_of(F, d->super, 0);
+    const sl_int w = from.width, tiles = sli_front_tiles(&from);
+    const sl_int c0 = (w + first) / SLI_TILE, c1 = sli_tiles(w + last);
+    sl_int t, r;
+    from.update = update;
+    for (t = c0; t < tiles; t++) {
+        memset(from.update + sli_triangle_offset(t - c0), 0,
+               (size_t)sli_min(t + 1 - c0, c1 - c0) * SLI_TILE * SLI_TILE * sizeof(double));
+    }
+    F->kernels->front.update(&from, c0, c1, c0, tiles, p->buffer);
+    for (r = first; r < from.below; r++) {
+        p->relative[r - first] = p->local[rows[r]];
+    }
+    F->kernels->front.assemble(f, from.update, (w + first) % SLI_TILE, p->relative, last - first, 0,
+                               from.below - first);
+}
+
+/* Adds |l d l| of rows first .. last-1 of a descendant to the magnitudes of f. The relative indices
+ * are those of its update. */
+static void sli_gather_magnitudes(const sl_factor *F, const sli_gather_work *p, const sli_front *f,
+                                const sli_descendant *d) {
+    const sli_front from = sli_double_front_of(F, d->super, 0);
+    const sl_int w = from.width;
+    sl_int r, j;
+    for (r = d->first; r < d->last; r++) {
+        const double *l = from.panel + sli_panel_at(w, w + r, 0);
+        double *magnitude = f->magnitude + p->relative[r - d->first];
+        for (j = 0; j < w; j++, l += SLI_TILE) {
+            if (from.pairs != NULL && from.pairs[j] == SLI_PAIR_FIRST) {
+                const sli_pair size = sli_pair_absolute(from.D[j], from.D[j + 1], from.E[j]);
+                *magnitude += sli_pair_gain(&size, l[0], l[SLI_TILE]);
+            } else if (from.pairs == NULL || from.pairs[j] == SLI_PAIR_NONE) {
+                *magnitude += fabs(*l * *l * from.D[j]);
+            }
+        }
+    }
+}
+
 /* Adds the update of the root s of a kept subtree itself to its cleared update matrix. */
-static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, const sli_front *f,
+static void sli_kept_update_own(const sl_factor *G, const sli_gather_work *p, const sli_front *f,
                                 sl_int s, int has_one_sign) {
     sl_int k;
     sli_front_update(&G->kernels->front, f, p->buffer);
@@ -116,14 +176,14 @@ static void sli_kept_update_own(const sl_factor *G, const sli_left_work *p, cons
         all.super = s;
         all.first = 0;
         all.last = f->below;
-        sli_left_magnitudes(G, p, f, &all);
+        sli_gather_magnitudes(G, p, f, &all);
     }
 }
 
 /* Computes the update matrix of a kept subtree with root s, from the panels of those of its
  * supernodes that have rows below s. update: room for the largest triangle of one. has_one_sign:
  * all kept pivots have one sign, so that the magnitudes are on the diagonal of the result. */
-static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s, sl_int worker,
+static void sli_kept_update(const sl_factor *G, const sli_gather_work *p, sl_int s, sl_int worker,
                             int has_one_sign, double *update) {
     const sl_symbolic *S = G->S;
     const sli_front f = sli_double_front_of(G, s, worker);
@@ -146,9 +206,9 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
         from.first = sli_lower_bound(S->rows + S->rows_begin[d], below, S->super_first[s + 1]);
         from.last = below;
         if (from.first < below) {
-            sli_left_update(G, p, &f, &from, update);
+            sli_gather_update(G, p, &f, &from, update);
             if (!has_one_sign) {
-                sli_left_magnitudes(G, p, &f, &from);
+                sli_gather_magnitudes(G, p, &f, &from);
             }
             d--;
         } else { /* no descendant of d has a row below s either */
@@ -163,15 +223,17 @@ static void sli_kept_update(const sl_factor *G, const sli_left_work *p, sl_int s
     sli_double_front_hand_over(&f);
 }
 
-/* Copies kept supernode s of G, whose descendants are copied, and prepares what it passes up. */
+/* Copies kept supernode s to G, whose descendants are there, and prepares what it passes up. */
 static void sli_kept_run(sl_factor *G, sl_int s, sl_int worker) {
     const sli_kept *p = (const sli_kept *)(const void *)G->work.copied;
     const sl_int up = G->S->super_parent[s];
-    sli_left_work work;
+    sli_gather_work work;
     work.local = p->local + (ptrdiff_t)worker * G->S->n;
     work.relative = p->relative + (ptrdiff_t)worker * G->S->tallest;
     work.buffer = G->work.buffer + (ptrdiff_t)worker * sli_front_scratch(G->S->widest);
-    sli_kept_copy(G, s, work.relative);
+    if (p->F != G) {
+        sli_kept_copy(G, s, work.relative);
+    }
     if (up != -1 && p->copied.from[up] == -1) {
         sli_kept_update(G, &work, s, worker, p->has_one_sign,
                         p->update + (ptrdiff_t)(p->update_room * worker));

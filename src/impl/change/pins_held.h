@@ -20,7 +20,7 @@ typedef struct sli_holding {
     uint64_t *room, *seeds; /* n_seeds: columns of supernodes whose values change, ascending */
     sl_int n_seeds;
     sl_off couplings; /* nonzero entries between a held row and another one */
-    sli_left_work left;
+    sl_int *from; /* n_supers: scratch */
     void *block;
     sli_change_choice choice; /* costs */
     int is_new, is_local;     /* G has no numbers of this matrix; it is computed in the reach */
@@ -33,7 +33,7 @@ static void sli_holding_layout(sli_holding *h, sli_block *b, const sl_symbolic *
     h->marks = SLI_TAKE(b, unsigned char, S->n);
     h->values = SLI_TAKE(b, double, S->scatter_begin[S->n_supers]);
     h->room = SLI_TAKE(b, uint64_t, S->n_supers);
-    sli_left_work_layout(&h->left, b, S);
+    h->from = SLI_TAKE(b, sl_int, S->n_supers);
 }
 
 /* Sets the values of A with identity rows in the held columns, and finds what changes. */
@@ -140,31 +140,35 @@ static int sli_held_is_local(const sl_factor *F, int is_new) {
            (F->null.mode == SL_NULL_PIVOT_REFUSE || !is_new);
 }
 
-/* Computes G: from its present numbers, which are those of F if it is new, or from A alone. */
+/* Computes G: from its present numbers, or those of F if it is new, or from A alone. */
 static sl_status sli_held_numbers(sl_factor *G, const sl_factor *F, const sli_holding *h) {
     const double started = sli_seconds(), one = 1.0;
     const double *const values = h->values;
-    const sl_symbolic *S = F->S;
-    sli_left_work left = h->left;
+    sli_block room = {NULL, 0, 0};
+    sl_status status = SL_OK;
+    sli_kept kept;
     sli_source from;
-    left.buffer = G->work.buffer;
-    left.seeds = h->seeds;
-    left.n_seeds = h->n_seeds;
+    sl_int k;
     from.A = NULL;
     from.values = &values;
     from.coefficients = &one;
     from.terms = 1;
-    sli_factor_begin(G);
     if (!h->is_local) {
+        sli_factor_begin(G);
         return sli_factor_numbers(G, &from, started, NULL);
     }
-    if (h->is_new) {
-        memcpy(G->values, F->values, (size_t)S->panel_begin[S->n_supers] * sizeof(double));
-        memcpy(G->D, F->D, (size_t)S->n * sizeof(double));
-        memcpy(G->extents, F->extents, (size_t)S->n_supers * sizeof *F->extents);
+    sli_reached_begin(&kept, h->is_new ? F : G, h->from);
+    for (k = 0; k < h->n_seeds; k++) {
+        sli_reached_mark(F->S, h->from, sli_key(h->seeds[k]));
     }
-    sli_factor_identify(G, &from);
-    return sli_left_refactor(G, &left, &from, started, NULL);
+    status = sli_kept_room(&kept, G, &room);
+    if (status == SL_OK) {
+        sli_factor_begin(G);
+        sli_factor_identify(G, &from);
+        status = sli_reached_numbers(G, &kept, &from, started, NULL);
+    }
+    sli_free(&G->allocator, room.base);
+    return status;
 }
 
 /* Was a null pivot skipped in a component that is coupled to held rows? Where the couplings are as
