@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 09abd982b302aa74
+ * FNV-1a of the lines after this comment, without the license: f87963020f8dab46
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -35,26 +35,26 @@
  *   2857 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
  *   2897 impl/ base: the compiler, status, memory, sorting, threads
  *   3879 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4722 impl/ matrix: sparse matrices of the caller and of the library
- *   5265 impl/ ordering: fill-reducing orderings of a graph
- *   9642 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11588 impl/ factor: the numbers of L and D
- *  14350 impl/ solve: full and local solves
- *  15930 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17665 impl/ pivots: the order of the pivots by the values of a matrix
- *  18079 impl/ float: L and fronts in single precision
- *  18536 impl/ inverse: entries of the inverse, regions
- *  21475 impl/ change: a factor that follows changes of its matrix
- *  28009 impl/ io: files that are replaced only when they are complete
- *  28221 impl/ files: Matrix Market files, 64-bit indices
- *  28747 impl/ save: factors in files
- *  30669 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31327 impl/ batch: diagonals of many inverses
- *  31467 impl/ complex: complex Hermitian systems over real factors
- *  31985 impl/ complex: entries of the inverse
- *  32037 impl/ packs: the tables through which the core calls packs
- *  32069 impl/ last: undefine every internal macro
- *  32371 impl/ templates: the header includes them from itself, once for each instruction set
+ *   4716 impl/ matrix: sparse matrices of the caller and of the library
+ *   5259 impl/ ordering: fill-reducing orderings of a graph
+ *   9636 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11582 impl/ factor: the numbers of L and D
+ *  14344 impl/ solve: full and local solves
+ *  15924 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  17659 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18073 impl/ float: L and fronts in single precision
+ *  18524 impl/ inverse: entries of the inverse, regions
+ *  21460 impl/ change: a factor that follows changes of its matrix
+ *  27991 impl/ io: files that are replaced only when they are complete
+ *  28203 impl/ files: Matrix Market files, 64-bit indices
+ *  28729 impl/ save: factors in files
+ *  30651 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31309 impl/ batch: diagonals of many inverses
+ *  31449 impl/ complex: complex Hermitian systems over real factors
+ *  31959 impl/ complex: entries of the inverse
+ *  32011 impl/ packs: the tables through which the core calls packs
+ *  32043 impl/ last: undefine every internal macro
+ *  32345 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -4456,8 +4456,8 @@ typedef struct sli_kernels {
 #endif
 #define SLI_SECTION_WORDS_SCALAR
 #define SLI_SECTION_LANES_SCALAR
-#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -4514,9 +4514,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 4
 #define SLI_SECTION_WORDS_AVX2
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
-#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -4525,7 +4524,6 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 8
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -4546,9 +4544,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 8
 #define SLI_SECTION_WORDS_AVX512
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
-#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -4557,7 +4554,6 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 16
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -4576,9 +4572,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 4
 #define SLI_SECTION_WORDS_NEON
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
-#define SLI_SECTION_FRONT
 #define SLI_SECTION_COPY_ROWS
+#define SLI_SECTION_FRONT
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -4587,7 +4582,6 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 8
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -18297,7 +18291,6 @@ typedef struct sli_float_kernels {
 #define SLW_NRHS 4
 #define SLI_SECTION_WORDS_AVX2
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -18306,7 +18299,6 @@ typedef struct sli_float_kernels {
 #define SLW_NRHS 8
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_FLOAT_SET
@@ -18322,7 +18314,6 @@ typedef struct sli_float_kernels {
 #define SLW_GROUPS 8
 #define SLI_SECTION_WORDS_AVX512
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -18331,7 +18322,6 @@ typedef struct sli_float_kernels {
 #define SLW_NRHS 16
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_FLOAT_SET
@@ -18346,7 +18336,6 @@ typedef struct sli_float_kernels {
 #define SLW_NRHS 4
 #define SLI_SECTION_WORDS_NEON
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
 #define SLI_SECTION_SWEEPS
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -18355,7 +18344,6 @@ typedef struct sli_float_kernels {
 #define SLW_NRHS 8
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
 #define SLI_SECTION_MULTI_RHS
 #define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_FLOAT_SET
@@ -18633,7 +18621,6 @@ typedef struct sli_inverse_kernels {
 #define SLW_NRHS 8
 #define SLI_SECTION_WORDS_AVX2
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
 #define SLI_SECTION_PRODUCTS
 #define SLI_SECTION_INVERSE_FRONT
 #define SLI_SECTION_INVERSE_SET
@@ -18648,7 +18635,6 @@ typedef struct sli_inverse_kernels {
 #define SLW_NRHS 8
 #define SLI_SECTION_WORDS_AVX512
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
 #define SLI_SECTION_PRODUCTS
 #define SLI_SECTION_INVERSE_FRONT
 #define SLI_SECTION_INVERSE_SET
@@ -18663,7 +18649,6 @@ typedef struct sli_inverse_kernels {
 #define SLW_NRHS 8
 #define SLI_SECTION_WORDS_NEON
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
 #define SLI_SECTION_PRODUCTS
 #define SLI_SECTION_INVERSE_FRONT
 #define SLI_SECTION_INVERSE_SET
@@ -21514,7 +21499,6 @@ typedef struct sli_change_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLI_SECTION_WORDS_AVX2
-#include SL_HEADER
 #define SLI_SECTION_CHANGE
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -21524,7 +21508,6 @@ typedef struct sli_change_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLI_SECTION_WORDS_AVX512
-#include SL_HEADER
 #define SLI_SECTION_CHANGE
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -21534,7 +21517,6 @@ typedef struct sli_change_kernels {
 #define SLV_SINGLE 0
 #define SLV_COMPLEX 0
 #define SLI_SECTION_WORDS_NEON
-#include SL_HEADER
 #define SLI_SECTION_CHANGE
 #define SLI_SECTION_WORDS_UNDEF
 #include SL_HEADER
@@ -31496,7 +31478,6 @@ typedef struct sli_complex_kernels {
 #define SLW_GROUPS 32
 #define SLI_SECTION_WORDS_AVX2
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -31505,9 +31486,7 @@ typedef struct sli_complex_kernels {
 #define SLW_NRHS 2
 #define SLW_GROUPS 2
 #define SLI_SECTION_LANES_AVX2
-#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_COMPLEX_SMALL
@@ -31525,7 +31504,6 @@ typedef struct sli_complex_kernels {
 #define SLW_GROUPS 8
 #define SLI_SECTION_WORDS_AVX512
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -31534,7 +31512,6 @@ typedef struct sli_complex_kernels {
 #define SLW_NRHS 16
 #define SLW_GROUPS 32
 #define SLI_SECTION_LANES_AVX512
-#include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_COMPLEX_SMALL
@@ -31552,7 +31529,6 @@ typedef struct sli_complex_kernels {
 #define SLW_GROUPS 32
 #define SLI_SECTION_WORDS_NEON
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
 #define SLI_SECTION_FRONT
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
@@ -31561,9 +31537,7 @@ typedef struct sli_complex_kernels {
 #define SLW_NRHS 2
 #define SLW_GROUPS 2
 #define SLI_SECTION_LANES_NEON
-#include SL_HEADER
 #define SLI_SECTION_COPY_ROWS
-#include SL_HEADER
 #define SLI_SECTION_COMPLEX_GROUPS
 #define SLI_SECTION_MULTI_RHS_TILES
 #define SLI_SECTION_COMPLEX_SMALL
@@ -32361,6 +32335,838 @@ static const char *sli_storage_needs(sl_storage storage) {
 
 /* templates: the header includes them from itself, once for each instruction set */
 
+#ifdef SLI_SECTION_FRONTS
+#undef SLI_SECTION_FRONTS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
+
+SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
+  const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
+  const sl_off at = begin < own ? begin + worker * own : begin;
+  return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
+}
+
+SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
+  sli_front f = SLF_BEGIN(F, s, worker);
+  SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
+  return f;
+}
+
+static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
+  const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
+  const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
+  const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
+  memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
+       (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
+  if (f->below > 0 && t1 > whole) {
+    memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
+         (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
+  }
+}
+
+SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
+                        const sli_loading *e, uint64_t *marks,
+                        sli_failure *failure) {
+  const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
+  const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
+  const double *x = e->x;
+  const sl_int *scatter_from = e->scatter_from;
+  double largest = F->extents[s].entry;
+  uint64_t mark = 0;
+  sl_off m;
+  for (m = e->first; m < e->last; m++) {
+    if (scatter_from != NULL && m < ahead) { /* untested: constant */
+      SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
+    }
+    const double a =
+      scatter_from != NULL ? x[scatter_from[m]] : x[m - e->first]; /* untested: constant */
+    const double size = fabs(a);
+#if SLF_SINGLE
+    if (!(size <= SLI_SINGLE_MOST)) {
+      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
+              -1, m, a);
+    }
+    panel[to[m] - begin] += sli_single(a);
+#else
+    if (!(size <= DBL_MAX)) {
+      return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+    }
+#if SLF_HALF
+    if ((to[m] & SLI_TILE) == 0) {
+      panel[sli_half_at(to[m] - begin)] += a;
+    }
+#else
+    panel[to[m] - begin] += a;
+#endif
+    if (marks != NULL) { /* untested: constant where entries are summed */
+      mark += sli_mark_entry(a, to[m] - begin);
+    }
+#endif
+    largest = size > largest ? size : largest;
+  }
+  F->extents[s].entry = largest;
+  if (marks != NULL) { /* untested: the same */
+    marks[s] += mark;
+  }
+  return SL_OK;
+}
+
+static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
+                    SLF_VALUE *panel, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  const sl_off end = S->scatter_begin[s + 1];
+  sli_loading e;
+  sl_status status = SL_OK;
+  sli_panel_begin(F, s);
+  e.first = S->scatter_begin[s];
+  if (from->A != NULL) {
+    e.x = from->A->x;
+    e.scatter_from = S->scatter_from;
+    e.last = end;
+    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
+  }
+  e.scatter_from = NULL;
+  for (; e.first < end && status == SL_OK; e.first = e.last) {
+    double sums[SLI_SUM_ENTRIES];
+    e.last = end - e.first < SLI_SUM_ENTRIES ? end : e.first + SLI_SUM_ENTRIES;
+    e.x = sums;
+    sli_source_sum(from, e.first, (sl_int)(e.last - e.first), sums);
+    status = SLF_NAME(panel_add)(F, s, panel, &e, NULL, failure);
+  }
+  return status;
+}
+
+static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
+                    sli_failure *failure) {
+  SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
+  const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
+  const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
+  sl_int k;
+  for (k = 0; k < rows; k++) {
+    magnitude[k] = 0;
+  }
+#if SLF_HALF
+  for (k = 0; k < w; k += 2) {
+    magnitude[k] = fabs(panel[sli_half_at(sli_panel_at(w, k, k))]);
+  }
+#else
+  for (k = 0; k < w; k += SLI_TILE) {
+    const SLF_VALUE *tile = panel + sli_panel_at(w, k, k);
+    const sl_int columns = sli_min(SLI_TILE, w - k);
+    sl_int r;
+    for (r = 0; r < columns; r++) {
+      magnitude[k + r] = (SLF_VALUE)fabs(tile[(SLI_TILE + 1) * r]);
+    }
+  }
+#endif
+  return status;
+}
+
+static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,
+                   sl_int t0, sl_int t1) {
+  const sl_symbolic *S = F->S;
+  const sl_int tiles = sli_front_tiles(f);
+  sl_int c, k;
+  for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
+    const sli_step *child = &S->steps[c];
+    const sl_int *relative = S->relative + S->rows_begin[c];
+    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
+    const sl_off magnitudes = child->width % SLI_TILE +
+                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
+    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
+    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
+    const sl_int last =
+      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
+    F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
+    for (k = first; k < last; k += 1 + SLF_HALF) {
+      SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
+    }
+  }
+}
+
+static void SLF_NAME(front_hand_over)(const sli_front *f) {
+  const sl_int tiles = sli_update_tiles(f->width, f->below), rows = SLI_TILE * tiles;
+  const SLF_VALUE *from = SLF_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
+  SLF_VALUE *to = SLF_OF(f, update) + (sli_triangle_offset(tiles) >> SLF_HALF);
+  sl_int k;
+  for (k = 0; k < rows; k += 1 + SLF_HALF) {
+#if SLF_HALF
+    to[k / 2] = from[k] + from[k + 1];
+#else
+    to[k] = from[k];
+#endif
+  }
+}
+
+static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
+                     sli_failure *failure) {
+  sl_status status = SL_OK;
+  sl_int k;
+#if SLF_SINGLE
+  for (k = 0; k < f->width && status == SL_OK; k++) {
+    status = sli_check_single(F, f, k, failure);
+  }
+#else
+  const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
+  for (k = 0; k < count && status == SL_OK; k++) {
+    status =
+      f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
+        ? sli_check_pair(F, f->super, f->column + k, f->magnitude + k, failure)
+        : sli_check_pivot(F, f->super, f->column + k, f->D[k], f->magnitude[k], failure);
+  }
+  if (status == SL_OK && F->type->store != NULL) {
+    status = F->type->store(F, f, failure);
+  }
+#endif
+  return status;
+}
+
+static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
+                    sli_failure *failure) {
+  SLF_NAME(front_hand_over)(f);
+  return SLF_NAME(front_check)(F, f, failure);
+}
+
+static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
+                    sl_int worker, sli_failure *failure) {
+  sli_front f = SLF_NAME(front_of)(F, s, worker);
+  const sl_int tiles = sli_front_tiles(&f);
+  double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
+  sl_status status;
+  f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
+#if !SLF_SINGLE
+  if (f.is_small) {
+    sli_front_clear_small(&f);
+  } else
+#endif
+  {
+    SLF_NAME(front_clear)(&f, 0, tiles);
+  }
+  status = SLF_NAME(front_load)(F, from, &f, failure);
+  if (status != SL_OK) {
+    return status;
+  }
+  SLF_NAME(front_assemble)(F, &f, worker, 0, tiles);
+  sli_front_eliminate(F->front, &f, scratch);
+  sli_front_update(F->front, &f, scratch);
+  SLF_NAME(front_hand_over)(&f);
+  return SLF_NAME(front_check)(F, &f, failure);
+}
+
+static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
+                  sl_int worker, sli_failure *failure) {
+  sl_status status = SL_OK;
+  sl_int s;
+  for (s = first; s <= last && status == SL_OK; s++) {
+    if (sli_is_copied(F, s)) {
+      F->work.copied->copy(F, s, worker);
+    } else {
+      status = SLF_NAME(front_factor)(F, from, s, worker, failure);
+    }
+  }
+  return status;
+}
+#endif
+
+#ifdef SLI_SECTION_FRONTS_UNDEF
+#undef SLI_SECTION_FRONTS_UNDEF
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
+
+#undef SLF_NAME
+#undef SLF_VALUE
+#undef SLF_SINGLE
+#undef SLF_HALF
+#undef SLF_OF
+#undef SLF_BEGIN
+#endif
+
+#ifdef SLI_SECTION_WORDS_NEON
+#undef SLI_SECTION_WORDS_NEON
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
+
+#define SLV_NAME(f) sli_##f##_neon
+#define SLV_ISA SL_ISA_NEON
+#define SLV_FUNCTION
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
+#define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
+#define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
+#define SLV_LOAD(a, p) \
+  a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), \
+  a##_3 = vld1q_f64((p) + 6);
+#define SLV_STORE(p, a) \
+  vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), \
+    vst1q_f64((p) + 6, a##_3);
+#define SLV_ADD(a, b) \
+  a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), \
+  a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
+#define SLV_READ_0(l) vld1q_f64(l)
+#define SLV_READ_1(l) vcvt_f64_f32(vld1_f32(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+  { \
+    int i_; \
+    for (i_ = 0; i_ < (rows); i_ += 2) { \
+      vst1q_f64((v) + i_, vcvt_f64_f32(vld1_f32((l) + i_))); \
+    } \
+  }
+#define SLV_AXPY(a, l, p) \
+  { \
+    const float64x2_t s_ = vld1q_dup_f64(p); \
+    a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), s_); \
+    a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), s_); \
+    a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), s_); \
+    a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), s_); \
+  }
+#define SLV_DOT(a, l, v) \
+  a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), v##_0), \
+  a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), v##_1), \
+  a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
+  a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
+#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
+#define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
+#define SLV_SAME(a) (a)
+#define SLV_TURN(a, b) \
+  a##_0 = SLV_TURN_2(b##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(b##_1, vneg_f64, SLV_SAME), \
+  a##_2 = SLV_TURN_2(b##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(b##_3, vneg_f64, SLV_SAME);
+#define SLV_TURN_BACK(a, b) \
+  a##_0 = SLV_TURN_2(b##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(b##_1, SLV_SAME, vneg_f64), \
+  a##_2 = SLV_TURN_2(b##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(b##_3, SLV_SAME, vneg_f64);
+#define SLV_FNMA(a, b, c) \
+  a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
+  a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
+#define SLV_LOAD_PART(a, p, count, rest) \
+  { \
+    double part_[SLI_TILE]; \
+    sl_int i_; \
+    for (i_ = 0; i_ < SLI_TILE; i_++) { \
+      part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
+    } \
+    SLV_LOAD(a, part_) \
+  }
+#define SLV_FIRST(a, count) \
+  { \
+    double part_[SLI_TILE]; \
+    sl_int i_; \
+    SLV_STORE(part_, a) \
+    for (i_ = (count); i_ < SLI_TILE; i_++) { \
+      part_[i_] = 0.0; \
+    } \
+    SLV_LOAD(a, part_) \
+  }
+#define SLV_LANE(b, a, k) \
+  b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0 \
+                                 : (k) < 4 ? a##_1 \
+                                 : (k) < 6 ? a##_2 \
+                                     : a##_3, \
+                                 (k) % 2));
+#define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
+#define SLV_GATHER(a, x, at) \
+  a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)), \
+  a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
+#define SLV_SUM_DECLARE(a) float64x2_t a;
+#define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
+#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
+#define SLV_SUM_DOT(a, l, v) \
+  a = vfmsq_f64(a, SLV_READ((l) + 0), v##_0); \
+  a = vfmsq_f64(a, SLV_READ((l) + 2), v##_1); \
+  a = vfmsq_f64(a, SLV_READ((l) + 4), v##_2); \
+  a = vfmsq_f64(a, SLV_READ((l) + 6), v##_3);
+#define SLV_SUMS(r, a) \
+  r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3), \
+  r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
+#define SLV_TRANSPOSE(to, from) \
+  { \
+    int i_, k_; \
+    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
+      for (k_ = 0; k_ < SLI_TILE; k_ += 2) { \
+        const float64x2_t low_ = vld1q_f64((from) + SLI_TILE * k_ + i_); \
+        const float64x2_t high_ = vld1q_f64((from) + SLI_TILE * (k_ + 1) + i_); \
+        vst1q_f64((to) + SLI_TILE * i_ + k_, vtrn1q_f64(low_, high_)); \
+        vst1q_f64((to) + SLI_TILE * (i_ + 1) + k_, vtrn2q_f64(low_, high_)); \
+      } \
+    } \
+  }
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_dup_f64(p);
+#define SLV_MULTIPLY(a, b, c) \
+  a##_0 = vmulq_f64(b##_0, c##_0), a##_1 = vmulq_f64(b##_1, c##_1), \
+  a##_2 = vmulq_f64(b##_2, c##_2), a##_3 = vmulq_f64(b##_3, c##_3);
+#define SLV_DIVIDE(a, b, c) \
+  a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1), \
+  a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
+#define SLV_BELOW_2(a, k) \
+  a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a), \
+                    vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), \
+                           vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
+#define SLV_BELOW(a, k) \
+  SLV_BELOW_2(a##_0, k) \
+  SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
+#define SLV_EXPAND SLI_EXPAND_PLAIN
+#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
+#define SLV_DUP_LOW(e, l) \
+  e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
+  e##_3 = vdupq_n_f64((l)[3]);
+#define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
+#define SLV_STREAM(p, a) SLV_STORE(p, a)
+#define SLV_STREAM_END
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_4(f) SLV_NAME(f##4)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#define SLV_NAME_SMALL SLV_NAME
+#define SLV_OWN_SMALL
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#ifdef SLI_SECTION_LANES_NEON
+#undef SLI_SECTION_LANES_NEON
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 2
+#define SLW_NAME(f) sli_##f##2_neon
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) float64x2_t a;
+#define SLW_ZERO(a) a = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p) a = vld1q_f64(p);
+#define SLW_STORE(p, a) vst1q_f64((p), a);
+#define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
+#define SLW_ADD(a, b) a = vaddq_f64(a, b);
+#define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 4
+#define SLW_NAME(f) sli_##f##4_neon
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
+#define SLW_LOAD(a, p) a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
+#define SLW_STORE(p, a) vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vdivq_f64(a##_0, s_); \
+    a##_1 = vdivq_f64(a##_1, s_); \
+  }
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 8
+#define SLW_NAME(f) sli_##f##8_neon
+#define SLW_HALF(f) sli_##f##4_neon
+#define SLW_ROWS 4
+#define SLW_DECLARE(a) SLV_DECLARE(a)
+#define SLW_ZERO(a) SLV_ZERO(a)
+#define SLW_LOAD(a, p) SLV_LOAD(a, p)
+#define SLW_STORE(p, a) SLV_STORE(p, a)
+#define SLW_FNMA(a, s, b) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
+    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
+    a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
+    a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
+  }
+#define SLW_ADD(a, b) SLV_ADD(a, b)
+#define SLW_DIVIDE(a, s) \
+  { \
+    const float64x2_t s_ = vdupq_n_f64(s); \
+    a##_0 = vdivq_f64(a##_0, s_); \
+    a##_1 = vdivq_f64(a##_1, s_); \
+    a##_2 = vdivq_f64(a##_2, s_); \
+    a##_3 = vdivq_f64(a##_3, s_); \
+  }
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+#endif
+
+#ifdef SLI_SECTION_WORDS_AVX512
+#undef SLI_SECTION_WORDS_AVX512
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
+
+#define SLV_NAME(f) sli_##f##_avx512
+#define SLV_NAME_4(f) sli_##f##4_avx2
+#define SLV_NAME_2(f) sli_##f##2_avx2
+#define SLV_NAME_SMALL(f) sli_##f##_avx2
+#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
+#define SLV_ISA SL_ISA_AVX512
+#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
+#define SLV_DECLARE(a) __m512d a;
+#define SLV_ZERO(a) a = _mm512_setzero_pd();
+#define SLV_LOAD(a, p) a = _mm512_load_pd(p);
+#define SLV_STORE(p, a) _mm512_store_pd((p), a);
+#define SLV_STREAM(p, a) _mm512_stream_pd((p), a);
+#define SLV_STREAM_END _mm_sfence();
+#define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLV_READ_0(l) _mm512_load_pd(l)
+#define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), SLV_READ_1(l));
+#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
+#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
+#define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
+#define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
+#define SLV_TURN(a, b) \
+  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
+#define SLV_TURN_BACK(a, b) \
+  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
+#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
+#define SLV_LOAD_PART(a, p, count, rest) \
+  a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
+#define SLV_FIRST(a, count) a = _mm512_maskz_mov_pd((__mmask8)(0xff >> (8 - (count))), a);
+#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
+#define SLV_GATHER(a, x, at) \
+  a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)], \
+            (x)[at(1)], (x)[at(0)]);
+#define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
+#define SLV_SUM_ZERO(a) SLV_ZERO(a)
+#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
+#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
+#define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
+#define SLV_SUM_2(a, b) \
+  _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
+#define SLV_SUM_4(a, b) \
+  _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88), \
+          _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
+#define SLV_SUMS(r, a) \
+  r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)), \
+          SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
+#define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
+#define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
+#define SLV_TRANSPOSE_4(to, from, unpack) \
+  { \
+    const __m512d a_ = unpack(0xff, _mm512_load_pd(from), _mm512_load_pd((from) + 8)); \
+    const __m512d b_ = unpack(0xff, _mm512_load_pd((from) + 16), _mm512_load_pd((from) + 24)); \
+    const __m512d c_ = unpack(0xff, _mm512_load_pd((from) + 32), _mm512_load_pd((from) + 40)); \
+    const __m512d d_ = unpack(0xff, _mm512_load_pd((from) + 48), _mm512_load_pd((from) + 56)); \
+    const __m512d e_ = SLV_BLOCKS_EVEN(a_, b_), f_ = SLV_BLOCKS_EVEN(c_, d_); \
+    const __m512d g_ = SLV_BLOCKS_ODD(a_, b_), h_ = SLV_BLOCKS_ODD(c_, d_); \
+    _mm512_store_pd((to), SLV_BLOCKS_EVEN(e_, f_)); \
+    _mm512_store_pd((to) + 16, SLV_BLOCKS_EVEN(g_, h_)); \
+    _mm512_store_pd((to) + 32, SLV_BLOCKS_ODD(e_, f_)); \
+    _mm512_store_pd((to) + 48, SLV_BLOCKS_ODD(g_, h_)); \
+  }
+#define SLV_TRANSPOSE(to, from) \
+  SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd) \
+  SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
+#define SLV_TILES 2
+#define SLV_COLUMNS 8
+#define SLV_EACH_COLUMN SLI_EACH8
+#define SLV_LOAD_PINNED(a, p) \
+  a = _mm512_load_pd(p); \
+  SLI_PIN_ANY(a);
+#define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
+#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
+#define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
+#define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
+#define SLV_EXPAND(mask, lanes, count) \
+  const __mmask8 expand_ = (__mmask8)(mask); \
+  const __m512i order_ = \
+    _mm512_maskz_expand_epi64(expand_, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0)); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm512_store_pd( \
+    (to), _mm512_add_pd(_mm512_load_pd(to), \
+              _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
+#define SLV_DUP_LOW(e, l) \
+  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
+#define SLV_DUP_HIGH(e, l) \
+  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
+#define SLV_PAIR(b, p) \
+  b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
+
+#define SLW_TAKES_FLOATS
+#define SLV_SPREAD_0(s) _mm512_set1_pd(s)
+#define SLV_SPREAD_1(s) _mm512_maskz_cvtps_pd(0xff, _mm256_set1_ps(s))
+#define SLV_SPREAD(s) SLI_BY_TYPE(SLV_SPREAD_, SLV_SINGLE)(s)
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#endif
+
+#ifdef SLI_SECTION_LANES_AVX512
+#undef SLI_SECTION_LANES_AVX512
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 8
+#define SLW_NAME(f) sli_##f##8_avx512
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m512d a;
+#define SLW_ZERO(a) a = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
+#define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 16
+#define SLW_NAME(f) sli_##f##16_avx512
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m512d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm512_loadu_pd(p), a##_1 = _mm512_loadu_pd((p) + 8);
+#define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const __m512d s_ = SLV_SPREAD(s); \
+    a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
+    a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = _mm512_add_pd(a##_0, b##_0), a##_1 = _mm512_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
+  a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#endif
+#endif
+
+#ifdef SLI_SECTION_WORDS_AVX2
+#undef SLI_SECTION_WORDS_AVX2
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
+
+#define SLV_NAME(f) sli_##f##_avx2
+#define SLV_ISA SL_ISA_AVX2
+#define SLV_FUNCTION SLI_TARGET("avx2,fma")
+#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
+#define SLV_DECLARE(a) __m256d a##_0, a##_1;
+#define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
+#define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
+#define SLV_STREAM(p, a) _mm256_stream_pd((p), a##_0), _mm256_stream_pd((p) + 4, a##_1);
+#define SLV_STREAM_END _mm_sfence();
+#define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLV_READ_0(l) _mm256_load_pd(l)
+#define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
+#define SLV_WIDEN_ROWS(v, l, rows) \
+  { \
+    _mm256_store_pd((v), _mm256_cvtps_pd(_mm_load_ps(l))); \
+    if ((rows) > 4) { \
+      _mm256_store_pd((v) + 4, _mm256_cvtps_pd(_mm_load_ps((l) + 4))); \
+    } \
+  }
+#define SLV_AXPY(a, l, p) \
+  { \
+    const __m256d s_ = _mm256_broadcast_sd(p); \
+    a##_0 = _mm256_fnmadd_pd(SLV_READ(l), s_, a##_0); \
+    a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), s_, a##_1); \
+  }
+#define SLV_DOT(a, l, v) \
+  a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
+  a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
+#define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLV_TURN(a, b) \
+  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_0, 5)), \
+  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_1, 5));
+#define SLV_TURN_BACK(a, b) \
+  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_0), 5), \
+  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_1), 5);
+#define SLV_FNMA(a, b, c) \
+  a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
+#define SLV_LOAD_PART(a, p, count, rest) \
+  a##_0 = sli_load_part((p), (count), (rest)), a##_1 = sli_load_part((p) + 4, (count)-4, (rest));
+#define SLV_FIRST(a, count) \
+  a##_0 = _mm256_andnot_pd(sli_lanes_from(count), a##_0), \
+  a##_1 = _mm256_andnot_pd(sli_lanes_from((count)-4), a##_1);
+#define SLV_LANE(b, a, k) \
+  b##_0 = b##_1 = _mm256_permute4x64_pd((k) < 4 ? a##_0 : a##_1, (k) % 4 * 0x55);
+#define SLV_GATHER(a, x, at) \
+  a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]), \
+  a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
+#define SLV_SUM_DECLARE(a) __m256d a;
+#define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
+#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
+#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
+#define SLV_SUM_DOT(a, l, v) \
+  a = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a); \
+  a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
+#define SLV_SUM_4(a, b, c, d) \
+  _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
+          _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
+#define SLV_SUMS(r, a) \
+  r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
+#define SLV_TRANSPOSE_4(to, from) \
+  { \
+    const __m256d a_ = _mm256_load_pd(from), b_ = _mm256_load_pd((from) + 8); \
+    const __m256d c_ = _mm256_load_pd((from) + 16), d_ = _mm256_load_pd((from) + 24); \
+    const __m256d e_ = _mm256_unpacklo_pd(a_, b_), f_ = _mm256_unpackhi_pd(a_, b_); \
+    const __m256d g_ = _mm256_unpacklo_pd(c_, d_), h_ = _mm256_unpackhi_pd(c_, d_); \
+    _mm256_store_pd((to), _mm256_permute2f128_pd(e_, g_, 0x20)); \
+    _mm256_store_pd((to) + 8, _mm256_permute2f128_pd(f_, h_, 0x20)); \
+    _mm256_store_pd((to) + 16, _mm256_permute2f128_pd(e_, g_, 0x31)); \
+    _mm256_store_pd((to) + 24, _mm256_permute2f128_pd(f_, h_, 0x31)); \
+  }
+#define SLV_TRANSPOSE(to, from) \
+  SLV_TRANSPOSE_4(to, from) \
+  SLV_TRANSPOSE_4((to) + 4, (from) + 32) \
+  SLV_TRANSPOSE_4((to) + 32, (from) + 4) \
+  SLV_TRANSPOSE_4((to) + 36, (from) + 36)
+#define SLV_TILES 1
+#define SLV_COLUMNS 4
+#define SLV_EACH_COLUMN SLI_EACH4
+#define SLV_LOAD_PINNED(a, p) \
+  a##_0 = _mm256_load_pd(p); \
+  a##_1 = _mm256_load_pd((p) + 4); \
+  SLI_PIN(a##_0);  \
+  SLI_PIN(a##_1);
+#define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
+#define SLV_MULTIPLY(a, b, c) \
+  a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
+#define SLV_DIVIDE(a, b, c) \
+  a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
+#define SLV_BELOW(a, k) \
+  a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)), \
+  a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
+#define SLV_EXPAND(mask, lanes, count) \
+  const __m256i low_ = sli_expand_index((mask)&15u), high_ = sli_expand_index((mask) >> 4); \
+  const __m256d keep_low_ = sli_expand_keep(low_), keep_high_ = sli_expand_keep(high_); \
+  const ptrdiff_t second_ = sli_count4((mask)&15u); \
+  (void)(lanes);
+#define SLV_EXPAND_ADD(to, from) \
+  _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to), \
+                    sli_expand_4(_mm256_loadu_pd(from), low_, keep_low_))); \
+  _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
+                      sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
+                             keep_high_)));
+#define SLV_DUP_AT(e, l) \
+  { \
+    const __m256d l_ = SLV_READ(l); \
+    e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
+    e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
+  }
+#define SLV_DUP_LOW(e, l) SLV_DUP_AT(e, l)
+#define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
+#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
+#define SLV_VECTOR_TILES 1
+#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
+#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
+#define SLV_NAME_4(f) SLV_NAME(f##4)
+#define SLV_NAME_2(f) SLV_NAME(f##2)
+#define SLV_NAME_SMALL SLV_NAME
+#define SLV_OWN_SMALL
+#define SLV_NAME_PIVOTS SLV_NAME
+#define SLV_OWN_PIVOTS
+#endif
+
+#ifdef SLI_SECTION_LANES_AVX2
+#undef SLI_SECTION_LANES_AVX2
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
+
+#if SLW_NRHS == 2
+#define SLW_NAME(f) sli_##f##2_avx2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m128d a;
+#define SLW_ZERO(a) a = _mm_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
+#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
+#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 4
+#define SLW_NAME(f) sli_##f##4_avx2
+#define SLW_ROWS 8
+#define SLW_DECLARE(a) __m256d a;
+#define SLW_ZERO(a) a = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
+#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
+#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
+#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
+#define SLW_EACH SLI_EACH8
+#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
+#define SLW_HIGH SLI_HIGH8
+#define SLW_LOW SLI_LOW8
+#elif SLW_NRHS == 8
+#define SLW_NAME(f) sli_##f##8_avx2
+#define SLW_HALF(f) sli_##f##4_avx2
+#define SLW_ROWS 4
+#define SLW_DECLARE(a) __m256d a##_0, a##_1;
+#define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
+#define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
+#define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
+#define SLW_FNMA(a, s, b) \
+  { \
+    const __m256d s_ = _mm256_broadcast_sd(&(s)); \
+    a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
+    a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
+  }
+#define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
+#define SLW_DIVIDE(a, s) \
+  a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
+  a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
+#define SLW_EACH SLI_EACH4
+#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
+#define SLW_HIGH SLI_HIGH4
+#define SLW_LOW SLI_LOW4
+#endif
+#endif
+
 #ifdef SLI_SECTION_WORDS_SCALAR
 #undef SLI_SECTION_WORDS_SCALAR
 #if SL_VERSION_MAJOR != 0 || \
@@ -33111,6 +33917,44 @@ static const sli_inverse_kernels SLV_NAME(inverse_kernels) = {
   SLV_NAME(products8), SLV_NAME(gather), SLV_NAME(inverse_phase), SLV_NAME(takahashi)};
 #endif
 
+#ifdef SLI_SECTION_COPY_ROWS
+#undef SLI_SECTION_COPY_ROWS
+#if SL_VERSION_MAJOR != 0 || \
+     SL_VERSION_MINOR != 1 || \
+     SL_VERSION_PATCH != 0
+#error "sparse_local.h: SL_HEADER names another version of the header"
+#endif
+/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
+                         const sl_int *rows, const double *own,
+                         const double *x, sl_int stride) {
+  sl_int r;
+  SLW_DECLARE(b)
+  for (r = 0; r < SLW_ROWS; r++) {
+    if (r < inner + below) {
+      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
+                  : x + (ptrdiff_t)rows[r - inner] * stride)
+    } else {
+      SLW_ZERO(b)
+    }
+    SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
+  }
+}
+
+SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
+                        const sl_int *rows, double *own, double *x,
+                        sl_int stride) {
+  sl_int r;
+  SLW_DECLARE(b)
+  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
+    SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
+    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
+          b)
+  }
+}
+#endif
+
 #ifdef SLI_SECTION_FRONT
 #undef SLI_SECTION_FRONT
 #if SL_VERSION_MAJOR != 0 || \
@@ -33690,44 +34534,6 @@ SLV_FUNCTION static void SLV_FRONT(assemble)(const sli_front *f, const void *fro
 #define SLI_TRIANGLE_UP \
   SLW_DECLARE(n) \
   SLI_PAIRS_DOWN(SLI_ROW, 0)
-#endif
-
-#ifdef SLI_SECTION_COPY_ROWS
-#undef SLI_SECTION_COPY_ROWS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/copy_rows.inl.h: rows of several right-hand sides to a buffer and back */
-
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_in)(double *buf, sl_int inner, sl_int below,
-                         const sl_int *rows, const double *own,
-                         const double *x, sl_int stride) {
-  sl_int r;
-  SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS; r++) {
-    if (r < inner + below) {
-      SLW_LOAD(b, r < inner ? own + (ptrdiff_t)r * stride
-                  : x + (ptrdiff_t)rows[r - inner] * stride)
-    } else {
-      SLW_ZERO(b)
-    }
-    SLW_STORE(buf + (ptrdiff_t)r * SLW_NRHS, b)
-  }
-}
-
-SLV_FUNCTION SLI_INLINE void SLW_NAME(rows_out)(const double *buf, sl_int inner, sl_int below,
-                        const sl_int *rows, double *own, double *x,
-                        sl_int stride) {
-  sl_int r;
-  SLW_DECLARE(b)
-  for (r = 0; r < SLW_ROWS && r < inner + below; r++) {
-    SLW_LOAD(b, buf + (ptrdiff_t)r * SLW_NRHS)
-    SLW_STORE(r < inner ? own + (ptrdiff_t)r * stride : x + (ptrdiff_t)rows[r - inner] * stride,
-          b)
-  }
-}
 #endif
 
 #ifdef SLI_SECTION_SWEEPS
@@ -35561,838 +36367,6 @@ static const sli_kernels SLV_NAME(kernels) = {
 #undef SLV_SPREAD_0
 #undef SLV_SPREAD_1
 #undef SLV_SPREAD
-#endif
-
-#ifdef SLI_SECTION_WORDS_AVX2
-#undef SLI_SECTION_WORDS_AVX2
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/words_avx2.inl.h: the vocabulary SLV_ in AVX2 and FMA: a vector of 8 doubles is two registers */
-
-#define SLV_NAME(f) sli_##f##_avx2
-#define SLV_ISA SL_ISA_AVX2
-#define SLV_FUNCTION SLI_TARGET("avx2,fma")
-#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
-#define SLV_DECLARE(a) __m256d a##_0, a##_1;
-#define SLV_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
-#define SLV_LOAD(a, p) a##_0 = _mm256_load_pd(p), a##_1 = _mm256_load_pd((p) + 4);
-#define SLV_STORE(p, a) _mm256_store_pd((p), a##_0), _mm256_store_pd((p) + 4, a##_1);
-#define SLV_STREAM(p, a) _mm256_stream_pd((p), a##_0), _mm256_stream_pd((p) + 4, a##_1);
-#define SLV_STREAM_END _mm_sfence();
-#define SLV_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLV_READ_0(l) _mm256_load_pd(l)
-#define SLV_READ_1(l) _mm256_cvtps_pd(_mm_load_ps(l))
-#define SLV_WIDEN_ROWS(v, l, rows) \
-  { \
-    _mm256_store_pd((v), _mm256_cvtps_pd(_mm_load_ps(l))); \
-    if ((rows) > 4) { \
-      _mm256_store_pd((v) + 4, _mm256_cvtps_pd(_mm_load_ps((l) + 4))); \
-    } \
-  }
-#define SLV_AXPY(a, l, p) \
-  { \
-    const __m256d s_ = _mm256_broadcast_sd(p); \
-    a##_0 = _mm256_fnmadd_pd(SLV_READ(l), s_, a##_0); \
-    a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), s_, a##_1); \
-  }
-#define SLV_DOT(a, l, v) \
-  a##_0 = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a##_0), \
-  a##_1 = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a##_1);
-#define SLV_STORE_ANY(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLV_TURN(a, b) \
-  a##_0 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_0, 5)), \
-  a##_1 = _mm256_addsub_pd(_mm256_setzero_pd(), _mm256_permute_pd(b##_1, 5));
-#define SLV_TURN_BACK(a, b) \
-  a##_0 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_0), 5), \
-  a##_1 = _mm256_permute_pd(_mm256_addsub_pd(_mm256_setzero_pd(), b##_1), 5);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = _mm256_fnmadd_pd(b##_0, c##_0, a##_0), a##_1 = _mm256_fnmadd_pd(b##_1, c##_1, a##_1);
-#define SLV_LOAD_PART(a, p, count, rest) \
-  a##_0 = sli_load_part((p), (count), (rest)), a##_1 = sli_load_part((p) + 4, (count)-4, (rest));
-#define SLV_FIRST(a, count) \
-  a##_0 = _mm256_andnot_pd(sli_lanes_from(count), a##_0), \
-  a##_1 = _mm256_andnot_pd(sli_lanes_from((count)-4), a##_1);
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = _mm256_permute4x64_pd((k) < 4 ? a##_0 : a##_1, (k) % 4 * 0x55);
-#define SLV_GATHER(a, x, at) \
-  a##_0 = _mm256_set_pd((x)[at(3)], (x)[at(2)], (x)[at(1)], (x)[at(0)]), \
-  a##_1 = _mm256_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)]);
-#define SLV_SUM_DECLARE(a) __m256d a;
-#define SLV_SUM_ZERO(a) a = _mm256_setzero_pd();
-#define SLV_SUM_LOAD(a, p) a = _mm256_load_pd(p);
-#define SLV_SUM_STORE(p, a) _mm256_store_pd((p), a);
-#define SLV_SUM_DOT(a, l, v) \
-  a = _mm256_fnmadd_pd(SLV_READ(l), v##_0, a); \
-  a = _mm256_fnmadd_pd(SLV_READ((l) + 4), v##_1, a);
-#define SLV_SUM_4(a, b, c, d) \
-  _mm256_add_pd(_mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x20), \
-          _mm256_permute2f128_pd(_mm256_hadd_pd(a, b), _mm256_hadd_pd(c, d), 0x31))
-#define SLV_SUMS(r, a) \
-  r##_0 = SLV_SUM_4(a##0, a##1, a##2, a##3), r##_1 = SLV_SUM_4(a##4, a##5, a##6, a##7);
-#define SLV_TRANSPOSE_4(to, from) \
-  { \
-    const __m256d a_ = _mm256_load_pd(from), b_ = _mm256_load_pd((from) + 8); \
-    const __m256d c_ = _mm256_load_pd((from) + 16), d_ = _mm256_load_pd((from) + 24); \
-    const __m256d e_ = _mm256_unpacklo_pd(a_, b_), f_ = _mm256_unpackhi_pd(a_, b_); \
-    const __m256d g_ = _mm256_unpacklo_pd(c_, d_), h_ = _mm256_unpackhi_pd(c_, d_); \
-    _mm256_store_pd((to), _mm256_permute2f128_pd(e_, g_, 0x20)); \
-    _mm256_store_pd((to) + 8, _mm256_permute2f128_pd(f_, h_, 0x20)); \
-    _mm256_store_pd((to) + 16, _mm256_permute2f128_pd(e_, g_, 0x31)); \
-    _mm256_store_pd((to) + 24, _mm256_permute2f128_pd(f_, h_, 0x31)); \
-  }
-#define SLV_TRANSPOSE(to, from) \
-  SLV_TRANSPOSE_4(to, from) \
-  SLV_TRANSPOSE_4((to) + 4, (from) + 32) \
-  SLV_TRANSPOSE_4((to) + 32, (from) + 4) \
-  SLV_TRANSPOSE_4((to) + 36, (from) + 36)
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_LOAD_PINNED(a, p) \
-  a##_0 = _mm256_load_pd(p); \
-  a##_1 = _mm256_load_pd((p) + 4); \
-  SLI_PIN(a##_0);  \
-  SLI_PIN(a##_1);
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = _mm256_broadcast_sd(p);
-#define SLV_MULTIPLY(a, b, c) \
-  a##_0 = _mm256_mul_pd(b##_0, c##_0), a##_1 = _mm256_mul_pd(b##_1, c##_1);
-#define SLV_DIVIDE(a, b, c) \
-  a##_0 = _mm256_div_pd(b##_0, c##_0), a##_1 = _mm256_div_pd(b##_1, c##_1);
-#define SLV_BELOW(a, k) \
-  a##_0 = _mm256_and_pd(a##_0, sli_lanes_from((k) + 1)), \
-  a##_1 = _mm256_and_pd(a##_1, sli_lanes_from((k)-3));
-#define SLV_EXPAND(mask, lanes, count) \
-  const __m256i low_ = sli_expand_index((mask)&15u), high_ = sli_expand_index((mask) >> 4); \
-  const __m256d keep_low_ = sli_expand_keep(low_), keep_high_ = sli_expand_keep(high_); \
-  const ptrdiff_t second_ = sli_count4((mask)&15u); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm256_store_pd((to), _mm256_add_pd(_mm256_load_pd(to), \
-                    sli_expand_4(_mm256_loadu_pd(from), low_, keep_low_))); \
-  _mm256_store_pd((to) + 4, _mm256_add_pd(_mm256_load_pd((to) + 4), \
-                      sli_expand_4(_mm256_loadu_pd((from) + second_), high_, \
-                             keep_high_)));
-#define SLV_DUP_AT(e, l) \
-  { \
-    const __m256d l_ = SLV_READ(l); \
-    e##_0 = _mm256_permute4x64_pd(l_, 0x50); \
-    e##_1 = _mm256_permute4x64_pd(l_, 0xfa); \
-  }
-#define SLV_DUP_LOW(e, l) SLV_DUP_AT(e, l)
-#define SLV_DUP_HIGH(e, l) SLV_DUP_AT(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = _mm256_broadcast_pd((const __m128d *)(const void *)(p));
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#endif
-
-#ifdef SLI_SECTION_LANES_AVX2
-#undef SLI_SECTION_LANES_AVX2
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/lanes_avx2.inl.h: the vocabulary SLW_ in AVX2 and FMA, for SLW_NRHS right-hand sides */
-
-#if SLW_NRHS == 2
-#define SLW_NAME(f) sli_##f##2_avx2
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m128d a;
-#define SLW_ZERO(a) a = _mm_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm_loadu_pd(p);
-#define SLW_STORE(p, a) _mm_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm_fnmadd_pd(_mm_set1_pd(s), b, a);
-#define SLW_ADD(a, b) a = _mm_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm_div_pd(a, _mm_set1_pd(s));
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#elif SLW_NRHS == 4
-#define SLW_NAME(f) sli_##f##4_avx2
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m256d a;
-#define SLW_ZERO(a) a = _mm256_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm256_loadu_pd(p);
-#define SLW_STORE(p, a) _mm256_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm256_fnmadd_pd(_mm256_broadcast_sd(&(s)), b, a);
-#define SLW_ADD(a, b) a = _mm256_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm256_div_pd(a, _mm256_set1_pd(s));
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#elif SLW_NRHS == 8
-#define SLW_NAME(f) sli_##f##8_avx2
-#define SLW_HALF(f) sli_##f##4_avx2
-#define SLW_ROWS 4
-#define SLW_DECLARE(a) __m256d a##_0, a##_1;
-#define SLW_ZERO(a) a##_0 = a##_1 = _mm256_setzero_pd();
-#define SLW_LOAD(a, p) a##_0 = _mm256_loadu_pd(p), a##_1 = _mm256_loadu_pd((p) + 4);
-#define SLW_STORE(p, a) _mm256_storeu_pd((p), a##_0), _mm256_storeu_pd((p) + 4, a##_1);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const __m256d s_ = _mm256_broadcast_sd(&(s)); \
-    a##_0 = _mm256_fnmadd_pd(s_, b##_0, a##_0); \
-    a##_1 = _mm256_fnmadd_pd(s_, b##_1, a##_1); \
-  }
-#define SLW_ADD(a, b) a##_0 = _mm256_add_pd(a##_0, b##_0), a##_1 = _mm256_add_pd(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) \
-  a##_0 = _mm256_div_pd(a##_0, _mm256_set1_pd(s)), \
-  a##_1 = _mm256_div_pd(a##_1, _mm256_set1_pd(s));
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#endif
-#endif
-
-#ifdef SLI_SECTION_WORDS_AVX512
-#undef SLI_SECTION_WORDS_AVX512
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/words_avx512.inl.h: the vocabulary SLV_ in AVX-512F: a vector of 8 doubles is one register */
-
-#define SLV_NAME(f) sli_##f##_avx512
-#define SLV_NAME_4(f) sli_##f##4_avx2
-#define SLV_NAME_2(f) sli_##f##2_avx2
-#define SLV_NAME_SMALL(f) sli_##f##_avx2
-#define SLV_NAME_PIVOTS(f) sli_##f##_avx2
-#define SLV_ISA SL_ISA_AVX512
-#define SLV_FUNCTION SLI_TARGET("avx512f,avx2,fma")
-#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
-#define SLV_DECLARE(a) __m512d a;
-#define SLV_ZERO(a) a = _mm512_setzero_pd();
-#define SLV_LOAD(a, p) a = _mm512_load_pd(p);
-#define SLV_STORE(p, a) _mm512_store_pd((p), a);
-#define SLV_STREAM(p, a) _mm512_stream_pd((p), a);
-#define SLV_STREAM_END _mm_sfence();
-#define SLV_ADD(a, b) a = _mm512_add_pd(a, b);
-#define SLV_READ_0(l) _mm512_load_pd(l)
-#define SLV_READ_1(l) _mm512_maskz_cvtps_pd(0xff, _mm256_load_ps(l))
-#define SLV_WIDEN_ROWS(v, l, rows) _mm512_store_pd((v), SLV_READ_1(l));
-#define SLV_AXPY(a, l, p) a = _mm512_fnmadd_pd(SLV_READ(l), _mm512_set1_pd(*(p)), a);
-#define SLV_DOT(a, l, v) a = _mm512_fnmadd_pd(SLV_READ(l), v, a);
-#define SLV_STORE_ANY(p, a) _mm512_storeu_pd((p), a);
-#define SLV_SWAP(a) _mm512_maskz_permute_pd(0xff, a, 0x55)
-#define SLV_TURN(a, b) \
-  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0x55, _mm512_setzero_pd(), a);
-#define SLV_TURN_BACK(a, b) \
-  a = SLV_SWAP(b), a = _mm512_mask_sub_pd(a, (__mmask8)0xaa, _mm512_setzero_pd(), a);
-#define SLV_FNMA(a, b, c) a = _mm512_fnmadd_pd(b, c, a);
-#define SLV_LOAD_PART(a, p, count, rest) \
-  a = _mm512_mask_loadu_pd(_mm512_set1_pd(rest), (__mmask8)(0xff >> (8 - (count))), (p));
-#define SLV_FIRST(a, count) a = _mm512_maskz_mov_pd((__mmask8)(0xff >> (8 - (count))), a);
-#define SLV_LANE(b, a, k) b = _mm512_maskz_permutexvar_pd(0xff, _mm512_set1_epi64(k), a);
-#define SLV_GATHER(a, x, at) \
-  a = _mm512_set_pd((x)[at(7)], (x)[at(6)], (x)[at(5)], (x)[at(4)], (x)[at(3)], (x)[at(2)], \
-            (x)[at(1)], (x)[at(0)]);
-#define SLV_SUM_DECLARE(a) SLV_DECLARE(a)
-#define SLV_SUM_ZERO(a) SLV_ZERO(a)
-#define SLV_SUM_LOAD(a, p) SLV_LOAD(a, p)
-#define SLV_SUM_STORE(p, a) SLV_STORE(p, a)
-#define SLV_SUM_DOT(a, l, v) SLV_DOT(a, l, v)
-#define SLV_SUM_2(a, b) \
-  _mm512_add_pd(_mm512_maskz_unpacklo_pd(0xff, a, b), _mm512_maskz_unpackhi_pd(0xff, a, b))
-#define SLV_SUM_4(a, b) \
-  _mm512_add_pd(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88), \
-          _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd))
-#define SLV_SUMS(r, a) \
-  r = SLV_SUM_4(SLV_SUM_4(SLV_SUM_2(a##0, a##1), SLV_SUM_2(a##2, a##3)), \
-          SLV_SUM_4(SLV_SUM_2(a##4, a##5), SLV_SUM_2(a##6, a##7)));
-#define SLV_BLOCKS_EVEN(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)
-#define SLV_BLOCKS_ODD(a, b) _mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)
-#define SLV_TRANSPOSE_4(to, from, unpack) \
-  { \
-    const __m512d a_ = unpack(0xff, _mm512_load_pd(from), _mm512_load_pd((from) + 8)); \
-    const __m512d b_ = unpack(0xff, _mm512_load_pd((from) + 16), _mm512_load_pd((from) + 24)); \
-    const __m512d c_ = unpack(0xff, _mm512_load_pd((from) + 32), _mm512_load_pd((from) + 40)); \
-    const __m512d d_ = unpack(0xff, _mm512_load_pd((from) + 48), _mm512_load_pd((from) + 56)); \
-    const __m512d e_ = SLV_BLOCKS_EVEN(a_, b_), f_ = SLV_BLOCKS_EVEN(c_, d_); \
-    const __m512d g_ = SLV_BLOCKS_ODD(a_, b_), h_ = SLV_BLOCKS_ODD(c_, d_); \
-    _mm512_store_pd((to), SLV_BLOCKS_EVEN(e_, f_)); \
-    _mm512_store_pd((to) + 16, SLV_BLOCKS_EVEN(g_, h_)); \
-    _mm512_store_pd((to) + 32, SLV_BLOCKS_ODD(e_, f_)); \
-    _mm512_store_pd((to) + 48, SLV_BLOCKS_ODD(g_, h_)); \
-  }
-#define SLV_TRANSPOSE(to, from) \
-  SLV_TRANSPOSE_4(to, from, _mm512_maskz_unpacklo_pd) \
-  SLV_TRANSPOSE_4((to) + 8, from, _mm512_maskz_unpackhi_pd)
-#define SLV_TILES 2
-#define SLV_COLUMNS 8
-#define SLV_EACH_COLUMN SLI_EACH8
-#define SLV_LOAD_PINNED(a, p) \
-  a = _mm512_load_pd(p); \
-  SLI_PIN_ANY(a);
-#define SLV_BROADCAST(b, p) b = _mm512_set1_pd(*(p));
-#define SLV_MULTIPLY(a, b, c) a = _mm512_mul_pd(b, c);
-#define SLV_DIVIDE(a, b, c) a = _mm512_div_pd(b, c);
-#define SLV_BELOW(a, k) a = _mm512_maskz_mov_pd((__mmask8)(0xfe << (k)), a);
-#define SLV_EXPAND(mask, lanes, count) \
-  const __mmask8 expand_ = (__mmask8)(mask); \
-  const __m512i order_ = \
-    _mm512_maskz_expand_epi64(expand_, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0)); \
-  (void)(lanes);
-#define SLV_EXPAND_ADD(to, from) \
-  _mm512_store_pd( \
-    (to), _mm512_add_pd(_mm512_load_pd(to), \
-              _mm512_maskz_permutexvar_pd(expand_, order_, _mm512_loadu_pd(from))));
-#define SLV_DUP_LOW(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(3, 3, 2, 2, 1, 1, 0, 0), SLV_READ(l));
-#define SLV_DUP_HIGH(e, l) \
-  e = _mm512_maskz_permutexvar_pd(0xff, _mm512_set_epi64(7, 7, 6, 6, 5, 5, 4, 4), SLV_READ(l));
-#define SLV_PAIR(b, p) \
-  b = _mm512_castps_pd(_mm512_maskz_broadcast_f32x4(0xffff, _mm_castpd_ps(_mm_loadu_pd(p))));
-
-#define SLW_TAKES_FLOATS
-#define SLV_SPREAD_0(s) _mm512_set1_pd(s)
-#define SLV_SPREAD_1(s) _mm512_maskz_cvtps_pd(0xff, _mm256_set1_ps(s))
-#define SLV_SPREAD(s) SLI_BY_TYPE(SLV_SPREAD_, SLV_SINGLE)(s)
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#endif
-
-#ifdef SLI_SECTION_LANES_AVX512
-#undef SLI_SECTION_LANES_AVX512
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/lanes_avx512.inl.h: the vocabulary SLW_ in AVX-512F, for SLW_NRHS right-hand sides */
-
-#if SLW_NRHS == 8
-#define SLW_NAME(f) sli_##f##8_avx512
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m512d a;
-#define SLW_ZERO(a) a = _mm512_setzero_pd();
-#define SLW_LOAD(a, p) a = _mm512_loadu_pd(p);
-#define SLW_STORE(p, a) _mm512_storeu_pd((p), a);
-#define SLW_FNMA(a, s, b) a = _mm512_fnmadd_pd(SLV_SPREAD(s), b, a);
-#define SLW_ADD(a, b) a = _mm512_add_pd(a, b);
-#define SLW_DIVIDE(a, s) a = _mm512_div_pd(a, _mm512_set1_pd(s));
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#elif SLW_NRHS == 16
-#define SLW_NAME(f) sli_##f##16_avx512
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) __m512d a##_0, a##_1;
-#define SLW_ZERO(a) a##_0 = a##_1 = _mm512_setzero_pd();
-#define SLW_LOAD(a, p) a##_0 = _mm512_loadu_pd(p), a##_1 = _mm512_loadu_pd((p) + 8);
-#define SLW_STORE(p, a) _mm512_storeu_pd((p), a##_0), _mm512_storeu_pd((p) + 8, a##_1);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const __m512d s_ = SLV_SPREAD(s); \
-    a##_0 = _mm512_fnmadd_pd(s_, b##_0, a##_0); \
-    a##_1 = _mm512_fnmadd_pd(s_, b##_1, a##_1); \
-  }
-#define SLW_ADD(a, b) a##_0 = _mm512_add_pd(a##_0, b##_0), a##_1 = _mm512_add_pd(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) \
-  a##_0 = _mm512_div_pd(a##_0, _mm512_set1_pd(s)), \
-  a##_1 = _mm512_div_pd(a##_1, _mm512_set1_pd(s));
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#endif
-#endif
-
-#ifdef SLI_SECTION_WORDS_NEON
-#undef SLI_SECTION_WORDS_NEON
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/words_neon.inl.h: the vocabulary SLV_ in NEON: a vector of 8 doubles is four registers */
-
-#define SLV_NAME(f) sli_##f##_neon
-#define SLV_ISA SL_ISA_NEON
-#define SLV_FUNCTION
-#define SLV_FNMA1(a, b, c) SLI_FNMA1(a, b, c)
-#define SLV_DECLARE(a) float64x2_t a##_0, a##_1, a##_2, a##_3;
-#define SLV_ZERO(a) a##_0 = a##_1 = a##_2 = a##_3 = vdupq_n_f64(0.0);
-#define SLV_LOAD(a, p) \
-  a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2), a##_2 = vld1q_f64((p) + 4), \
-  a##_3 = vld1q_f64((p) + 6);
-#define SLV_STORE(p, a) \
-  vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1), vst1q_f64((p) + 4, a##_2), \
-    vst1q_f64((p) + 6, a##_3);
-#define SLV_ADD(a, b) \
-  a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1), \
-  a##_2 = vaddq_f64(a##_2, b##_2), a##_3 = vaddq_f64(a##_3, b##_3);
-#define SLV_READ_0(l) vld1q_f64(l)
-#define SLV_READ_1(l) vcvt_f64_f32(vld1_f32(l))
-#define SLV_WIDEN_ROWS(v, l, rows) \
-  { \
-    int i_; \
-    for (i_ = 0; i_ < (rows); i_ += 2) { \
-      vst1q_f64((v) + i_, vcvt_f64_f32(vld1_f32((l) + i_))); \
-    } \
-  }
-#define SLV_AXPY(a, l, p) \
-  { \
-    const float64x2_t s_ = vld1q_dup_f64(p); \
-    a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), s_); \
-    a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), s_); \
-    a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), s_); \
-    a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), s_); \
-  }
-#define SLV_DOT(a, l, v) \
-  a##_0 = vfmsq_f64(a##_0, SLV_READ((l) + 0), v##_0), \
-  a##_1 = vfmsq_f64(a##_1, SLV_READ((l) + 2), v##_1), \
-  a##_2 = vfmsq_f64(a##_2, SLV_READ((l) + 4), v##_2), \
-  a##_3 = vfmsq_f64(a##_3, SLV_READ((l) + 6), v##_3);
-#define SLV_STORE_ANY(p, a) SLV_STORE(p, a)
-#define SLV_TURN_2(a, re, im) vcombine_f64(re(vget_high_f64(a)), im(vget_low_f64(a)))
-#define SLV_SAME(a) (a)
-#define SLV_TURN(a, b) \
-  a##_0 = SLV_TURN_2(b##_0, vneg_f64, SLV_SAME), a##_1 = SLV_TURN_2(b##_1, vneg_f64, SLV_SAME), \
-  a##_2 = SLV_TURN_2(b##_2, vneg_f64, SLV_SAME), a##_3 = SLV_TURN_2(b##_3, vneg_f64, SLV_SAME);
-#define SLV_TURN_BACK(a, b) \
-  a##_0 = SLV_TURN_2(b##_0, SLV_SAME, vneg_f64), a##_1 = SLV_TURN_2(b##_1, SLV_SAME, vneg_f64), \
-  a##_2 = SLV_TURN_2(b##_2, SLV_SAME, vneg_f64), a##_3 = SLV_TURN_2(b##_3, SLV_SAME, vneg_f64);
-#define SLV_FNMA(a, b, c) \
-  a##_0 = vfmsq_f64(a##_0, b##_0, c##_0), a##_1 = vfmsq_f64(a##_1, b##_1, c##_1), \
-  a##_2 = vfmsq_f64(a##_2, b##_2, c##_2), a##_3 = vfmsq_f64(a##_3, b##_3, c##_3);
-#define SLV_LOAD_PART(a, p, count, rest) \
-  { \
-    double part_[SLI_TILE]; \
-    sl_int i_; \
-    for (i_ = 0; i_ < SLI_TILE; i_++) { \
-      part_[i_] = i_ < (count) ? (p)[i_] : (rest); \
-    } \
-    SLV_LOAD(a, part_) \
-  }
-#define SLV_FIRST(a, count) \
-  { \
-    double part_[SLI_TILE]; \
-    sl_int i_; \
-    SLV_STORE(part_, a) \
-    for (i_ = (count); i_ < SLI_TILE; i_++) { \
-      part_[i_] = 0.0; \
-    } \
-    SLV_LOAD(a, part_) \
-  }
-#define SLV_LANE(b, a, k) \
-  b##_0 = b##_1 = b##_2 = b##_3 = vdupq_n_f64(vgetq_lane_f64((k) < 2   ? a##_0 \
-                                 : (k) < 4 ? a##_1 \
-                                 : (k) < 6 ? a##_2 \
-                                     : a##_3, \
-                                 (k) % 2));
-#define SLV_GATHER_2(x, i, j) vcombine_f64(vld1_f64((x) + (i)), vld1_f64((x) + (j)))
-#define SLV_GATHER(a, x, at) \
-  a##_0 = SLV_GATHER_2(x, at(0), at(1)), a##_1 = SLV_GATHER_2(x, at(2), at(3)), \
-  a##_2 = SLV_GATHER_2(x, at(4), at(5)), a##_3 = SLV_GATHER_2(x, at(6), at(7));
-#define SLV_SUM_DECLARE(a) float64x2_t a;
-#define SLV_SUM_ZERO(a) a = vdupq_n_f64(0.0);
-#define SLV_SUM_LOAD(a, p) a = vld1q_f64(p);
-#define SLV_SUM_STORE(p, a) vst1q_f64((p), a);
-#define SLV_SUM_DOT(a, l, v) \
-  a = vfmsq_f64(a, SLV_READ((l) + 0), v##_0); \
-  a = vfmsq_f64(a, SLV_READ((l) + 2), v##_1); \
-  a = vfmsq_f64(a, SLV_READ((l) + 4), v##_2); \
-  a = vfmsq_f64(a, SLV_READ((l) + 6), v##_3);
-#define SLV_SUMS(r, a) \
-  r##_0 = vpaddq_f64(a##0, a##1), r##_1 = vpaddq_f64(a##2, a##3), \
-  r##_2 = vpaddq_f64(a##4, a##5), r##_3 = vpaddq_f64(a##6, a##7);
-#define SLV_TRANSPOSE(to, from) \
-  { \
-    int i_, k_; \
-    for (i_ = 0; i_ < SLI_TILE; i_ += 2) { \
-      for (k_ = 0; k_ < SLI_TILE; k_ += 2) { \
-        const float64x2_t low_ = vld1q_f64((from) + SLI_TILE * k_ + i_); \
-        const float64x2_t high_ = vld1q_f64((from) + SLI_TILE * (k_ + 1) + i_); \
-        vst1q_f64((to) + SLI_TILE * i_ + k_, vtrn1q_f64(low_, high_)); \
-        vst1q_f64((to) + SLI_TILE * (i_ + 1) + k_, vtrn2q_f64(low_, high_)); \
-      } \
-    } \
-  }
-#define SLV_TILES 1
-#define SLV_COLUMNS 4
-#define SLV_EACH_COLUMN SLI_EACH4
-#define SLV_LOAD_PINNED(a, p) SLV_LOAD(a, p)
-#define SLV_BROADCAST(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_dup_f64(p);
-#define SLV_MULTIPLY(a, b, c) \
-  a##_0 = vmulq_f64(b##_0, c##_0), a##_1 = vmulq_f64(b##_1, c##_1), \
-  a##_2 = vmulq_f64(b##_2, c##_2), a##_3 = vmulq_f64(b##_3, c##_3);
-#define SLV_DIVIDE(a, b, c) \
-  a##_0 = vdivq_f64(b##_0, c##_0), a##_1 = vdivq_f64(b##_1, c##_1), \
-  a##_2 = vdivq_f64(b##_2, c##_2), a##_3 = vdivq_f64(b##_3, c##_3);
-#define SLV_BELOW_2(a, k) \
-  a = vreinterpretq_f64_u64(vandq_u64(vreinterpretq_u64_f64(a), \
-                    vcombine_u64(vcreate_u64((k) < 0 ? ~(uint64_t)0 : 0), \
-                           vcreate_u64((k) < 1 ? ~(uint64_t)0 : 0))));
-#define SLV_BELOW(a, k) \
-  SLV_BELOW_2(a##_0, k) \
-  SLV_BELOW_2(a##_1, (k)-2) SLV_BELOW_2(a##_2, (k)-4) SLV_BELOW_2(a##_3, (k)-6)
-#define SLV_EXPAND SLI_EXPAND_PLAIN
-#define SLV_EXPAND_ADD SLI_EXPAND_ADD_PLAIN
-#define SLV_DUP_LOW(e, l) \
-  e##_0 = vdupq_n_f64((l)[0]), e##_1 = vdupq_n_f64((l)[1]), e##_2 = vdupq_n_f64((l)[2]), \
-  e##_3 = vdupq_n_f64((l)[3]);
-#define SLV_DUP_HIGH(e, l) SLV_DUP_LOW(e, (l) + 4)
-#define SLV_PAIR(b, p) b##_0 = b##_1 = b##_2 = b##_3 = vld1q_f64(p);
-#define SLV_STREAM(p, a) SLV_STORE(p, a)
-#define SLV_STREAM_END
-#define SLV_VECTOR_TILES 1
-#define SLV_LOAD_TILES(a, p, q) SLV_LOAD(a, p)
-#define SLV_STORE_TILES(p, q, a) SLV_STORE(p, a)
-#define SLV_NAME_4(f) SLV_NAME(f##4)
-#define SLV_NAME_2(f) SLV_NAME(f##2)
-#define SLV_NAME_SMALL SLV_NAME
-#define SLV_OWN_SMALL
-#define SLV_NAME_PIVOTS SLV_NAME
-#define SLV_OWN_PIVOTS
-#endif
-
-#ifdef SLI_SECTION_LANES_NEON
-#undef SLI_SECTION_LANES_NEON
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/kernels/lanes_neon.inl.h: the vocabulary SLW_ in NEON, for SLW_NRHS right-hand sides */
-
-#if SLW_NRHS == 2
-#define SLW_NAME(f) sli_##f##2_neon
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) float64x2_t a;
-#define SLW_ZERO(a) a = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p) a = vld1q_f64(p);
-#define SLW_STORE(p, a) vst1q_f64((p), a);
-#define SLW_FNMA(a, s, b) a = vfmsq_f64(a, vdupq_n_f64(s), b);
-#define SLW_ADD(a, b) a = vaddq_f64(a, b);
-#define SLW_DIVIDE(a, s) a = vdivq_f64(a, vdupq_n_f64(s));
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#elif SLW_NRHS == 4
-#define SLW_NAME(f) sli_##f##4_neon
-#define SLW_ROWS 8
-#define SLW_DECLARE(a) float64x2_t a##_0, a##_1;
-#define SLW_ZERO(a) a##_0 = a##_1 = vdupq_n_f64(0.0);
-#define SLW_LOAD(a, p) a##_0 = vld1q_f64((p) + 0), a##_1 = vld1q_f64((p) + 2);
-#define SLW_STORE(p, a) vst1q_f64((p) + 0, a##_0), vst1q_f64((p) + 2, a##_1);
-#define SLW_FNMA(a, s, b) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
-  }
-#define SLW_ADD(a, b) a##_0 = vaddq_f64(a##_0, b##_0), a##_1 = vaddq_f64(a##_1, b##_1);
-#define SLW_DIVIDE(a, s) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vdivq_f64(a##_0, s_); \
-    a##_1 = vdivq_f64(a##_1, s_); \
-  }
-#define SLW_EACH SLI_EACH8
-#define SLW_EACH_AGAIN SLI_EACH8_AGAIN
-#define SLW_HIGH SLI_HIGH8
-#define SLW_LOW SLI_LOW8
-#elif SLW_NRHS == 8
-#define SLW_NAME(f) sli_##f##8_neon
-#define SLW_HALF(f) sli_##f##4_neon
-#define SLW_ROWS 4
-#define SLW_DECLARE(a) SLV_DECLARE(a)
-#define SLW_ZERO(a) SLV_ZERO(a)
-#define SLW_LOAD(a, p) SLV_LOAD(a, p)
-#define SLW_STORE(p, a) SLV_STORE(p, a)
-#define SLW_FNMA(a, s, b) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vfmsq_f64(a##_0, s_, b##_0); \
-    a##_1 = vfmsq_f64(a##_1, s_, b##_1); \
-    a##_2 = vfmsq_f64(a##_2, s_, b##_2); \
-    a##_3 = vfmsq_f64(a##_3, s_, b##_3); \
-  }
-#define SLW_ADD(a, b) SLV_ADD(a, b)
-#define SLW_DIVIDE(a, s) \
-  { \
-    const float64x2_t s_ = vdupq_n_f64(s); \
-    a##_0 = vdivq_f64(a##_0, s_); \
-    a##_1 = vdivq_f64(a##_1, s_); \
-    a##_2 = vdivq_f64(a##_2, s_); \
-    a##_3 = vdivq_f64(a##_3, s_); \
-  }
-#define SLW_EACH SLI_EACH4
-#define SLW_EACH_AGAIN SLI_EACH4_AGAIN
-#define SLW_HIGH SLI_HIGH4
-#define SLW_LOW SLI_LOW4
-#endif
-#endif
-
-#ifdef SLI_SECTION_FRONTS
-#undef SLI_SECTION_FRONTS
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/factor/fronts.inl.h: the fronts of the supernodal factorization, for one type of numbers */
-
-SLI_INLINE SLF_VALUE *SLF_NAME(update_matrix)(const sl_factor *F, sl_int s, sl_int worker) {
-  const sl_off begin = F->schedule.stack_begin[s], own = F->schedule.own;
-  const sl_off at = begin < own ? begin + worker * own : begin;
-  return (SLF_VALUE *)F->work.stack + (at >> SLF_HALF);
-}
-
-SLI_INLINE sli_front SLF_NAME(front_of)(const sl_factor *F, sl_int s, sl_int worker) {
-  sli_front f = SLF_BEGIN(F, s, worker);
-  SLF_OF(&f, update) = SLF_NAME(update_matrix)(F, s, worker);
-  return f;
-}
-
-static void SLF_NAME(front_clear)(const sli_front *f, sl_int t0, sl_int t1) {
-  const sl_int w = f->width, whole = w / SLI_TILE, u0 = sli_max(t0 - whole, 0);
-  const sl_off from = sli_tile_offset(w, t0), size = sli_tile_offset(w, t1) - from;
-  const sl_off at = sli_triangle_offset(u0), end = sli_triangle_offset(t1 - whole);
-  memset(SLF_OF(f, panel) + (from >> SLF_HALF), 0,
-       (size_t)(size >> SLF_HALF) * sizeof(SLF_VALUE));
-  if (f->below > 0 && t1 > whole) {
-    memset(SLF_OF(f, update) + (at >> SLF_HALF), 0,
-         (size_t)((end - at) >> SLF_HALF) * sizeof(SLF_VALUE));
-  }
-}
-
-SLI_ALWAYS_INLINE sl_status SLF_NAME(panel_add)(const sl_factor *F, sl_int s, SLF_VALUE *panel,
-                        const sli_loading *e, uint64_t *marks,
-                        sli_failure *failure) {
-  const sl_off *to = F->S->scatter_to, begin = F->S->steps[s].panel;
-  const sl_off ahead = F->S->scatter_begin[F->S->n_supers] - SLI_ENTRIES_AHEAD;
-  const double *x = e->x;
-  const sl_int *scatter_from = e->scatter_from;
-  double largest = F->extents[s].entry;
-  uint64_t mark = 0;
-  sl_off m;
-  for (m = e->first; m < e->last; m++) {
-    if (scatter_from != NULL && m < ahead) { /* untested: constant */
-      SLI_PREFETCH(x + scatter_from[m + SLI_ENTRIES_AHEAD], 0);
-    }
-    const double a =
-      scatter_from != NULL ? x[scatter_from[m]] : x[m - e->first]; /* untested: constant */
-    const double size = fabs(a);
-#if SLF_SINGLE
-    if (!(size <= SLI_SINGLE_MOST)) {
-      return sli_fail(failure, sli_is_finite(a) ? SL_ERR_INACCURATE : SL_ERR_NOT_FINITE, s,
-              -1, m, a);
-    }
-    panel[to[m] - begin] += sli_single(a);
-#else
-    if (!(size <= DBL_MAX)) {
-      return sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
-    }
-#if SLF_HALF
-    if ((to[m] & SLI_TILE) == 0) {
-      panel[sli_half_at(to[m] - begin)] += a;
-    }
-#else
-    panel[to[m] - begin] += a;
-#endif
-    if (marks != NULL) { /* untested: constant where entries are summed */
-      mark += sli_mark_entry(a, to[m] - begin);
-    }
-#endif
-    largest = size > largest ? size : largest;
-  }
-  F->extents[s].entry = largest;
-  if (marks != NULL) { /* untested: the same */
-    marks[s] += mark;
-  }
-  return SL_OK;
-}
-
-static sl_status SLF_NAME(panel_load)(const sl_factor *F, const sli_source *from, sl_int s,
-                    SLF_VALUE *panel, sli_failure *failure) {
-  const sl_symbolic *S = F->S;
-  const sl_off end = S->scatter_begin[s + 1];
-  sli_loading e;
-  sl_status status = SL_OK;
-  sli_panel_begin(F, s);
-  e.first = S->scatter_begin[s];
-  if (from->A != NULL) {
-    e.x = from->A->x;
-    e.scatter_from = S->scatter_from;
-    e.last = end;
-    return SLF_NAME(panel_add)(F, s, panel, &e, SLF_SINGLE ? NULL : F->history.marks, failure);
-  }
-  e.scatter_from = NULL;
-  for (; e.first < end && status == SL_OK; e.first = e.last) {
-    double sums[SLI_SUM_ENTRIES];
-    e.last = end - e.first < SLI_SUM_ENTRIES ? end : e.first + SLI_SUM_ENTRIES;
-    e.x = sums;
-    sli_source_sum(from, e.first, (sl_int)(e.last - e.first), sums);
-    status = SLF_NAME(panel_add)(F, s, panel, &e, NULL, failure);
-  }
-  return status;
-}
-
-static sl_status SLF_NAME(front_load)(sl_factor *F, const sli_source *from, const sli_front *f,
-                    sli_failure *failure) {
-  SLF_VALUE *panel = SLF_OF(f, panel), *magnitude = SLF_OF(f, magnitude);
-  const sl_status status = SLF_NAME(panel_load)(F, from, f->super, panel, failure);
-  const sl_int w = f->width, rows = SLI_TILE * sli_front_tiles(f);
-  sl_int k;
-  for (k = 0; k < rows; k++) {
-    magnitude[k] = 0;
-  }
-#if SLF_HALF
-  for (k = 0; k < w; k += 2) {
-    magnitude[k] = fabs(panel[sli_half_at(sli_panel_at(w, k, k))]);
-  }
-#else
-  for (k = 0; k < w; k += SLI_TILE) {
-    const SLF_VALUE *tile = panel + sli_panel_at(w, k, k);
-    const sl_int columns = sli_min(SLI_TILE, w - k);
-    sl_int r;
-    for (r = 0; r < columns; r++) {
-      magnitude[k + r] = (SLF_VALUE)fabs(tile[(SLI_TILE + 1) * r]);
-    }
-  }
-#endif
-  return status;
-}
-
-static void SLF_NAME(front_assemble)(const sl_factor *F, const sli_front *f, sl_int worker,
-                   sl_int t0, sl_int t1) {
-  const sl_symbolic *S = F->S;
-  const sl_int tiles = sli_front_tiles(f);
-  sl_int c, k;
-  for (c = f->super - 1; c >= S->first_descendant[f->super]; c = S->first_descendant[c] - 1) {
-    const sli_step *child = &S->steps[c];
-    const sl_int *relative = S->relative + S->rows_begin[c];
-    const SLF_VALUE *from = SLF_NAME(update_matrix)(F, c, worker);
-    const sl_off magnitudes = child->width % SLI_TILE +
-                  sli_triangle_offset(sli_update_tiles(child->width, child->below));
-    const SLF_VALUE *magnitude = from + (magnitudes >> SLF_HALF);
-    const sl_int first = t0 == 0 ? 0 : sli_lower_bound(relative, child->below, SLI_TILE * t0);
-    const sl_int last =
-      t1 == tiles ? child->below : sli_lower_bound(relative, child->below, SLI_TILE * t1);
-    F->front->assemble(f, from, child->width % SLI_TILE, relative, child->below, first, last);
-    for (k = first; k < last; k += 1 + SLF_HALF) {
-      SLF_OF(f, magnitude)[relative[k]] += magnitude[k >> SLF_HALF];
-    }
-  }
-}
-
-static void SLF_NAME(front_hand_over)(const sli_front *f) {
-  const sl_int tiles = sli_update_tiles(f->width, f->below), rows = SLI_TILE * tiles;
-  const SLF_VALUE *from = SLF_OF(f, magnitude) + SLI_TILE * (ptrdiff_t)(f->width / SLI_TILE);
-  SLF_VALUE *to = SLF_OF(f, update) + (sli_triangle_offset(tiles) >> SLF_HALF);
-  sl_int k;
-  for (k = 0; k < rows; k += 1 + SLF_HALF) {
-#if SLF_HALF
-    to[k / 2] = from[k] + from[k + 1];
-#else
-    to[k] = from[k];
-#endif
-  }
-}
-
-static sl_status SLF_NAME(front_check)(const sl_factor *F, const sli_front *f,
-                     sli_failure *failure) {
-  sl_status status = SL_OK;
-  sl_int k;
-#if SLF_SINGLE
-  for (k = 0; k < f->width && status == SL_OK; k++) {
-    status = sli_check_single(F, f, k, failure);
-  }
-#else
-  const sl_int count = sli_front_is_regular(F, f, f->super) ? 0 : f->width;
-  for (k = 0; k < count && status == SL_OK; k++) {
-    status =
-      f->pairs != NULL && f->pairs[k] != SLI_PAIR_NONE
-        ? sli_check_pair(F, f->super, f->column + k, f->magnitude + k, failure)
-        : sli_check_pivot(F, f->super, f->column + k, f->D[k], f->magnitude[k], failure);
-  }
-  if (status == SL_OK && F->type->store != NULL) {
-    status = F->type->store(F, f, failure);
-  }
-#endif
-  return status;
-}
-
-static sl_status SLF_NAME(front_finish)(const sl_factor *F, const sli_front *f,
-                    sli_failure *failure) {
-  SLF_NAME(front_hand_over)(f);
-  return SLF_NAME(front_check)(F, f, failure);
-}
-
-static sl_status SLF_NAME(front_factor)(sl_factor *F, const sli_source *from, sl_int s,
-                    sl_int worker, sli_failure *failure) {
-  sli_front f = SLF_NAME(front_of)(F, s, worker);
-  const sl_int tiles = sli_front_tiles(&f);
-  double *scratch = F->work.buffer + (ptrdiff_t)worker * sli_front_scratch(F->S->widest);
-  sl_status status;
-  f.is_small = tiles == 1 && f.pairs == NULL && !SLF_HALF;
-#if !SLF_SINGLE
-  if (f.is_small) {
-    sli_front_clear_small(&f);
-  } else
-#endif
-  {
-    SLF_NAME(front_clear)(&f, 0, tiles);
-  }
-  status = SLF_NAME(front_load)(F, from, &f, failure);
-  if (status != SL_OK) {
-    return status;
-  }
-  SLF_NAME(front_assemble)(F, &f, worker, 0, tiles);
-  sli_front_eliminate(F->front, &f, scratch);
-  sli_front_update(F->front, &f, scratch);
-  SLF_NAME(front_hand_over)(&f);
-  return SLF_NAME(front_check)(F, &f, failure);
-}
-
-static sl_status SLF_NAME(factor)(sl_factor *F, const sli_source *from, sl_int first, sl_int last,
-                  sl_int worker, sli_failure *failure) {
-  sl_status status = SL_OK;
-  sl_int s;
-  for (s = first; s <= last && status == SL_OK; s++) {
-    if (sli_is_copied(F, s)) {
-      F->work.copied->copy(F, s, worker);
-    } else {
-      status = SLF_NAME(front_factor)(F, from, s, worker, failure);
-    }
-  }
-  return status;
-}
-#endif
-
-#ifdef SLI_SECTION_FRONTS_UNDEF
-#undef SLI_SECTION_FRONTS_UNDEF
-#if SL_VERSION_MAJOR != 0 || \
-     SL_VERSION_MINOR != 1 || \
-     SL_VERSION_PATCH != 0
-#error "sparse_local.h: SL_HEADER names another version of the header"
-#endif
-/* src/impl/factor/fronts_undef.inl.h: undefines the parameters of fronts.inl.h */
-
-#undef SLF_NAME
-#undef SLF_VALUE
-#undef SLF_SINGLE
-#undef SLF_HALF
-#undef SLF_OF
-#undef SLF_BEGIN
 #endif
 
 /*

@@ -75,7 +75,8 @@ size_t banner(text *out, const job *j, size_t shift);
 void self_include(job *j);
 
 /* Adds a template to the batch. Sections are compiled in the order in which they are in OUT: one
- * that comes before the last of the batch begins another batch. */
+ * that comes before the last of the batch begins another batch. A new one follows the last of the
+ * batch; where it begins one, as the words of an instruction set do, it comes before all others. */
 void add_to_batch(job *j, const char *path);
 
 /* Emits the templates, each in a section of its own. The file that is found by SL_HEADER may be

@@ -75,7 +75,7 @@ void add_to_batch(job *j, const char *path) {
     size_t last = j->n_batch > 0 ? section_at(j, j->batch[j->n_batch - 1]) : j->n_sections;
     size_t at = section_at(j, path);
     if (at == j->n_sections) {
-        add_section(j, path, j->n_batch > 0 ? last + 1 : j->n_sections);
+        add_section(j, path, j->n_batch > 0 ? last + 1 : 0);
     } else if (j->n_batch > 0 && at <= last) {
         self_include(j);
     }

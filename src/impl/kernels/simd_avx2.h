@@ -56,8 +56,8 @@ SLI_TARGET("avx2,fma") SLI_INLINE __m256d sli_expand_4(__m256d a, __m256i index,
 #define SLW_NRHS 4
 #include "words_avx2.inl.h"
 #include "lanes_avx2.inl.h"
-#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "front.inl.h"
 #include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs_tiles.inl.h"

@@ -15,8 +15,8 @@
 #define SLW_NRHS 8
 #include "words_avx512.inl.h"
 #include "lanes_avx512.inl.h"
-#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "front.inl.h"
 #include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs_tiles.inl.h"

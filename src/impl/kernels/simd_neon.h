@@ -12,8 +12,8 @@
 #define SLW_NRHS 4
 #include "words_neon.inl.h"
 #include "lanes_neon.inl.h"
-#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "front.inl.h"
 #include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs_tiles.inl.h"

@@ -13,8 +13,8 @@
 #define SLW_GROUPS 32
 #include "words_scalar.inl.h"
 #include "lanes_scalar.inl.h"
-#include "front.inl.h"
 #include "copy_rows.inl.h"
+#include "front.inl.h"
 #include "sweeps.inl.h"
 #include "multi_rhs.inl.h"
 #include "multi_rhs_tiles.inl.h"
