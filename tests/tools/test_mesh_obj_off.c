@@ -22,6 +22,8 @@ static void obj_variants_are_read(void **state) {
     assert_is_pyramid(files_put_text("returns.obj",
                                      "v 0 0 0\r\nv 1 0 0\rv 1 1 0\r\nv 0 1 0\r\nv .5 .25 -2.5\r\n"
                                      "f 1 4 3 2\r\nf 1 2 5\r\nf 2 3 5\r\nf 3 4 5\r\nf 4 1 5\r\n"));
+    assert_is_pyramid(files_put_text("fo.obj", OBJ_VERTICES
+                                     "fo 1 4 3 2\nfo 1/1 2/2 5/3\nf 2 3 5\nfo 3 4 5\nf 4 1 5\n"));
 }
 
 static void obj_keeps_repeated_and_unused_vertices(void **state) {
@@ -83,6 +85,10 @@ static void off_variants_are_read(void **state) {
         "normals.off", "NOFF\n5 5 8\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n"
                        "0.5 0.25 -2.5 0 0 1\n" OFF_FACES));
     assert_is_pyramid(files_put_text("all.off", "STCNOFF\n5 5 8\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("small.off", "off\n5 5 8\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("small_color.off", "stcoff 5 5\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("glued.off", "OFF5 5 8\n" OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("glued.off", "cnoff5 5 8\n" OFF_VERTICES OFF_FACES));
     mesh m;
     assert_true(mesh_read(&m, files_put_text("empty.off", "OFF\n0 0 0\n"), NULL, 0));
     assert_int_equal(m.n_vertices, 0);
@@ -94,6 +100,9 @@ static void bad_off_files_are_refused(void **state) {
     assert_is_refused(files_put_text("a.off", ""), "empty");
     assert_is_refused(files_put_text("b.off", "hello\n"),
                       ":1: not an OFF mesh: begins with neither OFF nor a count");
+    assert_is_refused(files_put_text("b.off", "noff\n5 5 8\n"), "not an OFF mesh");
+    assert_is_refused(files_put_text("b.off", "4off\n5 5 8\n"), "three coordinates");
+    assert_is_refused(files_put_text("b.off", "OFFSET\n5 5 8\n"), "not an OFF mesh");
     assert_is_refused(files_put_text("c.off", "OFF BINARY\n5 5 0\n"), "binary");
     assert_is_refused(files_put_text("d.off", "4OFF\n5 5 0\n"), "three coordinates");
     assert_is_refused(files_put_text("e.off", "nOFF\n3\n5 5 0\n"), "three coordinates");
@@ -187,6 +196,32 @@ static void real_meshes_are_read(void **state) {
     dataset_free(&d);
 }
 
+/* Text that begins with a UTF-8 byte order mark, in every format. */
+static void byte_order_marks_are_skipped(void **state) {
+    (void)state;
+#define MARK "\xEF\xBB\xBF"
+    assert_is_pyramid(files_put_text("m.obj", MARK OBJ_VERTICES
+                                     "f 1 4 3 2\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"));
+    assert_is_pyramid(files_put_text("m.off", MARK OFF_TEXT));
+    assert_is_pyramid(files_put_text("m.ply", MARK PLY_ASCII_HEADER
+                                     "element vertex 5\nproperty float x\nproperty float y\n"
+                                     "property float z\n" PLY_FACE OFF_VERTICES OFF_FACES));
+    assert_is_pyramid(files_put_text("m.vtk", MARK "# vtk DataFile Version 3.0\nt\nASCII\n"
+                                                   "DATASET POLYDATA\nPOINTS 5 float\n" OFF_VERTICES
+                                                   "POLYGONS 5 21\n" OFF_FACES));
+    mesh m;
+    assert_true(mesh_read(&m,
+                          files_put_text("m.stl", MARK "solid\nvertex 0 0 0 vertex 1 0 0 "
+                                                       "vertex 0 1 0 endloop\nendsolid\n"),
+                          NULL, 0));
+    assert_true(m.n_vertices == 3 && m.n_faces == 1);
+    mesh_free(&m);
+    assert_true(
+        mesh_read(&m, files_put_text("m.gltf", MARK "{\"asset\":{\"version\":\"2.0\"}}"), NULL, 0));
+    mesh_free(&m);
+    assert_is_refused(files_put_text("m.obj", MARK), "no vertices");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(obj_variants_are_read),
@@ -194,6 +229,7 @@ int main(void) {
         cmocka_unit_test(bad_obj_files_are_refused),
         cmocka_unit_test(off_variants_are_read),
         cmocka_unit_test(bad_off_files_are_refused),
+        cmocka_unit_test(byte_order_marks_are_skipped),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(real_meshes_are_read),
     };

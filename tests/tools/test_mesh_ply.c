@@ -73,6 +73,44 @@ static void rows_are_told_from_lines(void **state) {
     assert_is_refused(path, ":12: vertex 1: fewer values in its line");
 }
 
+/* Strips alternate and begin anew after -1; strips of fewer than three corners have no triangle. */
+static void strips_are_read(void **state) {
+    (void)state;
+    static const sl_int expected[12] = {0, 1, 2, 2, 1, 3, 1, 2, 4, 0, 4, 3};
+    mesh m;
+    char message[300], note[300];
+#define STRIPS(type) "element tristrips 2\nproperty list int " type " vertex_indices\nend_header\n"
+    const char *path = files_put_text("s.ply", PLY_ASCII_HEADER PLY_XYZ STRIPS("int") OFF_VERTICES
+                                      "11 0 1 2 3 -1 1 2 4 -1 0 1\n5 2 -1 0 4 3\n");
+    assert_true(mesh_read_noting(&m, path, message, sizeof message, note, sizeof note));
+    assert_string_equal(note, "");
+    assert_int_equal(m.n_faces, 4);
+    assert_memory_equal(m.faces, expected, sizeof expected);
+    mesh_free(&m);
+    assert_is_refused(files_put_text("s.ply", PLY_ASCII_HEADER PLY_XYZ STRIPS("int") OFF_VERTICES
+                                     "3 0 1 -2\n0\n"),
+                      "tristrips 0: -2 is not a vertex index");
+    assert_is_refused(files_put_text("s.ply", PLY_ASCII_HEADER PLY_XYZ
+                                     "element tristrips 1\nproperty int a\nend_header\n"),
+                      "element tristrips must have one list vertex_indices");
+}
+
+/* Elements that are skipped are named. */
+static void skipped_elements_are_noted(void **state) {
+    (void)state;
+    const char *path = files_put_text("e.ply", PLY_ASCII_HEADER PLY_XYZ
+                                      "element edge 2\nproperty int a\nelement none 0\n"
+                                      "element camera 1\nproperty int b\n" PLY_FACE OFF_VERTICES
+                                      "1\n2\n3\n" OFF_FACES);
+    assert_is_noted(path, "element edge is ignored, 2 rows; element camera is ignored, 1 rows");
+    char text[2000] = PLY_ASCII_HEADER PLY_XYZ;
+    for (int k = 0; k < 16; k++) {
+        (void)strcat(text, "element fifteen_letters 1\nproperty int a\n");
+    }
+    (void)strcat(text, PLY_FACE OFF_VERTICES "1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n" OFF_FACES);
+    assert_is_noted(files_put_text("e.ply", text), "element fifteen_letters is ignored, 1 rows; ");
+}
+
 static void binary_variants_are_read(void **state) {
     (void)state;
     static const struct {
@@ -225,6 +263,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ascii_variants_are_read),
         cmocka_unit_test(rows_are_told_from_lines),
+        cmocka_unit_test(strips_are_read),
+        cmocka_unit_test(skipped_elements_are_noted),
         cmocka_unit_test(binary_variants_are_read),
         cmocka_unit_test(property_types_keep_their_sign),
         cmocka_unit_test(data_that_look_like_a_line_end_are_read),

@@ -69,6 +69,28 @@ static void both_formats_are_read(void **state) {
     assert_stl_pyramid(files_put_gz("c.stl.gz", solid.bytes, solid.length));
 }
 
+/* Bytes behind the last triangle are ignored and noted, also if the header begins like text. */
+static void trailing_bytes_are_noted(void **state) {
+    (void)state;
+    static const char *const titles[3] = {"made by hand", "solid but binary", "solid"};
+    for (int k = 0; k < 3; k++) {
+        binary_t b = stl_binary(titles[k], 6);
+        char message[300], note[300];
+        mesh m;
+        put_text(&b, "\n\r\n");
+        const char *path = files_put("t.stl", b.bytes, b.length);
+        assert_stl_pyramid(path);
+        assert_true(mesh_read_noting(&m, path, message, sizeof message, note, sizeof note));
+        assert_non_null(strstr(note, "t.stl: 3 bytes follow the last of 6 triangles"));
+        mesh_free(&m);
+        b = stl_binary(titles[k], 7);
+        assert_is_refused(files_put("t.stl", b.bytes, b.length),
+                          "binary STL of 7 triangles: 384 bytes");
+        b = stl_binary(titles[k], 0);
+        assert_is_refused(files_put("t.stl", b.bytes, b.length), "binary STL of 0 triangles");
+    }
+}
+
 static void ascii_variants_are_read(void **state) {
     (void)state;
     assert_stl_pyramid(files_put_text(
@@ -140,6 +162,7 @@ static void damaged_files_are_refused_or_read(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_formats_are_read),
+        cmocka_unit_test(trailing_bytes_are_noted),
         cmocka_unit_test(ascii_variants_are_read),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(damaged_files_are_refused_or_read),

@@ -61,7 +61,7 @@ static bool read_content(input *in, gzFile file) {
         }
     }
     in->data[length] = '\0';
-    in->at = in->data;
+    in->at = in->data + (strncmp(in->data, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0);
     in->end = in->data + length;
     return true;
 }

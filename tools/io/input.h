@@ -29,7 +29,7 @@ typedef struct input {
     size_t message_size;
 } input;
 
-/** Reads a file into memory and places the cursor at its beginning.
+/** Reads a file into memory and places the cursor at its beginning, after a UTF-8 byte order mark.
  *
  *  in       [out]  release with input_close; nothing to release on error.
  *  path     [in]   borrowed until input_close.

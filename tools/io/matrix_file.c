@@ -49,7 +49,7 @@ static bool finish(sl_matrix **out, input *in, sl_status status) {
 static bool read_matrix_market(sl_matrix **out, input *in) {
     sl_stats stats;
     memset(&stats, 0, sizeof stats);
-    sl_status status = sl_matrix_parse(out, in->data, (size_t)(in->end - in->data), NULL, &stats);
+    sl_status status = sl_matrix_parse(out, in->at, (size_t)(in->end - in->at), NULL, &stats);
     in->line = status != SL_OK && stats.error.line > 0 ? stats.error.line : 0;
     return finish(out, in, status);
 }

@@ -83,7 +83,7 @@ static int64_t word_at(const char *bytes) {
  * document, then perhaps one binary chunk. */
 static bool read_container(gltf_file *f, const char **text, int64_t *length) {
     const int64_t document = 0x4E4F534A, binary = 0x004E4942; /* "JSON", "BIN" */
-    const char *at = f->in->data;
+    const char *at = f->in->at;
     int64_t left = f->in->end - at;
     if (left < 20 || word_at(at + 4) != 2) {
         return input_error(f->in, left < 20 ? "truncated in the header"
@@ -136,8 +136,8 @@ static bool check_extensions(const gltf_file *f) {
 }
 
 static bool read_document(gltf_file *f) {
-    const char *text = f->in->data;
-    int64_t length = f->in->end - f->in->data;
+    const char *text = f->in->at;
+    int64_t length = f->in->end - f->in->at;
     if (length >= 4 && memcmp(text, "glTF", 4) == 0 && !read_container(f, &text, &length)) {
         return false;
     }

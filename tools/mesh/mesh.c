@@ -139,12 +139,13 @@ bool mesh_build_strip(mesh_build *b) {
 }
 
 void mesh_build_note(mesh_build *b, const char *format, ...) {
-    if (b->note[0] == '\0') {
-        va_list list;
-        va_start(list, format);
-        (void)vsnprintf(b->note, sizeof b->note, format, list);
-        va_end(list);
-    }
+    const size_t used = strlen(b->note);
+    const size_t gap = used > 0 && used + 3 < sizeof b->note ? 2 : 0;
+    va_list list;
+    va_start(list, format);
+    memcpy(b->note + used, "; ", gap);
+    (void)vsnprintf(b->note + used + gap, sizeof b->note - used - gap, format, list);
+    va_end(list);
 }
 
 static bool indices_in_range(mesh_build *b) {

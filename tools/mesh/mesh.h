@@ -23,17 +23,19 @@ typedef struct mesh {
 /** Reads a triangle mesh. The file name selects the format: .obj .off .ply .stl .vtk .glb .gltf,
  *  plain or .gz.
  *
- *  OBJ  v and f lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back from the
+ *  OBJ  v, f and fo lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back from the
  *       latest vertex; a backslash continues a line. All other lines are ignored.
- *  OFF  ASCII. The first word is OFF, optionally with the prefixes ST, C and N, or is missing.
+ *  OFF  ASCII. The first word is OFF or off, optionally with the prefixes ST, C and N, or is missing.
  *       Comments are allowed. The counts are on the first line or on a line of their own. Each
  *       vertex and each face has its own line; anything after the coordinates or corners is
  *       ignored.
  *  PLY  1.0: ascii, binary_little_endian, binary_big_endian. Properties of any scalar type in any
- *       order; the corners are a list vertex_indices or vertex_index. Other elements and properties
- *       are ignored, as are values beyond the declared ones in the line of a row, which is noted.
+ *       order; the corners are a list vertex_indices or vertex_index of element face, or strips of
+ *       element tristrips, in which -1 begins a new strip. Other properties are ignored; other
+ *       elements too, which is noted, and values beyond the declared ones in the line of a row.
  *  STL  ASCII or binary; the file length decides which. Corners with equal coordinates become one
- *       vertex, numbered in order of first appearance. Normals and attributes are ignored.
+ *       vertex, numbered in order of first appearance. Normals and attributes are ignored, as are
+ *       bytes behind the last triangle of a binary file, which is noted.
  *
  *  VTK  Legacy polygonal data, ASCII or binary, versions 1 to 5: polygons and triangle strips.
  *       Lines, single vertices and data at points and cells are ignored.
@@ -64,8 +66,8 @@ bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
 
 /** The same, and tells what is odd about a file that can be read.
  *
- *  note  [out]  the first odd thing, with the file, note_size bytes; "" if there is none or on
- *               error; may be NULL with note_size 0.
+ *  note  [out]  the odd things, with the file, note_size bytes; "" if there is none or on error;
+ *               may be NULL with note_size 0.
  */
 bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message_size, char *note,
                       size_t note_size);

@@ -19,7 +19,7 @@ typedef struct mesh_build {
     int64_t largest_line; /* the line of that index; 0 for binary files */
     int64_t largest_face; /* the polygon of that index, counted from 0 */
     int64_t polygons;
-    char note[200]; /* the first of mesh_build_note */
+    char note[400]; /* of mesh_build_note, separated by semicolons */
 } mesh_build;
 
 /** Adds a vertex. Like the next two functions, sets the message of b->in and returns false on
@@ -58,7 +58,7 @@ bool mesh_build_weld(mesh_build *b, sl_int first_vertex, sl_int first_face);
  */
 bool mesh_build_strip(mesh_build *b);
 
-/** Notes what is odd about a file that can be read; only the first note is kept. */
+/** Notes what is odd about a file that can be read. A note beyond 400 bytes is cut. */
 void mesh_build_note(mesh_build *b, const char *format, ...) INPUT_PRINTF(2, 3);
 
 /* One reader per format. Each reads all of b->in into b; false: b->in has the message. */

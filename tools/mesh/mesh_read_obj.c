@@ -46,9 +46,11 @@ bool mesh_read_obj(mesh_build *b) {
     in->comment = '#';
     in->continuation = true;
     while (input_more(in)) {
-        char word[4]; /* longer keywords are truncated and match neither of the two below */
+        char word[4]; /* longer keywords are truncated and match none of the three below */
         input_word(in, word, sizeof word);
-        if (strcmp(word, "v") == 0 ? !read_vertex(b) : strcmp(word, "f") == 0 && !read_face(b)) {
+        /* fo: a face in files of before 1995 */
+        const bool is_face = strcmp(word, "f") == 0 || strcmp(word, "fo") == 0;
+        if (is_face ? !read_face(b) : strcmp(word, "v") == 0 && !read_vertex(b)) {
             return false;
         }
         if (!input_next_line(in)) {

@@ -3,9 +3,22 @@
 
 #include "mesh_build.h"
 
+/* Turns a word without capitals into capitals. "noff" remains as it is: it can be NOFF or nOFF. */
+static void raise_word(char *word) {
+    for (const char *c = word; *c != '\0'; c++) {
+        if ((*c >= 'A' && *c <= 'Z') || strcmp(word, "noff") == 0) {
+            return;
+        }
+    }
+    for (; *word != '\0'; word++) {
+        *word = *word >= 'a' && *word <= 'z' ? (char)(*word - 'a' + 'A') : *word;
+    }
+}
+
 /* Reads the first word, unless it is a number: it says what a vertex line contains. Texture, color
  * and normal follow x y z and are ignored with the rest of the line. Formats with 4 or n
- * coordinates are rejected because their x y z have another meaning. */
+ * coordinates are rejected because their x y z have another meaning. The first count may follow
+ * without a blank. */
 static bool read_keyword(mesh_build *b) {
     input *in = b->in;
     double ignored;
@@ -17,12 +30,17 @@ static bool read_keyword(mesh_build *b) {
     in->at = start;
     char word[16];
     input_word(in, word, sizeof word);
+    raise_word(word);
     const char *rest = word;
     rest += strncmp(rest, "ST", 2) == 0 ? 2 : 0;
     rest += *rest == 'C' ? 1 : 0;
     rest += *rest == 'N' ? 1 : 0;
     if (strcmp(rest, "4OFF") == 0 || strcmp(rest, "nOFF") == 0 || strcmp(rest, "4nOFF") == 0) {
         return input_error(in, "%s is not supported: vertices must have three coordinates", word);
+    }
+    if (strncmp(rest, "OFF", 3) == 0 && rest[3] >= '0' && rest[3] <= '9') {
+        in->at = strpbrk(start, "Ff") + 2; /* after OFF */
+        return true;
     }
     if (strcmp(rest, "OFF") != 0) {
         return input_error(in, "not an OFF mesh: begins with neither OFF nor a count");

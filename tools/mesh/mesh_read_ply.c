@@ -15,8 +15,9 @@ static const char *const type_names[2][8] = {
 static const scalar_type types[8] = {SCALAR_INT8,  SCALAR_UINT8,  SCALAR_INT16, SCALAR_UINT16,
                                      SCALAR_INT32, SCALAR_UINT32, SCALAR_FLOAT, SCALAR_DOUBLE};
 
-/* The role of a property in the mesh; 0, 1, 2 are the coordinates x, y, z. */
-enum { ROLE_NONE = -1, ROLE_CORNERS = 3 };
+/* The role of a property in the mesh; 0, 1, 2 are the coordinates x, y, z. A strip is a list of
+ * corners in which -1 begins a new strip. */
+enum { ROLE_NONE = -1, ROLE_CORNERS = 3, ROLE_STRIP = 4 };
 
 typedef struct ply_property {
     bool list;
@@ -90,7 +91,10 @@ static int role_of(const char *element, const char *property, bool list) {
     if (list) {
         bool corners =
             strcmp(property, "vertex_indices") == 0 || strcmp(property, "vertex_index") == 0;
-        return corners && strcmp(element, "face") == 0 ? ROLE_CORNERS : ROLE_NONE;
+        return !corners                            ? ROLE_NONE
+               : strcmp(element, "face") == 0      ? ROLE_CORNERS
+               : strcmp(element, "tristrips") == 0 ? ROLE_STRIP
+                                                   : ROLE_NONE;
     }
     bool coordinate = property[0] >= 'x' && property[0] <= 'z' && property[1] == '\0';
     return coordinate && strcmp(element, "vertex") == 0 ? property[0] - 'x' : ROLE_NONE;
@@ -150,6 +154,10 @@ static bool check_header(const ply *f) {
             !has_roles(f, e, ROLE_CORNERS, ROLE_CORNERS)) {
             return input_error(f->b->in, "element face must have one list vertex_indices");
         }
+        const bool strips = strcmp(e->name, "tristrips") == 0;
+        if (strips && e->count > 0 && !has_roles(f, e, ROLE_STRIP, ROLE_STRIP)) {
+            return input_error(f->b->in, "element tristrips must have one list vertex_indices");
+        }
         vertices = vertices || vertex;
     }
     return vertices || input_error(f->b->in, "not a mesh: there is no element vertex");
@@ -198,6 +206,27 @@ static bool read_scalar(ply *f, scalar_type type, double *x) {
     return scalar_read(f->b->in, f->ascii, type, f->big_endian, x);
 }
 
+/* Ends a strip of triangles; one of fewer than three corners has none. */
+static bool end_strip(mesh_build *b) {
+    if (b->n_corners < 3) {
+        b->n_corners = 0;
+        return true;
+    }
+    return mesh_build_strip(b);
+}
+
+/* Adds a corner to the current polygon or strip; -1 ends a strip. */
+static bool add_corner(ply *f, int role, double x, const char *element, int64_t number) {
+    if (role == ROLE_STRIP && x == -1) {
+        return end_strip(f->b);
+    }
+    if (!scalar_is_index(x)) {
+        return input_error(f->b->in, "%s %lld: %g is not a vertex index", element,
+                           (long long)number, x);
+    }
+    return mesh_build_corner(f->b, (int64_t)x);
+}
+
 /* Reads one property: coordinates into xyz, corners into the current polygon; others are
  * skipped. */
 static bool read_value(ply *f, const ply_property *p, const char *element, int64_t number,
@@ -214,12 +243,8 @@ static bool read_value(ply *f, const ply_property *p, const char *element, int64
             return input_error(in, "%s %lld: truncated, or not a number", element,
                                (long long)number);
         }
-        if (p->role == ROLE_CORNERS) {
-            if (!scalar_is_index(x)) {
-                return input_error(in, "%s %lld: %g is not a vertex index", element,
-                                   (long long)number, x);
-            }
-            if (!mesh_build_corner(f->b, (int64_t)x)) {
+        if (p->role >= ROLE_CORNERS) {
+            if (!add_corner(f, p->role, x, element, number)) {
                 return false;
             }
         } else if (p->role != ROLE_NONE) {
@@ -277,6 +302,10 @@ static bool read_instances(ply *f, const ply_element *e) {
     input *in = f->b->in;
     bool vertex = strcmp(e->name, "vertex") == 0;
     bool face = strcmp(e->name, "face") == 0;
+    bool strips = strcmp(e->name, "tristrips") == 0;
+    if (!vertex && !face && !strips && e->count > 0) {
+        mesh_build_note(f->b, "element %s is ignored, %lld rows", e->name, (long long)e->count);
+    }
     /* without properties there is nothing to read, whatever count the header claims */
     int64_t count = e->past > e->first ? e->count : 0;
     for (int64_t number = 0; number < count; number++) {
@@ -293,7 +322,7 @@ static bool read_instances(ply *f, const ply_element *e) {
         if (vertex && !mesh_build_vertex(f->b, xyz[0], xyz[1], xyz[2])) {
             return false;
         }
-        if (face && !mesh_build_polygon(f->b)) {
+        if ((face && !mesh_build_polygon(f->b)) || (strips && !end_strip(f->b))) {
             return false;
         }
         if (f->row_is_line && !end_row(f, e, number, line)) {

@@ -101,11 +101,12 @@ static bool read_ascii(mesh_build *b) {
 }
 
 static bool begins_with_solid(input *in) {
+    const char *start = in->at;
     char word[16] = "";
     if (input_more(in)) {
         read_keyword(in, word);
     }
-    in->at = in->data;
+    in->at = start;
     in->line = 1;
     return strcmp(word, "solid") == 0;
 }
@@ -118,11 +119,19 @@ bool mesh_read_stl(mesh_build *b) {
         count = (uint32_t)scalar_decode(SCALAR_UINT32, false, in->data + 80);
     }
     bool ok;
-    /* a binary file may begin with "solid" too, so the length decides */
-    if (length >= HEADER && length == HEADER + (size_t)count * RECORD) {
+    /* A binary file may begin with "solid", too, so its length decides; or a zero byte, which text
+     * does not have: counts below 2^24 end in one. Bytes may follow the last triangle. */
+    const size_t whole = HEADER + (size_t)count * RECORD;
+    const bool is_text =
+        begins_with_solid(in) && memchr(in->data, 0, length < HEADER ? length : HEADER) == NULL;
+    if (length >= HEADER && (length == whole || (!is_text && count > 0 && length > whole))) {
         in->line = 0;
         ok = read_binary(b, count);
-    } else if (begins_with_solid(in)) {
+        if (ok && length > whole) {
+            mesh_build_note(b, "%lu bytes follow the last of %lu triangles, and are ignored",
+                            (unsigned long)(length - whole), (unsigned long)count);
+        }
+    } else if (is_text) {
         ok = read_ascii(b);
     } else {
         in->line = 0;
