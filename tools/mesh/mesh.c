@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "mesh_build.h"
+#include "polygon_ears.h"
 
 bool mesh_faces_are_in_range(const mesh *m) {
     for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
@@ -114,6 +115,22 @@ static bool end_polygon(mesh_build *b, size_t count) {
     return true;
 }
 
+/* Keeps where the triangles of a polygon are: its vertices may come later. */
+static bool note_polygon(mesh_build *b) {
+    if (b->n_corners == 3) {
+        return true;
+    }
+    sl_int *polygon =
+        (sl_int *)grow_array(b->polygon, &b->polygon_capacity, b->n_polygon, 2, sizeof *polygon);
+    if (polygon == NULL) {
+        return input_error(b->in, "out of memory");
+    }
+    b->polygon = polygon;
+    polygon[b->n_polygon++] = b->result.n_faces;
+    polygon[b->n_polygon++] = (sl_int)(b->n_corners - 2);
+    return true;
+}
+
 bool mesh_build_polygon(mesh_build *b) {
     sl_int *face = room_for_triangles(b);
     for (size_t k = 2; face != NULL && k < b->n_corners; k++, face += 3) {
@@ -121,7 +138,7 @@ bool mesh_build_polygon(mesh_build *b) {
         face[1] = b->corners[k - 1];
         face[2] = b->corners[k];
     }
-    return face != NULL && end_polygon(b, b->n_corners - 2);
+    return face != NULL && note_polygon(b) && end_polygon(b, b->n_corners - 2);
 }
 
 bool mesh_build_strip(mesh_build *b) {
@@ -158,6 +175,28 @@ static bool indices_in_range(mesh_build *b) {
         (long long)b->largest_face, (int)b->largest, (int)b->result.n_vertices);
 }
 
+/* Divides the polygons that are not convex by ears where their fans turn triangles over. */
+static bool cut_ears(mesh_build *b) {
+    const mesh *m = &b->result;
+    int64_t crossed = 0;
+    for (size_t k = 0; k < b->n_polygon; k += 2) {
+        sl_int *faces = m->faces + 3 * (size_t)b->polygon[k];
+        const ears_result r = ears_instead_of_fan(faces, (size_t)b->polygon[k + 1] + 2, m->xyz);
+        if (r == EARS_NO_MEMORY) {
+            b->in->line = 0;
+            return input_error(b->in, "out of memory");
+        }
+        crossed += r == EARS_IMPOSSIBLE;
+    }
+    if (crossed > 0) {
+        mesh_build_note(b,
+                        "%lld polygons cross themselves, or have more than %d corners and are not "
+                        "convex: some of their triangles are turned over",
+                        (long long)crossed, (int)EARS_CORNERS_MAX);
+    }
+    return true;
+}
+
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) {
     return mesh_read_noting(out, path, message, message_size, NULL, 0);
 }
@@ -186,7 +225,7 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
     bool ok = false;
     for (size_t k = 0; k < sizeof formats / sizeof formats[0] && !known; k++) {
         known = input_path_ends(path, formats[k].ending);
-        ok = known && formats[k].read(&b) && indices_in_range(&b);
+        ok = known && formats[k].read(&b) && indices_in_range(&b) && cut_ears(&b);
     }
     if (!known) {
         in.line = 0;
@@ -194,6 +233,7 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
                                ".vtk, .glb or .gltf, optionally followed by .gz");
     }
     free(b.corners);
+    free(b.polygon);
     input_close(&in);
     if (ok) {
         *out = b.result;

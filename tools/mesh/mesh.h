@@ -23,11 +23,11 @@ typedef struct mesh {
 /** Reads a triangle mesh. The file name selects the format: .obj .off .ply .stl .vtk .glb .gltf,
  *  plain or .gz.
  *
- *  OBJ  v, f and fo lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back from the
- *       latest vertex; a backslash continues a line. All other lines are ignored.
- *  OFF  ASCII. The first word is OFF or off, optionally with the prefixes ST, C and N, or is missing.
- *       Comments are allowed. The counts are on the first line or on a line of their own. Each
- *       vertex and each face has its own line; anything after the coordinates or corners is
+ *  OBJ  v, f and fo lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back
+ *       from the latest vertex; a backslash continues a line. All other lines are ignored.
+ *  OFF  ASCII. The first word is OFF or off, optionally with the prefixes ST, C and N, or is
+ *       missing. Comments are allowed. The counts are on the first line or on a line of their own.
+ *       Each vertex and each face has its own line; anything after the coordinates or corners is
  *       ignored.
  *  PLY  1.0: ascii, binary_little_endian, binary_big_endian. Properties of any scalar type in any
  *       order; the corners are a list vertex_indices or vertex_index of element face, or strips of
@@ -46,7 +46,9 @@ typedef struct mesh {
  *       too, and not done in files of mesh_write.
  *
  *  Triangles of a strip with a repeated vertex, which only join its parts, are left out.
- *  A polygon with k corners becomes a fan of k - 2 triangles around its first corner.
+ *  A polygon with k corners becomes a fan of k - 2 triangles around its first corner; if that turns
+ *  triangles over, which needs a corner that is not convex, it is divided by ears (polygon_ears.h).
+ *  A polygon that crosses itself remains a fan, which is noted.
  *
  *  out           [out]  the mesh, release with mesh_free; all zero on error.
  *  message       [out]  the reason on error, with the file and the line or element; "" otherwise;
@@ -60,7 +62,7 @@ typedef struct mesh {
  *  Cost     O(file size) in time and memory. Memory grows with the data that is read, not with the
  *           counts that a header claims.
  *  Example  tests/tools/test_mesh_obj_off.c, test_mesh_ply.c, test_mesh_stl.c,
- *           test_mesh_vtk.c, test_mesh_gltf.c
+ *           test_mesh_vtk.c, test_mesh_gltf.c, test_mesh_polygons.c
  */
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size);
 

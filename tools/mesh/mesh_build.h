@@ -1,4 +1,4 @@
-/* mesh_build.h: builds a mesh while a file is read: growing arrays, fans, index checks */
+/* mesh_build.h: builds a mesh while a file is read: growing arrays, polygons, index checks */
 #ifndef TOOLS_MESH_BUILD_H
 #define TOOLS_MESH_BUILD_H
 
@@ -15,6 +15,10 @@ typedef struct mesh_build {
     sl_int *corners; /* of the current polygon */
     size_t n_corners;
     size_t corner_capacity;
+    /* polygons of more than three corners: the first triangle, and the number of triangles */
+    sl_int *polygon;
+    size_t n_polygon; /* two for each */
+    size_t polygon_capacity;
     sl_int largest; /* largest index in any face, -1: none; faces may precede their vertices */
     int64_t largest_line; /* the line of that index; 0 for binary files */
     int64_t largest_face; /* the polygon of that index, counted from 0 */
@@ -35,7 +39,8 @@ bool mesh_build_vertex(mesh_build *b, double x, double y, double z);
  */
 bool mesh_build_corner(mesh_build *b, int64_t vertex);
 
-/** Ends the current polygon and adds it as a fan of triangles.
+/** Ends the current polygon and adds it as a fan of triangles, which become ears at the end of the
+ *  file if the fan turns triangles over.
  *
  *  Returns  true; false: fewer than three corners, too many triangles, out of memory.
  */
