@@ -221,6 +221,40 @@ static void quantized_positions_are_read(void **state) {
     "{\"bufferView\":0,\"count\":" count ",\"componentType\":5126,\"type\":\"VEC3\"}"
 #define TEXT(more) GLTF_START more "}"
 
+/* A sparse accessor without a bufferView, and the same with one. Indices are 16-bit numbers in the
+ * corners of the pyramid: 0, 3, 2, 0, 2, 1, ... */
+#define SPARSE_OF(view, count, replaced, indices, values) \
+    IN_CONTAINER_OF("{" view "\"count\":" count ",\"componentType\":5126,\"type\":\"VEC3\"," \
+                    "\"sparse\":{\"count\":" replaced ",\"indices\":{" indices \
+                    "},\"values\":{" values "}}}")
+#define IN_CONTAINER_OF(accessor) \
+    GLTF_START ",\"buffers\":[{\"byteLength\":96}],\"bufferViews\":[{\"buffer\":0," \
+               "\"byteLength\":60},{\"buffer\":0,\"byteOffset\":60,\"byteLength\":36}]," \
+               "\"accessors\":[" accessor "],\"meshes\":[{\"primitives\":[{\"attributes\":" \
+               "{\"POSITION\":0}}]}]}"
+#define SPARSE(count, replaced, indices, values) SPARSE_OF("", count, replaced, indices, values)
+#define INDICES "\"bufferView\":1,\"componentType\":5123"
+#define VALUES "\"bufferView\":0,\"byteOffset\":12"
+
+static void sparse_accessors_are_read(void **state) {
+    (void)state;
+    /* zeros, of which row 2 becomes vertex 1 of the pyramid, and row 0 vertex 2 */
+    const double of_zeros[9] = {1, 1, 0, 0, 0, 0, 1, 0, 0};
+    const double of_rows[9] = {1, 0, 0, 1, 0, 0, 1, 1, 0};
+    mesh m;
+    const char *zeros =
+        SPARSE("3", "2", "\"bufferView\":1,\"byteOffset\":4,\"componentType\":5123", VALUES);
+    const char *rows = SPARSE_OF("\"bufferView\":0,", "3", "1", INDICES, VALUES);
+    assert_true(mesh_read(&m, put_container("s.glb", zeros), NULL, 0));
+    assert_true(m.n_vertices == 3 && m.n_faces == 1);
+    SAME_VALUES(m.xyz, of_zeros, 9);
+    mesh_free(&m);
+    assert_true(mesh_read(&m, put_container("s.glb", rows), NULL, 0));
+    assert_true(m.n_vertices == 2 && m.n_faces == 1); /* equal vertices are merged */
+    SAME_VALUES(m.xyz, of_rows + 3, 6);
+    mesh_free(&m);
+}
+
 static void bad_files_are_refused(void **state) {
     (void)state;
     static const struct {
@@ -260,7 +294,22 @@ static void bad_files_are_refused(void **state) {
         {ACCESSOR(POSITIONS("8") "," POSITIONS("3")), "accessor 0: ends beyond its bufferView"},
         {ACCESSOR(POSITIONS("2000000000") "," POSITIONS("3")), "accessor 0: ends beyond"},
         {ACCESSOR(POSITIONS("-1") "," POSITIONS("3")), "accessor 0: count is not an integer"},
-        {ACCESSOR("{\"count\":3,\"componentType\":5126,\"type\":\"VEC3\"},{}"), "sparse accessors"},
+        {ACCESSOR("{\"count\":3,\"componentType\":5126,\"type\":\"VEC3\"},{}"),
+         "accessor 0 has neither bufferView nor sparse"},
+        {SPARSE("3", "1", "\"bufferView\":1,\"byteOffset\":2,\"componentType\":5123", VALUES),
+         "sparse index 3 is not a row of accessor 0"},
+        {SPARSE("3", "4", INDICES, VALUES),
+         "sparse of accessor 0: count is not an integer below 4"},
+        {SPARSE("3", "1", "\"bufferView\":1,\"componentType\":5126", VALUES),
+         "accessor 0: sparse has no valid count and componentType"},
+        {SPARSE("3", "1", "\"bufferView\":1", VALUES), "no valid count and componentType"},
+        {SPARSE("3", "1", INDICES, "\"a\":1"), "no bufferView for indices or values"},
+        {SPARSE("3", "1", "\"componentType\":5123", VALUES), "no bufferView for indices or values"},
+        {SPARSE("3", "1", INDICES, "\"bufferView\":0,\"byteOffset\":49"),
+         "sparse values of accessor 0: ends beyond its bufferView"},
+        {SPARSE("3", "1", "\"bufferView\":1,\"byteOffset\":35,\"componentType\":5123", VALUES),
+         "sparse indices of accessor 0: ends beyond its bufferView"},
+        {SPARSE("20000", "1", INDICES, VALUES), "more than 256 bytes for each byte of the file"},
         {ACCESSOR("{\"bufferView\":0,\"count\":3,\"componentType\":5124,\"type\":\"VEC3\"},{}"),
          "no valid count, type and componentType"},
         {ACCESSOR("{\"bufferView\":0,\"count\":3,\"componentType\":5126,\"type\":\"MAT4\"},{}"),
@@ -346,6 +395,7 @@ int main(void) {
         cmocka_unit_test(nodes_place_meshes),
         cmocka_unit_test(kinds_of_primitives_are_read),
         cmocka_unit_test(quantized_positions_are_read),
+        cmocka_unit_test(sparse_accessors_are_read),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(foreign_buffers_are_refused),
         cmocka_unit_test(repetitions_are_limited),

@@ -1,5 +1,4 @@
-/* gltf_file.c: a glTF 2 file in memory: its JSON document, its buffers, and accessors to their
- * numbers */
+/* gltf_file.c: a glTF 2 file in memory: its JSON document and its buffers */
 #include "gltf_file.h"
 
 #include <math.h>
@@ -184,6 +183,12 @@ void gltf_close(gltf_file *f) {
     for (int k = 0; k < 6; k++) {
         free((void *)lists[k]->item);
     }
+    while (f->made != NULL) {
+        gltf_block *block = f->made;
+        f->made = block->next;
+        free(block->rows);
+        free(block);
+    }
     free(f->buffer);
     cJSON_Delete(f->root);
     memset(f, 0, sizeof *f);
@@ -259,8 +264,7 @@ static bool load_file(gltf_file *f, gltf_buffer *buffer, const char *uri) {
     return true;
 }
 
-/* Loads a buffer: the binary chunk, a data URI, or a file. */
-static bool load(gltf_file *f, int64_t number) {
+bool gltf_load_buffer(gltf_file *f, int64_t number) {
     gltf_buffer *buffer = &f->buffer[number];
     const cJSON *object = f->buffers.item[number], *uri = member(object, "uri");
     int64_t declared = -1;
@@ -294,83 +298,4 @@ static bool load(gltf_file *f, int64_t number) {
                            (long long)buffer->length, (long long)declared);
     }
     return ok;
-}
-
-static bool component_type(int64_t code, scalar_type *type) {
-    static const scalar_type types[7] = {SCALAR_INT8,   SCALAR_UINT8,  SCALAR_INT16, SCALAR_UINT16,
-                                         SCALAR_DOUBLE, SCALAR_UINT32, SCALAR_FLOAT};
-    if (code < 5120 || code > 5126 || code == 5124) {
-        return false;
-    }
-    *type = types[code - 5120];
-    return true;
-}
-
-/* Reads the type and the shape of an accessor. */
-static bool read_shape(const gltf_file *f, gltf_accessor *a, const cJSON *object, int64_t number) {
-    static const char *const shapes[4] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const cJSON *shape = member(object, "type");
-    int64_t code = -1;
-    if (!gltf_integer(f, object, "count", INT32_MAX, "accessor", number, &a->count) ||
-        !gltf_integer(f, object, "componentType", 1 << 16, "accessor", number, &code)) {
-        return false;
-    }
-    a->width = 0;
-    for (int k = 0; k < 4 && cJSON_IsString(shape); k++) {
-        a->width = strcmp(shape->valuestring, shapes[k]) == 0 ? k + 1 : a->width;
-    }
-    a->normalized = cJSON_IsTrue(member(object, "normalized"));
-    return (a->count >= 0 && a->width > 0 && component_type(code, &a->type)) ||
-           input_error(f->in, "accessor %lld has no valid count, type and componentType",
-                       (long long)number);
-}
-
-bool gltf_accessor_open(gltf_file *f, gltf_accessor *a, int64_t number) {
-    const int64_t most = INT64_C(1) << 40;
-    int64_t view = -1, buffer = -1, start = -1, offset = -1, length = -1, stride = -1;
-    if (number < 0 || number >= f->accessors.count) {
-        return input_error(f->in, "there is no accessor %lld", (long long)number);
-    }
-    const cJSON *object = f->accessors.item[number];
-    if (!read_shape(f, a, object, number) ||
-        !gltf_integer(f, object, "bufferView", f->views.count, "accessor", number, &view) ||
-        !gltf_integer(f, object, "byteOffset", most, "accessor", number, &offset)) {
-        return false;
-    }
-    if (view < 0 || member(object, "sparse") != NULL) {
-        return input_error(f->in, "accessor %lld: sparse accessors are not supported",
-                           (long long)number);
-    }
-    object = f->views.item[view];
-    if (!gltf_integer(f, object, "buffer", f->buffers.count, "bufferView", view, &buffer) ||
-        !gltf_integer(f, object, "byteOffset", most, "bufferView", view, &start) ||
-        !gltf_integer(f, object, "byteLength", most, "bufferView", view, &length) ||
-        !gltf_integer(f, object, "byteStride", 253, "bufferView", view, &stride)) {
-        return false;
-    }
-    if (buffer < 0 || length < 0) {
-        return input_error(f->in, "bufferView %lld has no buffer or no byteLength",
-                           (long long)view);
-    }
-    if (!load(f, buffer)) {
-        return false;
-    }
-    const int64_t row = (int64_t)a->width * scalar_bytes(a->type);
-    start = start > 0 ? start : 0;
-    offset = offset > 0 ? offset : 0;
-    a->stride = stride > 0 ? stride : row;
-    if (a->stride < row || start + length > f->buffer[buffer].length ||
-        (a->count > 0 && offset + (a->count - 1) * a->stride + row > length)) {
-        return input_error(f->in, "accessor %lld: ends beyond its bufferView or buffer",
-                           (long long)number);
-    }
-    a->at = f->buffer[buffer].at + start + offset;
-    return true;
-}
-
-double gltf_value(const gltf_accessor *a, int64_t row, int component) {
-    static const double scale[] = {127, 255, 32767, 65535, 1, 1, 1, 1, 1, 1}; /* by scalar_type */
-    const double x =
-        scalar_decode(a->type, false, a->at + row * a->stride + component * scalar_bytes(a->type));
-    return a->normalized ? fmax(-1, x / scale[a->type]) : x;
 }

@@ -23,6 +23,12 @@ typedef struct gltf_buffer {
     input file;    /* owned: a file beside the document */
 } gltf_buffer;
 
+/** The rows of a sparse accessor. */
+typedef struct gltf_block {
+    char *rows;
+    struct gltf_block *next;
+} gltf_block;
+
 typedef struct gltf_file {
     input *in; /* the file; borrowed; receives the messages of errors */
     cJSON *root;
@@ -31,6 +37,7 @@ typedef struct gltf_file {
     gltf_list buffers, views, accessors, meshes, nodes, scenes;
     gltf_buffer *buffer; /* buffers.count */
     int64_t loaded;      /* bytes of all buffers so far */
+    gltf_block *made;    /* owned */
 } gltf_file;
 
 /** Reads the container and the document, and checks the version and the extensions that the file
@@ -63,6 +70,9 @@ bool gltf_numbers(const gltf_file *f, const cJSON *object, const char *name, int
 /** The member `name`, which must be an array of objects, or does not exist. */
 bool gltf_list_open(const gltf_file *f, gltf_list *list, const cJSON *object, const char *name);
 
+/** Loads buffer `number`, unless it is loaded: the binary chunk, a data URI, or a file. */
+bool gltf_load_buffer(gltf_file *f, int64_t number);
+
 /** Numbers in a buffer: count rows of `width` components. */
 typedef struct gltf_accessor {
     const char *at;
@@ -73,10 +83,13 @@ typedef struct gltf_accessor {
 } gltf_accessor;
 
 /** Finds the numbers of accessor `number` and checks that all of them are in their buffer, which is
- *  loaded if need be.
+ *  loaded if need be. The rows of a sparse accessor are copied, and those that it replaces
+ *  replaced.
  *
- *  Returns  true; false: out of range or malformed; sparse; a buffer that is missing, truncated or
- *           not in the folder of the document.
+ *  a  [out]  valid until gltf_close.
+ *  Returns  true; false: out of range or malformed; a buffer that is missing, truncated or not in
+ *           the folder of the document; more than 256 bytes of sparse rows for each byte of the
+ *           file; out of memory.
  */
 bool gltf_accessor_open(gltf_file *f, gltf_accessor *a, int64_t number);
 

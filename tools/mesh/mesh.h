@@ -57,8 +57,8 @@ typedef struct mesh {
  *  Returns  true; false: no such file, unknown format, truncated file, index out of range, polygon
  *           with fewer than three corners, coordinate that is not finite, OBJ file without
  *           vertices, more than 2^31-1 vertices or faces, more than 2 GiB of content, out of
- *           memory; VTK: another kind of data; glTF: sparse accessors, compressed meshes, buffers
- *           elsewhere, nodes that repeat meshes to more than 64 elements for each byte.
+ *           memory; VTK: another kind of data; glTF: compressed meshes, buffers elsewhere, nodes
+ *           that repeat meshes to more than 64 elements for each byte.
  *  Cost     O(file size) in time and memory. Memory grows with the data that is read, not with the
  *           counts that a header claims.
  *  Example  tests/tools/test_mesh_obj_off.c, test_mesh_ply.c, test_mesh_stl.c,
