@@ -137,7 +137,7 @@ static void bad_files_are_refused(void **state) {
         {VTK_POINTS "POLYGONS 2 3\nOFFSETS int\n0 3\nCONNECTION int\n0 1 2\n",
          "CONNECTIVITY and a type expected"},
         {VTK_POINTS "POLYGONS 2 3\nOFFSETS int\n0 3\n", "POLYGONS: truncated"},
-        {VTK_POINTS "CELLS 1 3\n", "'CELLS' is not a section"},
+        {VTK_POINTS "CELLS 1 3\n", "'CELLS' is not a section of polygonal data"},
         {VTK_START "FIELD f 2\nx 1 1 int\n1\n", "FIELD: truncated"},
         {VTK_START "FIELD f 1\nx 2 2 int\n1\n", "FIELD: truncated"},
         {VTK_START "FIELD f 1\nx 1 1 string\nname\n", "'STRING' is not a type"},

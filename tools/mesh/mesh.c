@@ -165,7 +165,7 @@ void mesh_build_note(mesh_build *b, const char *format, ...) {
     va_end(list);
 }
 
-static bool indices_in_range(mesh_build *b) {
+bool mesh_build_is_in_range(mesh_build *b) {
     if (b->largest < b->result.n_vertices) {
         return true;
     }
@@ -225,7 +225,7 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
     bool ok = false;
     for (size_t k = 0; k < sizeof formats / sizeof formats[0] && !known; k++) {
         known = input_path_ends(path, formats[k].ending);
-        ok = known && formats[k].read(&b) && indices_in_range(&b) && cut_ears(&b);
+        ok = known && formats[k].read(&b) && mesh_build_is_in_range(&b) && cut_ears(&b);
     }
     if (!known) {
         in.line = 0;

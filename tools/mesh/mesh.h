@@ -37,8 +37,10 @@ typedef struct mesh {
  *       vertex, numbered in order of first appearance. Normals and attributes are ignored, as are
  *       bytes behind the last triangle of a binary file, which is noted.
  *
- *  VTK  Legacy polygonal data, ASCII or binary, versions 1 to 5: polygons and triangle strips.
- *       Lines, single vertices and data at points and cells are ignored.
+ *  VTK  Legacy, ASCII or binary, versions 1 to 5. Polygonal data: polygons and triangle strips.
+ *       Unstructured grids: triangles, quadrilaterals, polygons and strips, and the surface of
+ *       tetrahedra, hexahedra, voxels, wedges and pyramids (vtk_grid.h), which is noted. Lines,
+ *       single vertices and data at points and cells are ignored.
  *  glTF 2.0, as text (.gltf) with buffers in data URIs or in files of the same folder, or as a
  *       container (.glb): all meshes of the scene, placed by their nodes; triangles, strips and
  *       fans. Points and lines are ignored, which is noted. Vertices with equal coordinates in one

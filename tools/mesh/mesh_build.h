@@ -63,6 +63,9 @@ bool mesh_build_weld(mesh_build *b, sl_int first_vertex, sl_int first_face);
  */
 bool mesh_build_strip(mesh_build *b);
 
+/** Whether all corners so far are vertices; if not, sets the message of b->in. */
+bool mesh_build_is_in_range(mesh_build *b);
+
 /** Notes what is odd about a file that can be read. A note beyond 400 bytes is cut. */
 void mesh_build_note(mesh_build *b, const char *format, ...) INPUT_PRINTF(2, 3);
 

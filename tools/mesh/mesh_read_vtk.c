@@ -1,6 +1,6 @@
-/* mesh_read_vtk.c: reads the polygons and triangle strips of a legacy VTK file of polygonal data
+/* mesh_read_vtk.c: reads a legacy VTK file: polygonal data, or the surface of an unstructured grid
  *
- * Four lines: "# vtk DataFile Version 3.0", a title, ASCII or BINARY, DATASET POLYDATA. Then
+ * Four lines: "# vtk DataFile Version 3.0", a title, ASCII or BINARY, and the kind of DATASET. Then
  * sections: a line with a keyword and sizes, followed by numbers, as text or big-endian. Up to
  * version 4 the cells of a section are counts, each followed by so many vertices; from version 5 on
  * two arrays, OFFSETS and CONNECTIVITY. Data at points and cells come last. */
@@ -9,11 +9,14 @@
 
 #include "mesh_build.h"
 #include "tools/io/scalar.h"
+#include "vtk_grid.h"
 
 typedef struct vtk {
     mesh_build *b;
     bool ascii;
     bool has_points;
+    bool is_grid; /* an unstructured grid */
+    vtk_grid grid;
 } vtk;
 
 /* Reads a word in capital letters: keywords may be in either case. */
@@ -98,16 +101,50 @@ static bool read_points(vtk *f) {
     return true;
 }
 
-/* Reads the corners of a cell and adds it if the section is one of faces. */
+/* Moves the corners of the current polygon to the cells of the grid. */
+static bool keep_cell(vtk *f) {
+    mesh_build *b = f->b;
+    bool ok = int_list_add(&f->grid.cells, (sl_int)b->n_corners);
+    for (size_t k = 0; k < b->n_corners && ok; k++) {
+        ok = int_list_add(&f->grid.cells, b->corners[k]);
+    }
+    f->grid.n_cells++;
+    b->n_corners = 0;
+    return ok || input_error(b->in, "out of memory");
+}
+
+/* Reads the types of the cells of a grid. */
+static bool read_cell_types(vtk *f) {
+    input *in = f->b->in;
+    int64_t count = 0, type = 0;
+    if (!read_count(in, &count)) {
+        return false;
+    }
+    end_line(f);
+    for (int64_t k = 0; k < count; k++) {
+        if (!read_index(f, SCALAR_INT32, "CELL_TYPES", &type)) {
+            return false;
+        }
+        if (!int_list_add(&f->grid.types, type < INT32_MAX ? (sl_int)type : INT32_MAX)) {
+            return input_error(in, "out of memory");
+        }
+    }
+    return true;
+}
+
+/* Reads the corners of a cell, and adds it if the section is one of faces. */
 static bool read_cell(vtk *f, scalar_type type, const char *section, int64_t corners) {
     const bool is_strip = strcmp(section, "TRIANGLE_STRIPS") == 0;
-    const bool is_face = is_strip || strcmp(section, "POLYGONS") == 0;
+    const bool is_face = is_strip || f->is_grid || strcmp(section, "POLYGONS") == 0;
     for (int64_t k = 0; k < corners; k++) {
         int64_t vertex = 0;
         if (!read_index(f, type, section, &vertex) ||
             (is_face && !mesh_build_corner(f->b, vertex))) {
             return false;
         }
+    }
+    if (f->is_grid) {
+        return keep_cell(f);
     }
     return !is_face || (is_strip ? mesh_build_strip(f->b) : mesh_build_polygon(f->b));
 }
@@ -225,30 +262,56 @@ static bool read_header(vtk *f) {
         return input_error(in, "DATASET expected");
     }
     read_keyword(in, word);
-    return strcmp(word, "POLYDATA") == 0 ||
-           input_error(in, "DATASET %s is not supported, only POLYDATA", word);
+    f->is_grid = strcmp(word, "UNSTRUCTURED_GRID") == 0;
+    return f->is_grid || strcmp(word, "POLYDATA") == 0 ||
+           input_error(in, "DATASET %s is not supported, only POLYDATA and UNSTRUCTURED_GRID",
+                       word);
 }
 
-bool mesh_read_vtk(mesh_build *b) {
-    vtk f = {b, true, false};
-    input *in = b->in;
-    bool ok = read_header(&f), is_data = false;
+/* Is the word a section of cells in this kind of file? */
+static bool is_cell_section(const vtk *f, const char *word) {
+    static const char *const sections[4] = {"POLYGONS", "TRIANGLE_STRIPS", "VERTICES", "LINES"};
+    bool found = f->is_grid && strcmp(word, "CELLS") == 0;
+    for (int k = 0; k < 4 && !f->is_grid; k++) {
+        found = found || strcmp(word, sections[k]) == 0;
+    }
+    return found;
+}
+
+static bool read_sections(vtk *f) {
+    input *in = f->b->in;
+    bool ok = true, is_data = false;
     while (ok && !is_data && input_more(in)) {
         char word[32];
         read_keyword(in, word);
         is_data = strcmp(word, "POINT_DATA") == 0 || strcmp(word, "CELL_DATA") == 0;
         if (strcmp(word, "POINTS") == 0) {
-            ok = read_points(&f);
-        } else if (strcmp(word, "POLYGONS") == 0 || strcmp(word, "TRIANGLE_STRIPS") == 0 ||
-                   strcmp(word, "VERTICES") == 0 || strcmp(word, "LINES") == 0) {
-            ok = read_cells(&f, word);
+            ok = read_points(f);
+        } else if (is_cell_section(f, word)) {
+            ok = read_cells(f, word);
+        } else if (f->is_grid && strcmp(word, "CELL_TYPES") == 0) {
+            ok = read_cell_types(f);
         } else if (strcmp(word, "FIELD") == 0) {
-            ok = skip_field(&f);
+            ok = skip_field(f);
         } else if (strcmp(word, "METADATA") == 0) {
             skip_metadata(in);
         } else if (!is_data) {
-            ok = input_error(in, "'%s' is not a section of polygonal data", word);
+            ok = input_error(in, "'%s' is not a section of %s", word,
+                             f->is_grid ? "an unstructured grid" : "polygonal data");
         }
     }
-    return ok && (f.has_points || input_error(in, "there are no POINTS"));
+    return ok;
+}
+
+bool mesh_read_vtk(mesh_build *b) {
+    vtk f;
+    memset(&f, 0, sizeof f);
+    f.b = b;
+    bool ok = read_header(&f) && read_sections(&f);
+    ok = ok && (f.has_points || input_error(b->in, "there are no POINTS"));
+    if (ok && f.is_grid) {
+        ok = mesh_build_is_in_range(b) && vtk_grid_add_faces(b, &f.grid);
+    }
+    vtk_grid_free(&f.grid);
+    return ok;
 }
