@@ -305,12 +305,24 @@ printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >"$dir/flat.obj"
 gives 0 'without area 1' info "$dir/flat.obj"
 gives 0 'auto-diffusion of 3 of 3' adf "$dir/flat.obj" --png "$dir/flat.png"
 
+# Faces with vertices of their own: a square of two triangles.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 1e-9\nf 1 2 3\nf 4 5 6\n' \
+    >"$dir/soup.obj"
+"$program" info --mesh-only "$dir/soup.obj" >"$dir/out" 2>"$dir/err" &&
+    grep -q 'warning: .*soup.obj: 1 of 6 vertices have the coordinates of others' "$dir/err"
+record $? "vertices at the same place are warned of"
+gives 0 'weld       1 vertices merged with others, 0 faces' info "$dir/soup.obj" --weld
+gives 0 'weld       2 vertices merged with others, 0 faces' geodesic --weld=1e-6 "$dir/soup.obj"
+gives 0 'weld       0 vertices merged with others, 0 faces' adf sphere:1 --weld
+gives 2 'f.slf: a saved factor has no mesh for --weld' heat "$dir/f.slf" --weld
+gives 2 'f.slf: a saved factor has no mesh for --weld' info "$dir/f.slf" --weld
+gives 2 'weld -1: not a finite number of 0 or more' info --weld=-1 "$dir/soup.obj"
+
 # Refusals.
 
 printf 'v 0 0 0\nv 1 0 0\n' >"$dir/points.obj"
-gives 0 'no faces: there is nothing to factor' info "$dir/points.obj"
 for command in $commands; do
-    [ "$command" = info ] || gives 1 'points.obj: has no faces' "$command" "$dir/points.obj"
+    gives 1 'points.obj: has no faces, only 2 vertices' "$command" "$dir/points.obj"
 done
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 4\n' >"$dir/index.obj"
 gives 1 'index.obj:5: face 0: vertex 3 (counted from 0) is out of range: the mesh has 3 vertices' \

@@ -7,7 +7,7 @@
 typedef struct read_t {
     bool flag;
     sl_int count;
-    double real, above;
+    double real, above, optional;
     const char *text, *operands[2];
     char message[200];
 } read_t;
@@ -17,10 +17,12 @@ static options_result parse(read_t *r, int argc, ...) {
     char *argv[14] = {NULL};
     const options_usage usage = {"cmd", "ONE [TWO]", 1, 2, "text"};
     memset(r, 0, sizeof *r);
+    r->optional = -1;
     const option table[] = {{OPTION_FLAG, "flag", &r->flag, NULL, ""},
                             {OPTION_COUNT, "count", &r->count, "K", ""},
                             {OPTION_REAL, "real", &r->real, "X", ""},
                             {OPTION_ABOVE_0, "above", &r->above, "Y", ""},
+                            {OPTION_OPTIONAL, "optional", &r->optional, "Z", ""},
                             {OPTION_TEXT, "text", &r->text, "T", ""},
                             {OPTION_END, NULL, NULL, NULL, NULL}};
     va_list list;
@@ -51,6 +53,10 @@ static void options_are_read(void **state) {
     assert_true(parse(&r, 1, "-") == OPTIONS_READ);
     assert_true(parse(&r, 3, "--nonsense", "-h", "x") == OPTIONS_HELP);
     assert_true(parse(&r, 2, "a", "--above=1e-300") == OPTIONS_READ && r.above == 1e-300);
+    assert_true(parse(&r, 1, "a") == OPTIONS_READ && r.optional == -1);
+    assert_true(parse(&r, 2, "--optional", "a") == OPTIONS_READ && r.optional == 0);
+    assert_string_equal(r.operands[0], "a");
+    assert_true(parse(&r, 2, "--optional=1e-6", "a") == OPTIONS_READ && r.optional == 1e-6);
     assert_true(parse(&r, 2, "a", "--text=") == OPTIONS_READ && r.text[0] == '\0');
 }
 
@@ -70,6 +76,8 @@ static void bad_options_are_refused(void **state) {
                                          {"--above=0", "not a finite number above 0"},
                                          {"--above=-1", "not a finite number above 0"},
                                          {"--above=inf", "not a finite number above 0"},
+                                         {"--optional=", "not a finite number of 0 or more"},
+                                         {"--optional=-1e-9", "not a finite number of 0 or more"},
                                          {"--text", "--text needs T"}};
     read_t r;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

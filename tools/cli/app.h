@@ -114,11 +114,23 @@ typedef struct app_output {
             "else y (auto)" \
     }
 
+/** Distance within which app_mesh merges vertices; below 0: it does not. */
+extern double app_weld;
+
+/** The row of an option table that sets it. */
+#define APP_WELD_OPTION \
+    { \
+        OPTION_OPTIONAL, "weld", &app_weld, "TOLERANCE", \
+            "merge the vertices of the mesh that have equal coordinates, or that are within " \
+            "--weld=TOLERANCE of each other" \
+    }
+
 /** Describes the operand MESH, for the help texts. */
 extern const char app_mesh_help[];
 
 /** Reads a mesh file or generates a surface (surface_generator.h). On failure dies with the file
- *  and the line.
+ *  and the line. Merges vertices if --weld is given; otherwise warns of vertices of a file that
+ *  have the coordinates of others.
  *
  *  faces_needed  [in]  whether to die as well if the mesh has no faces.
  */
@@ -129,6 +141,9 @@ double app_mean_edge_length(const mesh *m);
 
 /** Whether an operand is a file of sparse-local save: its name ends in .slf. */
 bool app_is_saved(const char *operand);
+
+/** Dies if --weld is given with a file of sparse-local save. */
+void app_refuse_weld(const char *operand);
 
 /** Parses a list of vertices: "3,17,100-200", "all" or "random:5" (5 distinct vertices, whose
  *  numbers are printed). Dies if the list is malformed or a vertex is not below n.

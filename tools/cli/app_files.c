@@ -9,6 +9,7 @@
 
 #include "tools/geometry/laplacian.h"
 #include "tools/io/output_file.h"
+#include "tools/mesh/coincident.h"
 #include "tools/mesh/int_list.h"
 #include "tools/mesh/surface_generator.h"
 
@@ -16,6 +17,25 @@ const char app_mesh_help[] =
     "a mesh file (.obj, .off, .ply, .stl, .vtk, .glb, .gltf, optionally .gz) or a generated "
     "surface: "
     "grid:100x100, hills:100x100, sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
+
+double app_weld = -1;
+
+/* Merges vertices of a mesh if the option asks for it, or warns of those that could be. */
+static void weld(mesh *m, const char *operand, bool is_file) {
+    coincident_merged merged;
+    const sl_int count = app_weld < 0 && is_file ? coincident_count(m) : 0;
+    if (count < 0 || (app_weld >= 0 && !coincident_merge(m, &merged, app_weld))) {
+        app_die("%s: out of memory for vertices at the same place", operand);
+    }
+    if (app_weld >= 0) {
+        printf("weld       %d vertices merged with others, %d faces that lost a corner left out\n",
+               (int)merged.vertices, (int)merged.faces);
+    } else if (count > 0) {
+        app_warn("%s: %d of %d vertices have the coordinates of others, and faces at them are "
+                 "not joined; --weld merges them",
+                 operand, (int)count, (int)m->n_vertices);
+    }
+}
 
 void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     char message[512], note[512] = "";
@@ -27,6 +47,7 @@ void app_mesh(mesh *out, const char *operand, bool faces_needed) {
     if (note[0] != '\0') {
         app_warn("%s", note);
     }
+    weld(out, operand, !made);
     if (faces_needed && out->n_faces == 0) {
         app_die("%s: has no faces, only %d vertices; this command needs a surface", operand,
                 (int)out->n_vertices);
@@ -44,6 +65,12 @@ double app_mean_edge_length(const mesh *m) {
 bool app_is_saved(const char *operand) {
     const size_t length = strlen(operand);
     return length > 4 && strcmp(operand + length - 4, ".slf") == 0;
+}
+
+void app_refuse_weld(const char *operand) {
+    if (app_weld >= 0) {
+        app_die_usage("%s: a saved factor has no mesh for --weld", operand);
+    }
 }
 
 /* A list of vertices that is being read, and what is wrong with it. */
@@ -70,8 +97,7 @@ static int read_vertex(list_reader *r, sl_int *vertex) {
     errno = 0;
     long v = strtol(r->at, &after, 10);
     if (*r->at < '0' || *r->at > '9') { /* a blank or a sign, which strtol accepts, too */
-        return refuse(r, 2, "\"%.80s\" is not a list of vertices such as 3,17,100-200",
-                      r->at);
+        return refuse(r, 2, "\"%.80s\" is not a list of vertices such as 3,17,100-200", r->at);
     }
     if (errno != 0 || v >= r->n) {
         return refuse(r, 1, "there is no vertex %.*s; the last one is %d", (int)(after - r->at),

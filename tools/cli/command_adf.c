@@ -97,6 +97,7 @@ int command_adf(int argc, char **argv) {
         {OPTION_TEXT, "at", &at, "VERTICES", "vertices: 3,17,100-200 or random:5 or all (all)"},
         HEAT_TIME_OPTIONS(&time, "otherwise A = 0.05"),
         APP_OUTPUT_OPTIONS(&output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     app_check_output(&output, output.out);

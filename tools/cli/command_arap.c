@@ -136,6 +136,7 @@ int command_arap(int argc, char **argv) {
          "local solves with the factor of the mesh per iteration (2)"},
         {OPTION_FLAG, "own-factor", &cmd.own_factor, NULL,
          "factor the Laplacian of the patch and solve every global step exactly"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     if (!(cmd.tolerance >= 0)) {

@@ -390,6 +390,7 @@ int command_deform(int argc, char **argv) {
         {OPTION_TEXT, "frames", &cmd.frames, "PREFIX",
          "draw each frame: PREFIX0000.png, PREFIX0001.png, ..."},
         APP_OUTPUT_OPTIONS(&cmd.output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     check_options(&cmd);

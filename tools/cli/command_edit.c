@@ -299,6 +299,7 @@ int command_edit(int argc, char **argv) {
          "t is S times the squared mean edge length (1)"},
         {OPTION_OUTPUT, "csv", &cmd.csv, "FILE", "write a row per edit and check"},
         {OPTION_OUTPUT, "svg", &cmd.svg, "FILE", "draw the time of each edit"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     check_options(&cmd);

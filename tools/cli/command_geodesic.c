@@ -70,7 +70,7 @@ static render_mark *marks_of(const geodesic_command *cmd) {
 }
 
 void geodesic_write_field(const geodesic_command *cmd, const mesh_field *field, const rgb *colors,
-                        const render_style *how) {
+                          const render_style *how) {
     mesh_extra extra;
     render_style style = *how;
     render_mark *marks = marks_of(cmd);
@@ -197,6 +197,7 @@ int command_geodesic(int argc, char **argv) {
         {OPTION_FLAG, "voronoi", &cmd.voronoi, NULL, "nearest site in place of the distance"},
         LAPLACIAN_OPTION(&cmd.laplacian),
         APP_OUTPUT_OPTIONS(&cmd.output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     check_options(&cmd);

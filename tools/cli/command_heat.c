@@ -171,6 +171,7 @@ int command_heat(int argc, char **argv) {
          "boundary; worthwhile if the same system is solved many times"},
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
         APP_OUTPUT_OPTIONS(&output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     if (at != NULL && radius > 0) {

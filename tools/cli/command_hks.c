@@ -251,6 +251,7 @@ int command_hks(int argc, char **argv) {
          "number of threads, if the program is built with OpenMP (1)"},
         LAPLACIAN_OPTION(&laplacian),
         APP_OUTPUT_OPTIONS(&output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, operands);
     const char *operand = operands[0];

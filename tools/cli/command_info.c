@@ -156,9 +156,11 @@ int command_info(int argc, char **argv) {
     const option options[] = {
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
         {OPTION_FLAG, "mesh-only", &mesh_only, NULL, "print the mesh statistics only"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     if (app_is_saved(operand)) {
+        app_refuse_weld(operand);
         print_saved(operand);
         return 0;
     }
@@ -172,9 +174,10 @@ int command_info(int argc, char **argv) {
     }
     printf("%s\n", operand);
     print_mesh(&m, &found);
-    if (!mesh_only && m.n_faces == 0) {
-        printf("no faces: there is nothing to factor\n");
-    } else if (!mesh_only) {
+    if (m.n_faces == 0) {
+        app_die("%s: has no faces, only %d vertices", operand, (int)m.n_vertices);
+    }
+    if (!mesh_only) {
         heat_system h;
         heat_system_create(&h, &m, heat_time_value(&time, &m, 0), time.laplacian, NULL);
         print_costs(&h, seconds_read, time_solve(&h));

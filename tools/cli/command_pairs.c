@@ -200,6 +200,7 @@ int command_pairs(int argc, char **argv) {
         HEAT_TIME_OPTIONS(&time, "otherwise S = 1"),
         {OPTION_OUTPUT, "csv", &csv, "FILE", "write the heat and the times of each pair"},
         {OPTION_OUTPUT, "svg", &histogram, "FILE", "draw a histogram of the speedups"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     if (count > 100000000) {

@@ -326,6 +326,7 @@ int command_param(int argc, char **argv) {
          "also time a full solve, refactorizing the patch, and conjugate gradients"},
         {OPTION_TEXT, "sweep", &sizes, "SIZES",
          "also time all methods on patches of these sizes, such as 2000,10000,30000"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     const layout_system wanted = layout_system_named(system);

@@ -195,6 +195,7 @@ int command_reach(int argc, char **argv) {
         {OPTION_OUTPUT, "graph", &o.graph, "FILE",
          "draw the mesh, at most 500 vertices, with vertex numbers (.svg)"},
         APP_OUTPUT_OPTIONS(&output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     if (o.size < 1 || o.levels < 1) {

@@ -91,6 +91,7 @@ int command_save(int argc, char **argv) {
                               {OPTION_OUTPUT, "poisson", &poisson, "FILE",
                                "write the factor of L to this file, and make both for geodesic"},
                               HEAT_TIME_OPTIONS(&time, "otherwise S = 1, with --poisson 4 or more"),
+                              APP_WELD_OPTION,
                               {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     mesh m;

@@ -109,6 +109,7 @@ int command_scp(int argc, char **argv) {
          "maximum number of inverse iterations (200)"},
         {OPTION_COUNT, "descend", &cmd.descend, "N",
          "take N descent steps with the factor of the mesh in place of inverse iteration"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     layout_command_open(&cmd.layout, operand);

@@ -263,6 +263,7 @@ int command_vectors(int argc, char **argv) {
          "diffuse for S times the squared mean edge length (1, 4, 16 or 64, the first one that "
          "leaves no heat negative)"},
         APP_OUTPUT_OPTIONS(&cmd.output),
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, &operand);
     app_check_output(&cmd.output, cmd.output.out);

@@ -81,6 +81,7 @@ int command_view(int argc, char **argv) {
         {OPTION_TEXT, "up", &up, "AXIS",
          "axis that points upward at first: y, z, or auto: z if the extent of the mesh says so, "
          "else y (auto)"},
+        APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, operands);
     if (strcmp(up, "y") != 0 && strcmp(up, "z") != 0 && strcmp(up, "auto") != 0) {

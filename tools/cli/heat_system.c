@@ -119,6 +119,7 @@ void heat_system_open(heat_system *h, mesh *m, const char *operand, const heat_t
     if (time->laplacian != NULL) {
         app_die_usage("%s: has its own Laplacian", operand);
     }
+    app_refuse_weld(operand);
     if (output->out != NULL || output->png != NULL) {
         app_die_usage("%s: a saved factor has no mesh for --out and --png", operand);
     }

@@ -38,7 +38,7 @@ static bool store(const option *o, const char *text) {
     }
     double real = strtod(text, &after);
     if (after == text || *after != '\0' || !isfinite(real) ||
-        (o->kind == OPTION_ABOVE_0 && !(real > 0))) {
+        (o->kind == OPTION_ABOVE_0 && !(real > 0)) || (o->kind == OPTION_OPTIONAL && real < 0)) {
         return false;
     }
     *(double *)o->value = real;
@@ -65,16 +65,20 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
         *(bool *)o->value = true;
         return true;
     }
-    const char *text = equals != NULL ? equals + 1 : *at + 1 < argc ? argv[++*at] : NULL;
+    const char *text = equals != NULL               ? equals + 1
+                       : o->kind == OPTION_OPTIONAL ? "0"
+                       : *at + 1 < argc             ? argv[++*at]
+                                                    : NULL;
     if (text == NULL) {
         (void)snprintf(message, message_size, "--%s needs %s", o->name, o->argument);
         return false;
     }
     if (!store(o, text)) {
         (void)snprintf(message, message_size, "--%s %.200s: %s", o->name, text,
-                       o->kind == OPTION_COUNT     ? "not an integer from 0 to 2^31-1"
-                       : o->kind == OPTION_ABOVE_0 ? "not a finite number above 0"
-                                                   : "not a finite number");
+                       o->kind == OPTION_COUNT      ? "not an integer from 0 to 2^31-1"
+                       : o->kind == OPTION_ABOVE_0  ? "not a finite number above 0"
+                       : o->kind == OPTION_OPTIONAL ? "not a finite number of 0 or more"
+                                                    : "not a finite number");
         return false;
     }
     return true;
@@ -153,8 +157,12 @@ void options_help(const options_usage *usage, const options_manual *manual, cons
     options_print_wrapped(manual->details, 0, 0);
     (void)printf("\nOptions (defaults in parentheses):\n");
     for (const option *o = options; o->kind != OPTION_END; o++) {
-        int column = printf("  --%s%s%s", o->name, o->argument != NULL ? " " : "",
-                            o->argument != NULL ? o->argument : "");
+        const bool is_optional = o->kind == OPTION_OPTIONAL;
+        int column = printf("  --%s%s%s%s", o->name,
+                            o->argument == NULL ? ""
+                            : is_optional       ? "[="
+                                                : " ",
+                            o->argument != NULL ? o->argument : "", is_optional ? "]" : "");
         if (column + 2 > HELP_COLUMN) {
             (void)printf("\n");
             column = 0;

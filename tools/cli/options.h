@@ -8,13 +8,14 @@
 #include "sparse_local.h"
 
 typedef enum option_kind {
-    OPTION_END = 0, /* ends a table */
-    OPTION_FLAG,    /* value: bool, set to true */
-    OPTION_COUNT,   /* value: sl_int, 0 or more */
-    OPTION_REAL,    /* value: double, finite */
-    OPTION_ABOVE_0, /* value: double, finite, above 0 */
-    OPTION_TEXT,    /* value: const char *, borrowed from argv */
-    OPTION_OUTPUT   /* value: the same, a file to be written: options_read checks that it can be */
+    OPTION_END = 0,  /* ends a table */
+    OPTION_FLAG,     /* value: bool, set to true */
+    OPTION_COUNT,    /* value: sl_int, 0 or more */
+    OPTION_REAL,     /* value: double, finite */
+    OPTION_ABOVE_0,  /* value: double, finite, above 0 */
+    OPTION_OPTIONAL, /* value: double, 0 or more; 0 without an argument, which needs = */
+    OPTION_TEXT,     /* value: const char *, borrowed from argv */
+    OPTION_OUTPUT    /* value: the same, a file to be written: options_read checks that it can be */
 } option_kind;
 
 /** One option: --name, --name ARGUMENT or --name=ARGUMENT. *value is the default until parsing
