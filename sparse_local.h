@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: f87963020f8dab46
+ * FNV-1a of the lines after this comment, without the license: 98b38150a3405e06
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -9,52 +9,52 @@
  *    280 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    458 options.h    options of all calls, threads, and the allocator
  *    597 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    806 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    904 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    978 factor.h     the numerical factorization P A P' = L D L'
- *   1099 solve.h      full solves, and the workspace of all solves
- *   1194 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1272 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1371 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1411 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1517 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1592 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1677 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1773 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1885 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1924 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2052 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2084 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2273 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2383 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2510 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2550 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2638 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2747 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2784 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2857 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2897 impl/ base: the compiler, status, memory, sorting, threads
- *   3879 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4716 impl/ matrix: sparse matrices of the caller and of the library
- *   5259 impl/ ordering: fill-reducing orderings of a graph
- *   9636 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11582 impl/ factor: the numbers of L and D
- *  14344 impl/ solve: full and local solves
- *  15924 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17659 impl/ pivots: the order of the pivots by the values of a matrix
- *  18073 impl/ float: L and fronts in single precision
- *  18524 impl/ inverse: entries of the inverse, regions
- *  21460 impl/ change: a factor that follows changes of its matrix
- *  27991 impl/ io: files that are replaced only when they are complete
- *  28203 impl/ files: Matrix Market files, 64-bit indices
- *  28729 impl/ save: factors in files
- *  30651 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31309 impl/ batch: diagonals of many inverses
- *  31449 impl/ complex: complex Hermitian systems over real factors
- *  31959 impl/ complex: entries of the inverse
- *  32011 impl/ packs: the tables through which the core calls packs
- *  32043 impl/ last: undefine every internal macro
- *  32345 impl/ templates: the header includes them from itself, once for each instruction set
+ *    807 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    905 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    979 factor.h     the numerical factorization P A P' = L D L'
+ *   1100 solve.h      full solves, and the workspace of all solves
+ *   1195 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1273 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1372 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1412 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1518 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1593 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1678 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1774 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1886 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1925 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2053 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2085 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2274 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2384 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2511 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2551 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2639 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2748 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2785 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2862 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2902 impl/ base: the compiler, status, memory, sorting, threads
+ *   3884 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4721 impl/ matrix: sparse matrices of the caller and of the library
+ *   5264 impl/ ordering: fill-reducing orderings of a graph
+ *   9641 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11587 impl/ factor: the numbers of L and D
+ *  14349 impl/ solve: full and local solves
+ *  15929 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  17664 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18078 impl/ float: L and fronts in single precision
+ *  18529 impl/ inverse: entries of the inverse, regions
+ *  21465 impl/ change: a factor that follows changes of its matrix
+ *  27996 impl/ io: files that are replaced only when they are complete
+ *  28208 impl/ files: Matrix Market files, 64-bit indices
+ *  28804 impl/ save: factors in files
+ *  30726 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31384 impl/ batch: diagonals of many inverses
+ *  31524 impl/ complex: complex Hermitian systems over real factors
+ *  32034 impl/ complex: entries of the inverse
+ *  32086 impl/ packs: the tables through which the core calls packs
+ *  32118 impl/ last: undefine every internal macro
+ *  32420 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -602,7 +602,8 @@ typedef struct sl_error {
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
     double value;  /* the pivot or entry that was refused; 0 if none */
-    /* static text: the option that needs a pack which is not compiled in; NULL: does not apply */
+    /* static text: the option that needs a pack which is not compiled in, or what in a Matrix
+     * Market file is not supported; NULL: does not apply */
     const char *what;
 } sl_error;
 
@@ -2783,7 +2784,9 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
 #if defined(SL_WITH_FILES)
 /* src/public/files.h: matrices in Matrix Market files, and with 64-bit indices */
 
-/** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
+/** Reads a Matrix Market file: coordinate; real, integer or pattern; general, symmetric or
+ *  hermitian, which is symmetric here. A UTF-8 byte order mark is skipped; an exponent may begin
+ *  with D, as in Fortran.
  *
  *  A symmetric file gives the lower triangle; entries above the diagonal are mirrored into it. A
  *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
@@ -2792,10 +2795,12 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_inverse_pairs(const sl_factor *F, dou
  *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
  *  path   [in]   name of the file.
  *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.line; may be NULL.
+ *  stats  [out]  error; may be NULL.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
- *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array, skew-symmetric
- *           or hermitian; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
+ *           skew-symmetric, which error.what names; SL_ERR_PATTERN: a symmetric file with an entry
+ *           (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and
+ *           infinity are accepted here.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */
@@ -28284,6 +28289,8 @@ typedef struct sli_reader {
   int failed;
   sl_off line;
   char point[SLI_POINT_MAX + 1];
+  const char *what;
+  sl_int twice[2];
 } sli_reader;
 
 static int sli_reader_fill(sli_reader *r) {
@@ -28303,6 +28310,15 @@ static int sli_reader_fill(sli_reader *r) {
     r->file = NULL;
   }
   return got > 0;
+}
+
+static void sli_skip_mark(sli_reader *r) {
+  if (r->at == r->end) {
+    sli_reader_fill(r);
+  }
+  if (r->end - r->at >= 3 && memcmp(r->at, "\xEF\xBB\xBF", 3) == 0) {
+    r->at += 3;
+  }
 }
 
 static void sli_skip_line(sli_reader *r) {
@@ -28417,6 +28433,8 @@ static int sli_token_double(const sli_reader *r, const char **at, const char *st
     if (*c == '.' && n_points++ == 0) {
       memcpy(to, r->point, strlen(r->point));
       to += strlen(r->point);
+    } else if ((*c == 'd' || *c == 'D') && strpbrk(token, "xX") == NULL) {
+      *to++ = 'e';
     } else if (sli_is_numeric(*c)) {
       *to++ = *c;
     } else {
@@ -28464,6 +28482,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
   char token[5][SLI_TOKEN_MAX + 1];
   const char *s, *e;
   int k;
+  sli_skip_mark(r);
   if (!sli_next_line(r, &s, &e, 1)) {
     return SL_ERR_IO;
   }
@@ -28478,11 +28497,12 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
     return SL_ERR_IO;
   }
   *has_values = !sli_token_is(token[3], "pattern");
-  *symmetric = sli_token_is(token[4], "symmetric");
-  return sli_token_is(token[2], "coordinate") && !sli_token_is(token[3], "complex") &&
-           (*symmetric || sli_token_is(token[4], "general"))
-         ? SL_OK
-         : SL_ERR_UNSUPPORTED;
+  *symmetric = sli_token_is(token[4], "symmetric") || sli_token_is(token[4], "hermitian");
+  r->what = sli_token_is(token[2], "array")            ? "array"
+        : sli_token_is(token[3], "complex")        ? "complex"
+        : sli_token_is(token[4], "skew-symmetric") ? "skew-symmetric"
+                             : NULL;
+  return r->what == NULL ? SL_OK : SL_ERR_UNSUPPORTED;
 }
 
 typedef struct sli_triplets {
@@ -28519,7 +28539,7 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
   return SL_OK;
 }
 
-static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values,
                   sli_triplets *t, const sl_allocator *a) {
   const char *s, *e;
   sl_off row, column;
@@ -28537,10 +28557,58 @@ static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_val
       (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
       return SL_ERR_IO;
     }
-    t->i[t->count] = (sl_int)(symmetric && row < column ? column : row) - 1;
-    t->j[t->count] = (sl_int)(symmetric && row < column ? row : column) - 1;
+    t->i[t->count] = (sl_int)row - 1;
+    t->j[t->count] = (sl_int)column - 1;
   }
   return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+}
+
+static int sli_has_both_triangles(const sli_triplets *t) {
+  int lower = 0, upper = 0;
+  sl_off k;
+  for (k = 0; k < t->count; k++) {
+    lower |= t->i[k] > t->j[k];
+    upper |= t->i[k] < t->j[k];
+  }
+  return lower && upper;
+}
+
+static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
+  sl_int j, p;
+  for (j = 0; j < M->n_cols; j++) {
+    for (p = M->p[j]; p < M->p[j + 1] && M->i[p] < j; p++) {
+      const sl_int i = M->i[p], *column = M->i + M->p[i];
+      const sl_int count = M->p[i + 1] - M->p[i];
+      const sl_int at = sli_lower_bound(column, count, j);
+      if (at < count && column[at] == j) {
+        r->what = "both triangles of a symmetric matrix";
+        r->twice[0] = i;
+        r->twice[1] = j;
+        return SL_ERR_PATTERN;
+      }
+    }
+  }
+  return SL_OK;
+}
+
+static sl_status sli_fold_entries(const sli_triplet_list *list, sli_triplets *t, sli_reader *r,
+                  const sl_allocator *a) {
+  sl_status status = SL_OK;
+  sl_off k;
+  if (sli_has_both_triangles(t)) {
+    sl_matrix *M = NULL;
+    status = sli_from_triplets(&M, list, a);
+    status = status == SL_OK ? sli_check_mirrored(M, r) : status;
+    sl_matrix_free(M);
+  }
+  for (k = 0; k < t->count; k++) {
+    if (t->i[k] < t->j[k]) {
+      const sl_int row = t->i[k];
+      t->i[k] = t->j[k];
+      t->j[k] = row;
+    }
+  }
+  return status;
 }
 
 static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a) {
@@ -28570,7 +28638,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
   memset(&t, 0, sizeof t);
   room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
   status = sli_triplets_grow(&t, room, has_values, a);
-  status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
+  status = status == SL_OK ? sli_read_entries(r, size, has_values, &t, a) : status;
   if (status == SL_OK) {
     sli_triplet_list list;
     list.n_rows = (sl_int)size[0];
@@ -28579,7 +28647,8 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     list.i = t.i;
     list.j = t.j;
     list.x = t.x;
-    status = sli_from_triplets(out, &list, a);
+    status = symmetric ? sli_fold_entries(&list, &t, r, a) : SL_OK;
+    status = status == SL_OK ? sli_from_triplets(out, &list, a) : status;
   }
   sli_free(a, t.block);
   return status;
@@ -28592,7 +28661,13 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
   sli_find_point(r->point);
   status = sli_parse(out, r, a);
   if (status != SL_OK && stats != NULL) {
+    stats->error.what = r->what;
     stats->error.line = r->line > 0 ? r->line : 1;
+  }
+  if (status == SL_ERR_PATTERN && stats != NULL) {
+    stats->error.line = -1;
+    stats->error.row = r->twice[0];
+    stats->error.column = r->twice[1];
   }
   errno = saved;
   return status;

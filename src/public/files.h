@@ -4,7 +4,9 @@
 
 #include "csc.h"
 
-/** Reads a Matrix Market file: coordinate; real, integer or pattern; general or symmetric.
+/** Reads a Matrix Market file: coordinate; real, integer or pattern; general, symmetric or
+ *  hermitian, which is symmetric here. A UTF-8 byte order mark is skipped; an exponent may begin
+ *  with D, as in Fortran.
  *
  *  A symmetric file gives the lower triangle; entries above the diagonal are mirrored into it. A
  *  general file gives its entries as they are. Duplicates are summed. A pattern file gives a matrix
@@ -13,10 +15,12 @@
  *  out    [out]  the matrix, or NULL on error; release with sl_matrix_free.
  *  path   [in]   name of the file.
  *  opt    [in]   allocator; may be NULL.
- *  stats  [out]  error.line; may be NULL.
+ *  stats  [out]  error; may be NULL.
  *  Returns  SL_OK; SL_ERR_IO: no such file, or malformed at error.line, also by a line of 65536
- *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array, skew-symmetric
- *           or hermitian; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and infinity are accepted here.
+ *           bytes or more that is not a comment; SL_ERR_UNSUPPORTED: complex, array or
+ *           skew-symmetric, which error.what names; SL_ERR_PATTERN: a symmetric file with an entry
+ *           (error.row, error.column) in both triangles; SL_ERR_TOO_LARGE; SL_ERR_MEMORY. NaN and
+ *           infinity are accepted here.
  *  Cost     O(file size + n_rows + n_cols). Memory grows with the entries read, so that a device
  *           without an end does not fill it.
  */

@@ -10,7 +10,8 @@ typedef struct sl_error {
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
     double value;  /* the pivot or entry that was refused; 0 if none */
-    /* static text: the option that needs a pack which is not compiled in; NULL: does not apply */
+    /* static text: the option that needs a pack which is not compiled in, or what in a Matrix
+     * Market file is not supported; NULL: does not apply */
     const char *what;
 } sl_error;
 

@@ -61,6 +61,13 @@ static void unusual_but_legal_text_is_read(void **state) {
         i, x);
     /* entries above the diagonal of a symmetric file are mirrored */
     assert_parses_to(BANNER("real symmetric") "2 2 3\n1 1 1.5\n1 2 -2\n2 2 4\n", 2, 2, p, i, x);
+    /* a Hermitian matrix without imaginary parts; a byte order mark; exponents of Fortran */
+    assert_parses_to("\xEF\xBB\xBF" BANNER("real hermitian") "2 2 3\n1 1 15D-1\n1 2 -.2d+1\n"
+                                                             "2 2 0x.4P4\n",
+                     2, 2, p, i, x);
+    const double hexadecimal[3] = {29, 13, 1};
+    assert_parses_to(BANNER("real general") "2 2 3\n1 1 0x1D\n2 1 0Xd\n2 2 1D0\n", 2, 2, p, i,
+                     hexadecimal);
     /* duplicates are summed */
     assert_parses_to(BANNER("real general") "2 2 5\n1 1 1\n2 1 -1\n2 2 4\n2 1 -1\n1 1 0.5\n", 2, 2,
                      p, i, x);
@@ -137,6 +144,9 @@ static void malformed_text_is_refused_with_its_line(void **state) {
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 abc\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1D\n"},
+        {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 D1\n"},
+        {SL_ERR_IO, 1, "\xEF\xBB\xBF"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1.5abc\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\n1 1 1 1\n"},
         {SL_ERR_IO, 3, BANNER("real general") "2 2 1\na 1 1\n"},
@@ -165,16 +175,45 @@ static void malformed_text_is_refused_with_its_line(void **state) {
 
 static void unsupported_kinds_are_refused(void **state) {
     (void)state;
+    static const struct {
+        const char *text, *what;
+    } cases[] = {
+        {BANNER("complex general") "1 1 1\n1 1 1 0\n", "complex"},
+        {BANNER("complex hermitian") "1 1 1\n1 1 1 0\n", "complex"},
+        {BANNER("real skew-symmetric") "2 2 1\n2 1 1\n", "skew-symmetric"},
+        {"%%MatrixMarket matrix array real general\n1 1\n1\n", "array"},
+        {"%%MatrixMarket matrix array real symmetric\n1 1\n1\n", "array"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        sl_matrix *M = NULL;
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        SL_EXPECT(SL_ERR_UNSUPPORTED, parse(&M, cases[k].text, NULL));
+        SL_EXPECT(SL_ERR_UNSUPPORTED, parse(&M, cases[k].text, &stats));
+        assert_string_equal(stats.error.what, cases[k].what);
+        assert_int_equal(stats.error.line, 1);
+    }
+}
+
+/* Entries of a symmetric file may be in either triangle, but not in both. */
+static void both_triangles_are_refused(void **state) {
+    (void)state;
+    const sl_int p[4] = {0, 2, 3, 3}, i[3] = {1, 2, 2};
+    const double x[3] = {1, 2, 3};
+    assert_parses_to(BANNER("real symmetric") "3 3 3\n1 2 1\n3 1 2\n2 3 3\n", 3, 3, p, i, x);
+    assert_parses_to(BANNER("real symmetric") "3 3 4\n1 2 1\n3 1 1\n2 3 3\n3 1 1\n", 3, 3, p, i, x);
     static const char *const texts[] = {
-        BANNER("complex general") "1 1 1\n1 1 1 0\n",
-        BANNER("complex hermitian") "1 1 1\n1 1 1 0\n",
-        BANNER("real skew-symmetric") "2 2 1\n2 1 1\n",
-        BANNER("real hermitian") "1 1 1\n1 1 1\n",
-        "%%MatrixMarket matrix array real general\n1 1\n1\n",
+        BANNER("real symmetric") "3 3 4\n2 1 5\n3 1 2\n3 2 3\n1 3 2\n",
+        BANNER("pattern hermitian") "3 3 4\n1 3\n1 1\n3 1\n1 2\n",
     };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
         sl_matrix *M = NULL;
-        SL_EXPECT(SL_ERR_UNSUPPORTED, parse(&M, texts[k], NULL));
+        sl_stats stats;
+        memset(&stats, 0, sizeof stats);
+        SL_EXPECT(SL_ERR_PATTERN, parse(&M, texts[k], NULL));
+        SL_EXPECT(SL_ERR_PATTERN, parse(&M, texts[k], &stats));
+        assert_true(stats.error.row == 0 && stats.error.column == 2 && stats.error.line == -1);
+        assert_string_equal(stats.error.what, "both triangles of a symmetric matrix");
     }
 }
 
@@ -258,6 +297,7 @@ int main(void) {
         cmocka_unit_test(values_that_are_not_finite_are_read),
         cmocka_unit_test(malformed_text_is_refused_with_its_line),
         cmocka_unit_test(unsupported_kinds_are_refused),
+        cmocka_unit_test(both_triangles_are_refused),
         cmocka_unit_test(sizes_that_do_not_fit_are_refused),
         cmocka_unit_test(every_prefix_is_refused_or_read_correctly),
         cmocka_unit_test(blanks_and_bytes_that_are_no_digits),

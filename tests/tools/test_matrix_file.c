@@ -83,6 +83,8 @@ static void all_formats_give_the_same_matrix(void **state) {
     (void)state;
     assert_is_small(files_put_text("small.mtx", mtx));
     assert_is_small(files_put_gz("small.mtx.gz", mtx, strlen(mtx)));
+    char marked[sizeof mtx + 3] = "\xEF\xBB\xBF";
+    assert_is_small(files_put_text("marked.mtx", strcat(marked, mtx)));
     assert_is_small(files_put_text("small_csparse.txt", csparse));
     assert_is_small(files_put_gz("small_csparse.txt.gz", csparse, strlen(csparse)));
     assert_is_small(files_put_text("small_cholmod.txt", cholmod));
@@ -148,6 +150,16 @@ static void bad_text_files_are_refused(void **state) {
     (void)state;
     assert_is_refused(files_path("missing.mtx"), "cannot be opened");
     assert_is_refused(files_put_text("small.dat", mtx), "unknown matrix format");
+    assert_is_refused(
+        files_put_text("a.mtx", "%%MatrixMarket matrix array real symmetric\n1 1\n1\n"),
+        ":1: 'array' is not supported: coordinate files");
+    assert_is_refused(files_put_text("a.mtx",
+                                     "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n"
+                                     "1 2 1\n2 1 1\n"),
+                      ": the banner says symmetric, but both (1, 2) and (2, 1) are entries");
+    assert_is_refused(
+        files_put_text("a.mtx", "%%MatrixMarket matrix coordinate real skew-symmetric\n1 1 0\n"),
+        ":1: 'skew-symmetric' is not supported");
     assert_is_refused(files_put_text("small.txt", csparse), "unknown matrix format");
     assert_is_refused(
         files_put_text("a.mtx",

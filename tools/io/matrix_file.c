@@ -51,6 +51,19 @@ static bool read_matrix_market(sl_matrix **out, input *in) {
     memset(&stats, 0, sizeof stats);
     sl_status status = sl_matrix_parse(out, in->at, (size_t)(in->end - in->at), NULL, &stats);
     in->line = status != SL_OK && stats.error.line > 0 ? stats.error.line : 0;
+    if (status == SL_ERR_PATTERN) {
+        return input_error(in,
+                           "the banner says symmetric, but both (%d, %d) and (%d, %d) are entries: "
+                           "one triangle is expected, or the word general",
+                           (int)stats.error.row + 1, (int)stats.error.column + 1,
+                           (int)stats.error.column + 1, (int)stats.error.row + 1);
+    }
+    if (status == SL_ERR_UNSUPPORTED) {
+        return input_error(in,
+                           "'%s' is not supported: coordinate files of real, integer or pattern "
+                           "entries, general or symmetric, are",
+                           stats.error.what);
+    }
     return finish(out, in, status);
 }
 

@@ -3,6 +3,7 @@
 #define SLI_FILES_MATRIX_MARKET_H
 
 #include "../../public/files.h"
+#include "../base/sort.h"
 #include "../matrix/csc_triangle.h"
 #include "../io/output_file.h"
 #include "text_reader.h"
@@ -19,6 +20,7 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
     char token[5][SLI_TOKEN_MAX + 1];
     const char *s, *e;
     int k;
+    sli_skip_mark(r);
     if (!sli_next_line(r, &s, &e, 1)) {
         return SL_ERR_IO;
     }
@@ -33,11 +35,13 @@ static sl_status sli_read_banner(sli_reader *r, int *has_values, int *symmetric)
         return SL_ERR_IO;
     }
     *has_values = !sli_token_is(token[3], "pattern");
-    *symmetric = sli_token_is(token[4], "symmetric");
-    return sli_token_is(token[2], "coordinate") && !sli_token_is(token[3], "complex") &&
-                   (*symmetric || sli_token_is(token[4], "general"))
-               ? SL_OK
-               : SL_ERR_UNSUPPORTED;
+    /* a Hermitian matrix without imaginary parts is symmetric */
+    *symmetric = sli_token_is(token[4], "symmetric") || sli_token_is(token[4], "hermitian");
+    r->what = sli_token_is(token[2], "array")            ? "array"
+              : sli_token_is(token[3], "complex")        ? "complex"
+              : sli_token_is(token[4], "skew-symmetric") ? "skew-symmetric"
+                                                         : NULL;
+    return r->what == NULL ? SL_OK : SL_ERR_UNSUPPORTED;
 }
 
 /* Entries read, with room for more. */
@@ -76,9 +80,8 @@ static sl_status sli_triplets_grow(sli_triplets *t, sl_off room, int has_values,
     return SL_OK;
 }
 
-/* Reads size[2] lines "row column [value]", 1-based, and checks that no other line follows. Entries
- * of a symmetric file are stored in the lower triangle. */
-static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values, int symmetric,
+/* Reads size[2] lines "row column [value]", 1-based, and checks that no other line follows. */
+static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_values,
                                   sli_triplets *t, const sl_allocator *a) {
     const char *s, *e;
     sl_off row, column;
@@ -96,10 +99,62 @@ static sl_status sli_read_entries(sli_reader *r, const sl_off *size, int has_val
             (has_values && !sli_token_double(r, &s, e, &t->x[t->count])) || !sli_line_ends(s, e)) {
             return SL_ERR_IO;
         }
-        t->i[t->count] = (sl_int)(symmetric && row < column ? column : row) - 1;
-        t->j[t->count] = (sl_int)(symmetric && row < column ? row : column) - 1;
+        t->i[t->count] = (sl_int)row - 1;
+        t->j[t->count] = (sl_int)column - 1;
     }
     return sli_next_line(r, &s, &e, 0) || r->failed ? SL_ERR_IO : SL_OK;
+}
+
+/* Are there entries below the diagonal, and are there others above it? */
+static int sli_has_both_triangles(const sli_triplets *t) {
+    int lower = 0, upper = 0;
+    sl_off k;
+    for (k = 0; k < t->count; k++) {
+        lower |= t->i[k] > t->j[k];
+        upper |= t->i[k] < t->j[k];
+    }
+    return lower && upper;
+}
+
+/* Refuses a matrix with an entry in one triangle and its mirror image in the other. */
+static sl_status sli_check_mirrored(const sl_matrix *M, sli_reader *r) {
+    sl_int j, p;
+    for (j = 0; j < M->n_cols; j++) {
+        for (p = M->p[j]; p < M->p[j + 1] && M->i[p] < j; p++) {
+            const sl_int i = M->i[p], *column = M->i + M->p[i];
+            const sl_int count = M->p[i + 1] - M->p[i];
+            const sl_int at = sli_lower_bound(column, count, j);
+            if (at < count && column[at] == j) {
+                r->what = "both triangles of a symmetric matrix";
+                r->twice[0] = i;
+                r->twice[1] = j;
+                return SL_ERR_PATTERN;
+            }
+        }
+    }
+    return SL_OK;
+}
+
+/* Moves the entries of a symmetric file into the lower triangle. An entry that stands in both
+ * triangles would be counted twice, and is refused. */
+static sl_status sli_fold_entries(const sli_triplet_list *list, sli_triplets *t, sli_reader *r,
+                                  const sl_allocator *a) {
+    sl_status status = SL_OK;
+    sl_off k;
+    if (sli_has_both_triangles(t)) {
+        sl_matrix *M = NULL;
+        status = sli_from_triplets(&M, list, a);
+        status = status == SL_OK ? sli_check_mirrored(M, r) : status;
+        sl_matrix_free(M);
+    }
+    for (k = 0; k < t->count; k++) {
+        if (t->i[k] < t->j[k]) {
+            const sl_int row = t->i[k];
+            t->i[k] = t->j[k];
+            t->j[k] = row;
+        }
+    }
+    return status;
 }
 
 /* Reads a whole matrix. Memory grows with the entries that are there, not with the number that the
@@ -133,7 +188,7 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
     memset(&t, 0, sizeof t);
     room = r->buffer == NULL || size[2] < SLI_ENTRIES_FIRST ? size[2] : SLI_ENTRIES_FIRST;
     status = sli_triplets_grow(&t, room, has_values, a);
-    status = status == SL_OK ? sli_read_entries(r, size, has_values, symmetric, &t, a) : status;
+    status = status == SL_OK ? sli_read_entries(r, size, has_values, &t, a) : status;
     if (status == SL_OK) {
         sli_triplet_list list;
         list.n_rows = (sl_int)size[0];
@@ -142,7 +197,8 @@ static sl_status sli_parse(sl_matrix **out, sli_reader *r, const sl_allocator *a
         list.i = t.i;
         list.j = t.j;
         list.x = t.x;
-        status = sli_from_triplets(out, &list, a);
+        status = symmetric ? sli_fold_entries(&list, &t, r, a) : SL_OK;
+        status = status == SL_OK ? sli_from_triplets(out, &list, a) : status;
     }
     sli_free(a, t.block);
     return status;
@@ -156,7 +212,13 @@ static sl_status sli_read_matrix(sl_matrix **out, sli_reader *r, const sl_alloca
     sli_find_point(r->point);
     status = sli_parse(out, r, a);
     if (status != SL_OK && stats != NULL) {
+        stats->error.what = r->what;
         stats->error.line = r->line > 0 ? r->line : 1;
+    }
+    if (status == SL_ERR_PATTERN && stats != NULL) { /* not at the line that was read last */
+        stats->error.line = -1;
+        stats->error.row = r->twice[0];
+        stats->error.column = r->twice[1];
     }
     errno = saved;
     return status;

@@ -17,6 +17,8 @@ typedef struct sli_reader {
     int failed;   /* the file cannot be read, or a line is too long */
     sl_off line;  /* lines read so far */
     char point[SLI_POINT_MAX + 1]; /* the decimal point that strtod expects */
+    const char *what; /* static: the word of the file that is not supported; NULL: none */
+    sl_int twice[2];  /* an entry that the file has in both triangles, when it is refused for it */
 } sli_reader;
 
 /* Moves what is not read yet to the start of the buffer, and fills the rest of the buffer from the
@@ -38,6 +40,16 @@ static int sli_reader_fill(sli_reader *r) {
         r->file = NULL;
     }
     return got > 0;
+}
+
+/* Skips a UTF-8 byte order mark at the start of the text. */
+static void sli_skip_mark(sli_reader *r) {
+    if (r->at == r->end) {
+        sli_reader_fill(r);
+    }
+    if (r->end - r->at >= 3 && memcmp(r->at, "\xEF\xBB\xBF", 3) == 0) {
+        r->at += 3;
+    }
 }
 
 /* Skips the rest of a line of any length. */
@@ -152,7 +164,8 @@ static void sli_find_point(char *point) {
 }
 
 /* Reads the next word as a number with a decimal point, in any locale: strtod receives the point of
- * the locale, and a word that is a number only in this locale is refused. */
+ * the locale, and a word that is a number only in this locale is refused. D begins an exponent, as
+ * in Fortran, but is a digit after 0x. */
 static int sli_token_double(const sli_reader *r, const char **at, const char *stop, double *out) {
     char token[SLI_TOKEN_MAX + 1], number[SLI_TOKEN_MAX + SLI_POINT_MAX + 1], *to = number, *rest;
     const char *c;
@@ -164,6 +177,8 @@ static int sli_token_double(const sli_reader *r, const char **at, const char *st
         if (*c == '.' && n_points++ == 0) {
             memcpy(to, r->point, strlen(r->point));
             to += strlen(r->point);
+        } else if ((*c == 'd' || *c == 'D') && strpbrk(token, "xX") == NULL) {
+            *to++ = 'e';
         } else if (sli_is_numeric(*c)) {
             *to++ = *c;
         } else {
