@@ -3,6 +3,7 @@
 
 #include "tools/mesh/graph_ball.h"
 #include "tools/mesh/adjacency.h"
+#include "tools/geometry/straight_lines.h"
 
 typedef double (*exact_distance)(const double *a, const double *b);
 
@@ -139,10 +140,61 @@ static void torus_distances_match_shortest_paths(void **state) {
     assert_true(fine < 0.6 * coarse && fine < 0.02);
 }
 
+/* Of many sources, which cover parts of a plane, all are at 0, and the distances of the heat method
+ * alone are near the exact ones. Straight lines only raise them, to no more than the exact ones. */
+static void many_sources_are_all_at_zero(void **state) {
+    (void)state;
+    heat_mesh_t y;
+    enum { SIDE = 41 };
+    sl_int sources[2 * SIDE], count = 0;
+    heat_mesh_make(&y, flat_grid(SIDE, 0.2), 4);
+    for (sl_int k = 0; k < SIDE; k++) { /* one side, and every fourth vertex of the other */
+        sources[count++] = k;
+        if (k % 4 == 0) {
+            sources[count++] = SIDE * (SIDE - 1) + k;
+        }
+    }
+    heat_field f;
+    double largest = 0, worst[2] = {0, 0};
+    SL_CHECK(heat_distance(&f, &y.s, sources, count, NULL));
+    assert_true(f.pinned);
+    for (int pass = 0; pass < 2; pass++) {
+        for (sl_int k = 0; k < f.n; k++) {
+            double exact = INFINITY;
+            for (sl_int i = 0; i < count; i++) {
+                exact = fmin(exact, euclidean_distance(y.m.xyz + 3 * (size_t)f.vertices[k],
+                                                       y.m.xyz + 3 * (size_t)sources[i]));
+            }
+            assert_true(exact > 0 || f.distance[k] == 0);
+            assert_true(pass == 0 || f.distance[k] >= exact * (1 - 1e-14));
+            worst[pass] = fmax(worst[pass], fabs(f.distance[k] - exact));
+        }
+        const sl_int raised =
+            straight_lines_raise(f.distance, &y.m, f.vertices, f.n, sources, count, &largest);
+        assert_true(pass == 0 ? raised > 0 : raised == 0);
+    }
+    print_message("%d sources: largest error %.4f, with straight lines %.4f\n", (int)count,
+                  worst[0], worst[1]);
+    assert_true(worst[0] < 3.0 / SIDE && worst[1] <= worst[0] && largest <= worst[0]);
+    heat_field_free(&f);
+    /* with one local solve, and from one source, nothing is held */
+    const heat_options cut = {0, 0, 1};
+    SL_CHECK(heat_distance(&f, &y.s, sources, count, &cut));
+    assert_false(f.pinned);
+    heat_field_free(&f);
+    SL_CHECK(heat_distance(&f, &y.s, sources, 1, NULL));
+    assert_false(f.pinned);
+    f.distance[0] = NAN;
+    assert_true(straight_lines_raise(f.distance, &y.m, f.vertices, 1, sources, 1, &largest) == 0);
+    heat_field_free(&f);
+    heat_mesh_free(&y);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_fall_with_refinement),
         cmocka_unit_test(torus_distances_match_shortest_paths),
+        cmocka_unit_test(many_sources_are_all_at_zero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,9 +27,10 @@ static const options_manual manual = {
     "or two on even meshes if --scaled-time is 4 or more, and to much more on bad ones. Distances "
     "are "
     "therefore compared with paths over the faces through 3 and through 1 points of each edge, and "
-    "moved where they exceed the shorter one, or fall short of it by more than a quarter of an "
-    "edge "
-    "and half the difference of both (not with --raw). With 1, the usual "
+    "moved where they exceed the shorter one, or fall short of it by more than 0.03 mean edges "
+    "and half the difference of both, or are shorter than the straight line (not with --raw). "
+    "Several sources are all held at 0, by a factor of the Laplacian of the ball. With 1, the "
+    "usual "
     "value, an error of "
     "about 1 % remains on regular grids however fine they are; larger values smooth the distance "
     "where shortest paths meet. In a short time heat can become negative behind obtuse faces, and "
@@ -42,7 +43,8 @@ static const options_manual manual = {
     "--voronoi assigns each vertex to the source (site) from which most heat arrives (Herholz et "
     "al. 2017). For a short time that is the nearest site, except where two are almost equally "
     "near, and on bad meshes. Vertices therefore move to the site with the shortest path over the "
-    "faces where theirs is farther by more than the same tolerance (not with --raw).",
+    "faces where theirs is farther by more than a quarter of an edge and half the difference "
+    "(not with --raw).",
     "mesh, region, prepared, distances: sizes and times; with --region, region (L) and region (M) "
     "are those of the factors of the Laplacian L and of heat, M + t L. touched: vertices of the "
     "ball and entries of L read. heat, distance: what the solves read. bounds: how far distances "

@@ -103,12 +103,17 @@ void geodesic_distances(geodesic_command *cmd) {
     }
     printf("distances  of %d vertices, up to %.6g, in %.3f ms\n", (int)f.n, farthest,
            1e3 * seconds);
-    printf("touched    %d vertices; %.3g of %.3g entries of each factor, %d solves for the "
-           "distance\n",
-           (int)f.n_patch, (double)f.heat_stats.plan.x_entries, (double)all.symbolic.nnz_panels,
-           f.solves);
+    printf("touched    %d vertices; %.3g of %.3g entries of each factor, ", (int)f.n_patch,
+           (double)f.heat_stats.plan.x_entries, (double)all.symbolic.nnz_panels);
+    if (f.pinned) {
+        printf("a factor of the ball with %d sources held at 0\n", (int)cmd->n_sources);
+    } else {
+        printf("%d solves for the distance\n", f.solves);
+    }
     app_print_reads("heat", &f.heat_stats);
-    app_print_reads("distance", &f.poisson_stats);
+    if (!f.pinned) {
+        app_print_reads("distance", &f.poisson_stats);
+    }
     if (f.negative > 0) {
         app_warn("negative heat at %d vertices: the heat method is wrong there, a larger "
                  "--scaled-time may help",

@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "tools/geometry/laplacian.h"
+#include "tools/geometry/straight_lines.h"
 
-/* What a distance may fall short of a path in any case, in mean edges. */
-static const double slack = 0.25;
+/* What a distance may fall short of a path in any case, in mean edges; and what the path to the
+ * site of a cell may exceed that to the nearest one. */
+static const double slack = 0.03, cell_slack = 0.25;
 
 void path_check_open(path_check *check, const mesh *m) {
     const double began = app_now();
@@ -57,6 +59,12 @@ void path_check_distances(path_check *check, heat_field *f, const sl_int *source
     const surface_correction c =
         surface_paths_correct(f->distance, f->vertices, f->n, surface_search_lengths(check->one),
                               u3, slack * check->edge);
+    const sl_int straight = straight_lines_raise(f->distance, check->m, f->vertices, f->n, sources,
+                                                 count, &check->sum.largest);
+    if (straight < 0) {
+        app_die("out of memory for straight lines");
+    }
+    check->straight += straight;
     check->sum.raised += c.raised;
     check->sum.lowered += c.lowered;
     check->sum.largest = fmax(check->sum.largest, c.largest);
@@ -69,9 +77,11 @@ void path_check_distances(path_check *check, heat_field *f, const sl_int *source
 
 void path_check_report(const path_check *check) {
     const surface_correction *c = &check->sum;
-    printf("paths      over the faces in %.1f ms: %d distances raised, %d lowered, by up to %.3g; "
-           "errors of at most about %.3g, %.3g on average\n",
-           1e3 * check->seconds, (int)c->raised, (int)c->lowered, c->largest, c->largest_width,
+    printf("paths      over the faces in %.1f ms: of %lld distances %d raised, %d lowered, %lld "
+           "raised "
+           "to the straight line, by up to %.3g; errors of at most about %.3g, %.3g on average\n",
+           1e3 * check->seconds, (long long)check->distances, (int)c->raised, (int)c->lowered,
+           (long long)check->straight, c->largest, c->largest_width,
            check->distances > 0 ? check->width_sum / (double)check->distances : 0);
     if (c->largest > 4 * check->edge) {
         app_warn("the heat method is off by up to %.3g, %.1f mean edges: %lld of %lld distances "
@@ -87,7 +97,7 @@ static void show_progress(double fraction) {
 
 void path_check_cells(path_check *check, sl_int *cell, const sl_int *sites, sl_int count,
                       double radius) {
-    const double began = app_now(), allowed = slack * check->edge;
+    const double began = app_now(), allowed = cell_slack * check->edge;
     const sl_int n = check->m->n_vertices;
     cell_correction c;
     app_stage("comparing with paths");

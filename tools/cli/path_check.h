@@ -17,6 +17,7 @@ typedef struct path_check {
     surface_correction sum; /* over all distances; mean_width is a sum until the report */
     double width_sum;
     sl_off distances;
+    sl_off straight; /* distances raised to the straight line */
 } path_check;
 
 /** Prepares the searches; release with path_check_close. m must outlive it. */

@@ -7,6 +7,7 @@
 
 #include "planar_triangle.h"
 #include "laplacian.h"
+#include "pinned_poisson.h"
 
 void heat_field_free(heat_field *f) {
     free(f->vertices);
@@ -173,6 +174,28 @@ static sl_status solve_heat(heat_field *out, const heat_patch *h, const sl_int *
     return status;
 }
 
+/* Distances from heat: by the factor of the mesh, and then shifted so that the least one of the
+ * sources is 0; or, if there are several, with all of them held at 0. up, B: scratch of n; B is
+ * div X. */
+static sl_status integrate(heat_field *out, heat_patch *h, const sl_int *local_sources,
+                           sl_int count, sl_int *up, double *B) {
+    sl_status status = SL_ERR_PIVOT;
+    out->poisson_stats = h->poisson.stats;
+    if (count > 1 && out->solves > 1) {
+        const sl_csc N = sl_matrix_view(h->poisson.N);
+        status = pinned_poisson_solve(&N, out->distance, B, local_sources, count);
+        out->pinned = status == SL_OK;
+    }
+    if (status == SL_ERR_PIVOT) {
+        status = patch_solver_solve_patch(&h->poisson, out->distance, B, 1, 1e-10, &out->solves);
+        out->pinned = false;
+    }
+    if (status == SL_OK) {
+        shift_pieces(out->distance, &h->p.m, local_sources, count, up, B);
+    }
+    return status;
+}
+
 /* Heat and distances on the whole patch. */
 static sl_status solve(heat_field *out, heat_patch *h, const sl_int *sources, sl_int count,
                        int solves) {
@@ -190,11 +213,7 @@ static sl_status solve(heat_field *out, heat_patch *h, const sl_int *sources, sl
     if (status == SL_OK) {
         out->faces_without_gradient = divergence(B, &h->p, out->heat);
         out->solves = solves;
-        out->poisson_stats = h->poisson.stats;
-        status = patch_solver_solve_patch(&h->poisson, out->distance, B, 1, 1e-10, &out->solves);
-    }
-    if (status == SL_OK) {
-        shift_pieces(out->distance, &h->p.m, local_sources, count, up, B);
+        status = integrate(out, h, local_sources, count, up, B);
     }
     free(B);
     free(local_sources);

@@ -33,6 +33,7 @@ typedef struct heat_field {
     sl_int negative;  /* vertices of the patch with heat below 0: t is too small for obtuse faces */
     sl_int faces_without_gradient; /* faces that no heat reached, or without area: X = 0 there */
     int solves;                    /* local solves for d */
+    bool pinned; /* d is held at 0 at all sources, by a factor of the patch: no local solves */
     sl_stats heat_stats, poisson_stats; /* plan and region groups: entries of the factors read */
 } heat_field;
 
@@ -75,7 +76,8 @@ void heat_patch_free(heat_patch *h);
  *                  sources are those that the patch was created around.
  *  sources  [in]   count distinct vertices of the patch.
  *  radius   [in]   only vertices with a distance up to radius are returned; 0: all of the patch.
- *  solves   [in]   the largest number of local solves for d, 1 or more.
+ *  solves   [in]   the largest number of local solves for d, 1 or more. With several sources and
+ *                  more than 1, d is 0 at all of them, by a factor of the patch's own Laplacian.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: the patch has regions and the time has changed;
  *           SL_ERR_MEMORY.
  *  Cost     as heat_patch_create; with regions O(patch).

@@ -25,8 +25,9 @@
  *  message       [out]  the reason on error, with file and line; "" otherwise; may be NULL.
  *  message_size  [in]   bytes at message.
  *  Returns  true; false: no such file, unknown format, malformed or truncated file; a complex,
- *           skew-symmetric or elemental matrix, or an array; a symmetric file of both triangles; more rows or columns than the file has
- *           bytes (all formats but .mtx); more than 2 GiB of content; out of memory.
+ *           skew-symmetric or elemental matrix, or an array; a symmetric .mtx file of both
+ *           triangles; more rows or columns than the file has bytes (all formats but .mtx); more
+ *           than 2 GiB of content; out of memory.
  *  Cost     O(file size), for .mtx plus O(rows + columns).
  *  Example  tests/tools/test_matrix_file.c
  */
