@@ -227,6 +227,30 @@ static void components_move_by_themselves(void **state) {
     }
 }
 
+/* Many handles are eliminated in a second factor and give the positions of a new factor. */
+static void many_handles_are_eliminated(void **state) {
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene_t s;
+        sl_int held[900], count = 0;
+        assert_true(surface_generate(&s.m, "hills:40x40", NULL, 0));
+        SL_CHECK(deformer_create(&s.d, &s.m, k == 0 ? DEFORM_ARAP : DEFORM_BIHARMONIC));
+        for (sl_int v = 0; v < s.m.n_vertices && count < 900; v += 1 + v % 2) {
+            held[count++] = v;
+        }
+        SL_CHECK(deformer_hold(&s.d, held, count));
+        assert_int_equal(s.d.stats.pins.method, SL_PINS_ELIMINATION);
+        assert_int_equal(s.d.stats.pins.eliminated, count);
+        deformer_move(&s.d, held[7], (const double[3]){1, 2, 3});
+        solve(&s, 2);
+        assert_agrees_with_new_factor(&s);
+        SL_CHECK(deformer_release(&s.d, held, count / 2));
+        solve(&s, 2);
+        assert_agrees_with_new_factor(&s);
+        scene_free(&s);
+    }
+}
+
 /* Positions beyond the range of numbers are an error and change nothing. */
 static void overflow_is_an_error(void **state) {
     (void)state;
@@ -249,6 +273,7 @@ int main(void) {
         cmocka_unit_test(handles_come_and_go),
         cmocka_unit_test(watched_vertices_are_those_of_the_surface),
         cmocka_unit_test(components_move_by_themselves),
+        cmocka_unit_test(many_handles_are_eliminated),
         cmocka_unit_test(overflow_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

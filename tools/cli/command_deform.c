@@ -16,7 +16,8 @@ static const options_usage usage = {
 static const options_manual manual = {
     "Vertices that handles hold are pins on the factor of a singular matrix, the Laplacian L "
     "(arap) or L M^-1 L (biharmonic), which is factored once. Grabbing a handle takes a forward "
-    "sweep for up to 8 of its vertices, releasing it changes a small matrix only, and a frame "
+    "sweep for up to 8 of its vertices, and releasing it changes a small matrix only; many "
+    "vertices are eliminated in a second factor instead, where that is cheaper. A frame "
     "takes full solves with three right-hand sides. As-rigid-as-possible deformations alternate "
     "rotations of vertices with such solves. Biharmonic displacements need one solve; --at "
     "computes them near the wanted vertices only. A component without handles keeps its mean "
@@ -168,6 +169,7 @@ static void report(deform_command *cmd, const script_step *step, const step_time
 static void grab(deform_command *cmd, const script_handle *h, const script_step *step,
                  step_times *t) {
     const double began = app_processor_ms();
+    app_stage("holding vertices");
     const sl_status status = deformer_hold(&cmd->d, h->vertices, h->count);
     if (status != SL_OK) {
         app_die("%s:%ld: vertex %d cannot be held: %s", cmd->script_path, step->line,
@@ -349,7 +351,11 @@ static void print_summary(const deform_command *cmd) {
             printf("; %d released, %.4f ms each", (int)cmd->released,
                    cmd->total.release / (double)cmd->released);
         }
-        printf("\n");
+        const sl_pins_info *pins = &cmd->d.stats.pins;
+        printf("; %d of %d eliminated%s\n", (int)pins->eliminated, (int)pins->count,
+               pins->reason == SL_PINS_REFUSED    ? " (refused: a pivot is too small)"
+               : pins->reason == SL_PINS_UNSUITED ? " (not possible: several null vectors)"
+                                                  : "");
     }
     printf("frames     %d", (int)cmd->script.n_frames);
     if (cmd->d.method == DEFORM_ARAP) {

@@ -125,6 +125,11 @@ static sl_status factor(deformer *d) {
         status = sl_pins_create(&d->pins, d->F, NULL);
     }
     if (status == SL_OK) {
+        /* Many pins are then eliminated. If K fails the test, pins are as they were. */
+        status = sl_pins_refactor(d->pins, &K, &d->stats);
+        status = status == SL_ERR_ARGUMENT ? SL_OK : status;
+    }
+    if (status == SL_OK) {
         status = sl_work_create(&d->W, NULL);
     }
     if (status == SL_OK && d->method == DEFORM_ARAP) {

@@ -66,7 +66,8 @@ void deformer_free(deformer *d);
 /** Holds vertices where they are, all or none. Those that are held already stay so.
  *
  *  Returns  SL_OK; as sl_pins_add, with the vertex in stats.error.row.
- *  Cost     that of sl_pins_add.
+ *  Cost     that of sl_pins_add; stats.pins has the way in use. Many are eliminated in a second
+ *           factor.
  */
 sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count);
 
