@@ -123,10 +123,55 @@ static void borders_stay(void **state) {
     mesh_free(&grid);
 }
 
+/* Two surfaces glued together at single vertices, and a face on an edge that has two: whatever is
+ * edited, no face keeps a vertex that is gone. */
+static void pinched_vertices_stay(void **state) {
+    (void)state;
+    mesh a, m = {0, 0, NULL, NULL};
+    remesh r;
+    uint64_t random = 9;
+    assert_true(mesh_torus(&a, 20, 10, 0.2, 3));
+    const sl_int n = a.n_vertices, f = a.n_faces;
+    m.n_vertices = 2 * n;
+    m.n_faces = 2 * f + 1;
+    m.xyz = test_reals(6 * (size_t)n);
+    m.faces = test_ints(3 * (size_t)m.n_faces);
+    for (sl_int k = 0; k < 3 * n; k++) {
+        m.xyz[k] = a.xyz[k];
+        m.xyz[3 * n + k] = a.xyz[k] + (k % 3 == 0 ? 0.01 : 0);
+    }
+    for (sl_int k = 0; k < 3 * f; k++) { /* every 11th vertex is that of the first surface */
+        m.faces[k] = a.faces[k];
+        m.faces[3 * f + k] = a.faces[k] % 11 == 0 ? a.faces[k] : n + a.faces[k];
+    }
+    m.faces[6 * f] = a.faces[0];
+    m.faces[6 * f + 1] = a.faces[1];
+    m.faces[6 * f + 2] = n + 1;
+    assert_true(remesh_create(&r, &m));
+    for (int round = 0; round < 60; round++) {
+        sl_int *patch = test_ints((size_t)r.faces.m.n_vertices);
+        sl_int *new_of = test_ints(2 * (size_t)r.faces.m.n_vertices + 100);
+        unsigned char *seen = (unsigned char *)test_array((size_t)r.faces.m.n_vertices, 1);
+        memset(seen, 0, (size_t)r.faces.m.n_vertices);
+        const sl_int count = remesh_patch(&r, round * 7 % r.faces.m.n_vertices, 30, patch, seen);
+        assert_true(remesh_vertices(&r, patch, count, &random) >= 0);
+        remesh_compact(&r, new_of);
+        assert_true(mesh_faces_are_in_range(&r.faces.m));
+        free(seen);
+        free(new_of);
+        free(patch);
+    }
+    assert_true(r.faces.m.n_faces > f);
+    remesh_free(&r);
+    mesh_free(&m);
+    mesh_free(&a);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_remeshed_torus_stays_a_torus),
         cmocka_unit_test(borders_stay),
+        cmocka_unit_test(pinched_vertices_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

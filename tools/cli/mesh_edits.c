@@ -13,8 +13,12 @@ enum { TRIES = 200 };
 
 static sl_matrix *assemble(const mesh_edits *e) {
     sl_matrix *A = NULL;
+    if (!mesh_faces_are_in_range(&e->mesh.faces.m)) {
+        app_die("edit: an edit has left a face without a vertex");
+    }
     if (!laplacian_system(&A, &e->mesh.faces.m, e->t)) {
-        app_die("out of memory");
+        app_die("edit: out of memory for the matrix of %d vertices",
+                (int)e->mesh.faces.m.n_vertices);
     }
     return A;
 }
@@ -25,7 +29,7 @@ void mesh_edits_create(mesh_edits *out, const mesh *m, double t, sl_int patch, u
     out->patch = patch;
     out->random = seed;
     if (!remesh_create(&out->mesh, m)) {
-        app_die("out of memory");
+        app_die("edit: out of memory for a copy of the mesh");
     }
     out->A = assemble(out);
     const sl_csc A = sl_matrix_view(out->A);

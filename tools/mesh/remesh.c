@@ -105,8 +105,8 @@ bool remesh_create(remesh *out, const mesh *m) {
     return true;
 }
 
-/* Lists the sides that begin at a vertex. Returns how many; 0: it is at the border, or has too
- * many. */
+/* Lists the sides that begin at a vertex. Returns how many; 0: it is at the border, has too many,
+ * or has faces beside those around it, which would be left behind. */
 static int sides_around(const remesh *r, sl_int v, sl_int *sides) {
     const sl_int start = r->side[v];
     sl_int s = start;
@@ -118,7 +118,7 @@ static int sides_around(const remesh *r, sl_int v, sl_int *sides) {
         sides[count++] = s;
         s = around(r, s);
     } while (s != start);
-    return count;
+    return count == r->valence[v] ? count : 0;
 }
 
 /* Are two vertices joined? The first one is not at the border. */
