@@ -50,6 +50,7 @@ static void patch_problems_are_solved_whatever_the_patch(void **state) {
                       how.solves, how.own_factor ? ", own factor" : "", how.residual,
                       how.backward_error);
         assert_true(how.solved && how.solves <= 60);
+        assert_true(how.error >= 0 && how.error <= PATCH_SOLVER_ERROR);
         by_own_factor += how.own_factor;
         if (which == 0 || which == 6) {
             assert_true(how.own_factor);
@@ -85,7 +86,7 @@ static void systems_without_a_solution_are_reported(void **state) {
         B[k] = 1;
     }
     SL_CHECK(patch_solver_solve_exact(&s, X, B, 2, &how));
-    assert_true(how.own_factor && !how.solved && how.residual > 1e-3);
+    assert_true(how.own_factor && !how.solved && how.residual > 1e-3 && how.backward_error > 1e-6);
     B[3] = NAN;
     if (patch_solver_solve_exact(&s, X, B, 2, &how) == SL_OK) {
         assert_false(how.solved);

@@ -296,7 +296,7 @@ static bool fix_boundary(param_command *cmd) {
     }
     boundary_scatter(Y, boundary, &cmd->layout.d);
     app_must(patch_solver_measure(&cmd->layout.s, &how, cmd->X, Y, 2), "residual", NULL);
-    bool solved = how.residual <= 1e-10 || how.backward_error <= 1e-12;
+    bool solved = how.residual <= 1e-10 || how.backward_error <= 1e-10;
     printf("residual   %.1e inside the patch, relative to the flux at the boundary; backward error "
            "%.1e\n",
            how.residual, how.backward_error);

@@ -8,8 +8,10 @@
 #include "tools/geometry/harmonic_map.h"
 #include "tools/geometry/laplacian.h"
 
-/* Off the interface, a local solve leaves rounding errors. */
+/* Off the interface, a local solve leaves rounding errors: small beside the flux, or where the
+ * weights span many orders of magnitude, small beside the terms of each row. */
 #define INSIDE_MAX 1e-9
+#define BACKWARD_MAX 1e-10
 
 layout_system layout_system_named(const char *text) {
     static const char *const names[] = {"auto", "mesh", "patch"};
@@ -21,24 +23,45 @@ layout_system layout_system_named(const char *text) {
     app_die_usage("--system %s: expected auto, mesh or patch", text);
 }
 
-/* ||b - N x|| / ||b|| without the rows of the interface; the larger of the two columns. */
-static double residual_inside(const layout_command *job, const double *X, const double *flux) {
+/* |N| |x| + |b| for one column. */
+static void row_terms(double *terms, const sl_csc *N, const double *x, const double *b) {
+    for (sl_int k = 0; k < N->n_rows; k++) {
+        terms[k] = fabs(b[k]);
+    }
+    for (sl_int j = 0; j < N->n_cols; j++) {
+        for (sl_int p = N->p[j]; p < N->p[j + 1]; p++) {
+            const sl_int i = N->i[p];
+            terms[i] += fabs(N->x[p] * x[j]);
+            terms[j] += i != j ? fabs(N->x[p] * x[i]) : 0;
+        }
+    }
+}
+
+/* ||b - N x|| / ||b|| without the rows of the interface; the larger of the two columns. backward:
+ * the largest |b - N x|_i / (|N| |x| + |b|)_i of these rows. */
+static double residual_inside(const layout_command *job, const double *X, const double *flux,
+                              double *backward) {
     const sl_csc N = sl_matrix_view(job->s.N);
     size_t n = (size_t)N.n_rows;
-    double *R = app_alloc(2 * n, sizeof *R), worst = 0;
+    double *R = app_alloc(2 * n, sizeof *R), *terms = app_alloc(n, sizeof *terms), worst = 0;
+    *backward = 0;
     app_must(sl_csc_residual(&N, R, n, NULL, X, n, flux, n, 2), "residual", NULL);
     for (size_t c = 0; c < 2; c++) {
         double rest = 0, size = 0;
         for (sl_int k = 0; k < job->d.p.n_interface; k++) {
             R[c * n + (size_t)job->d.p.interface[k]] = 0;
         }
+        row_terms(terms, &N, X + c * n, flux + c * n);
         for (size_t k = c * n; k < (c + 1) * n; k++) {
             rest = hypot(rest, R[k]);
             size = hypot(size, flux[k]);
+            *backward = R[k] != 0 ? fmax(*backward, fabs(R[k]) / terms[k - c * n]) : *backward;
         }
         rest = size > 0 ? rest / size : rest;
         worst = isfinite(rest) ? fmax(worst, rest) : INFINITY;
+        *backward = isfinite(rest) ? *backward : INFINITY;
     }
+    free(terms);
     free(R);
     return worst;
 }
@@ -57,11 +80,12 @@ static layout_solution solve_one(layout_command *job, double *X, const double *f
                  NULL);
     }
     how.seconds = app_now() - began;
-    how.inside = residual_inside(job, X, flux);
+    how.inside = residual_inside(job, X, flux, &how.backward);
     if (system == LAYOUT_MESH) {
         app_must(patch_solver_measure(&job->s, &how.patch, X, flux, 2), "residual", NULL);
     }
-    how.solved = system == LAYOUT_PATCH ? how.patch.solved : how.inside <= INSIDE_MAX;
+    how.solved = system == LAYOUT_PATCH ? how.patch.solved
+                                        : how.inside <= INSIDE_MAX || how.backward <= BACKWARD_MAX;
     return how;
 }
 
@@ -114,22 +138,23 @@ static sl_int without_weights(const layout_command *job) {
 bool layout_print_solution(const layout_command *job, const layout_solution *how) {
     if (how->used == LAYOUT_MESH) {
         printf("solve      system of the mesh, 1 local solve: %.3f ms\n", 1e3 * how->seconds);
-        printf(
-            "residual   %.1e inside the patch; %.1e of the patch's own system, whose boundary is "
-            "free\n",
-            how->inside, how->patch.residual);
+        printf("residual   %.1e inside the patch, backward error %.1e; %.1e of the patch's own "
+               "system, "
+               "whose boundary is free\n",
+               how->inside, how->backward, how->patch.residual);
     } else {
         printf("solve      system of the patch, %d local solves%s: %.3f ms\n", how->patch.solves,
                how->patch.own_factor ? " did not suffice: solved by a factor of the patch" : "",
                1e3 * how->seconds);
-        printf("residual   %.1e of the patch's own system; backward error %.1e\n",
-               how->patch.residual, how->patch.backward_error);
+        printf("residual   %.1e of the patch's own system; backward error %.1e, error about %.1e\n",
+               how->patch.residual, how->patch.backward_error, how->patch.error);
     }
     if (!how->solved) {
         app_warn("the layout does not solve its system: residual %.1e, backward error %.1e; %d "
                  "vertices have no weights",
                  how->used == LAYOUT_MESH ? how->inside : how->patch.residual,
-                 how->patch.backward_error, (int)without_weights(job));
+                 how->used == LAYOUT_MESH ? how->backward : how->patch.backward_error,
+                 (int)without_weights(job));
     }
     return how->solved;
 }

@@ -19,6 +19,7 @@ typedef struct layout_solution {
     layout_system used; /* LAYOUT_MESH or LAYOUT_PATCH */
     patch_report patch; /* measured against the patch's own system N x = b in either case */
     double inside;      /* ||b - N x|| / ||b|| off the interface, where both systems agree */
+    double backward;    /* componentwise, inside */
     bool solved;        /* the residual of the system that was used is small enough */
     double seconds;
 } layout_solution;

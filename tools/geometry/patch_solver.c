@@ -297,12 +297,14 @@ sl_status patch_solver_measure(const patch_solver *s, patch_report *report, cons
     return status;
 }
 
-/* The size of the next correction L^-1 (b - N x), relative to x: an estimate of the error of x. R
- * is in s->scratch, from patch_solver_measure. */
-static sl_status next_correction(patch_solver *s, double *relative, const double *X, sl_int nrhs) {
+/* The size of the next correction L^-1 (b - N x), or with the patch's own factor N^-1 (b - N x),
+ * relative to x: an estimate of the error of x. R is in s->scratch, from patch_solver_measure. */
+static sl_status next_correction(patch_solver *s, double *relative, const double *X, sl_int nrhs,
+                                 bool own_factor) {
     size_t n = (size_t)s->p->m.n_vertices;
     double *Z = s->scratch + n * PATCH_SOLVER_MAX_RHS;
-    sl_status status = precondition(s, Z, s->scratch, nrhs);
+    sl_status status = own_factor ? sl_factor_solve(s->own_F, Z, n, s->scratch, n, nrhs, s->work)
+                                  : precondition(s, Z, s->scratch, nrhs);
     *relative = 0;
     for (size_t c = 0; c < (size_t)nrhs && status == SL_OK; c++) {
         double correction = 0, size = 0;
@@ -343,7 +345,7 @@ sl_status patch_solver_solve_exact(patch_solver *s, double *X, const double *B, 
         status = patch_solver_measure(s, report, X, B, nrhs);
     }
     if (status == SL_OK && s->p->n_interface > 0) {
-        status = next_correction(s, &correction, X, nrhs);
+        status = next_correction(s, &correction, X, nrhs, false);
     }
     if (status == SL_OK && !(report->residual <= accepted && correction <= accepted)) {
         report->own_factor = true;
@@ -352,8 +354,16 @@ sl_status patch_solver_solve_exact(patch_solver *s, double *X, const double *B, 
             center(X, n, nrhs);
             status = patch_solver_measure(s, report, X, B, nrhs);
         }
+        if (status == SL_OK) {
+            status = next_correction(s, &correction, X, nrhs, true);
+        }
     }
-    report->solved =
-        status == SL_OK && (report->residual <= accepted || report->backward_error <= 1e-13);
+    /* A badly conditioned system may leave a residual that is large beside b, with a solution that
+     * is right for weights next to the given ones, and near the true one. */
+    const bool is_near =
+        report->own_factor && report->backward_error <= 1e-10 && correction <= PATCH_SOLVER_ERROR;
+    report->error = correction;
+    report->solved = status == SL_OK &&
+                     (report->residual <= accepted || report->backward_error <= 1e-13 || is_near);
     return status;
 }

@@ -97,11 +97,17 @@ sl_status patch_solver_solve_mesh(patch_solver *s, double *X, const double *B, s
 sl_status patch_solver_solve_patch(patch_solver *s, double *X, const double *B, sl_int nrhs,
                                    double tolerance, int *solves);
 
+/* The estimated error of a solution that is accepted for its backward error. */
+#define PATCH_SOLVER_ERROR 1e-6
+
 /** How a solution of the patch problem was found, and how well it satisfies N x = b. */
 typedef struct patch_report {
     int solves;      /* local solves with the factor of the mesh */
     bool own_factor; /* the solution is by the patch's own factor */
-    bool solved;     /* residual <= 1e-10, or backward_error <= 1e-13 */
+    /* residual <= 1e-10, or backward_error <= 1e-13; with the patch's own factor also if
+     * backward_error <= 1e-10 and error <= PATCH_SOLVER_ERROR */
+    bool solved;
+    double error;    /* the next correction, relative to the largest entry: what x may be off by */
     double residual; /* the largest ||b - N x|| / ||b|| of the columns; ||b - N x|| if b = 0 */
     double backward_error; /* the largest |b - N x|_i / (|N| |x| + |b|)_i */
 } patch_report;
