@@ -201,6 +201,46 @@ static void real_meshes_reach_the_same_energy(void **state) {
     each_mesh(names, 4, INT32_MAX, check_mesh);
 }
 
+/* Steps end at 0.9 of the way to the first face that would be turned over; others stay whole. */
+static void steps_turn_no_face_over(void **state) {
+    (void)state;
+    /* two faces at the edge from 0 to 2: the first, 0 1 2, loses its area when vertex 1 has moved
+     * by 1 in the first coordinate; the second, 0 2 3, when vertex 3 has */
+    const sl_int faces[6] = {0, 1, 2, 0, 2, 3};
+    const double from[8] = {0, 1, 0, -1, 0, 1, 2, 1}; /* columns: x, then y */
+    sl_int corners[6];
+    submesh p;
+    arap a;
+    memset(&p, 0, sizeof p);
+    memset(&a, 0, sizeof a);
+    memcpy(corners, faces, sizeof faces);
+    p.m.n_vertices = 4;
+    p.m.n_faces = 2;
+    p.m.faces = corners;
+    a.p = &p;
+    const struct {
+        double by[2], part; /* what vertices 1 and 3 move by along x; the part of it that is left */
+    } cases[] = {{{0, 0}, 1},      {{-0.5, 0.5}, 1}, {{-2, 0}, 0.45},
+                 {{-2, 4}, 0.225}, {{5, -5}, 1},     {{-1, 0}, 1}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        double X[8];
+        memcpy(X, from, sizeof X);
+        X[1] += cases[k].by[0];
+        X[3] += cases[k].by[1];
+        const double part = arap_shorten_step(&a, X, from);
+        assert_true(fabs(part - cases[k].part) < 1e-15);
+        assert_true(fabs(X[1] - 1 - part * cases[k].by[0]) < 1e-15);
+        assert_true(fabs(X[3] + 1 - part * cases[k].by[1]) < 1e-15);
+    }
+    /* a face that shrinks and grows again without losing its area; and one that is turned over at
+     * the begin */
+    double X[8] = {0, -1, 0, -1, 0, 1, -2, 1};
+    assert_true(arap_shorten_step(&a, X, from) < 0.5);
+    const double over[8] = {0, -1, 0, -1, 0, 1, 2, 1};
+    memcpy(X, from, sizeof X);
+    assert_true(arap_shorten_step(&a, X, over) == 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mesh_factor_matches_the_patch_factor),
@@ -208,6 +248,7 @@ int main(void) {
         cmocka_unit_test(the_energy_matches_singular_values),
         cmocka_unit_test(linear_maps_have_the_known_distortion),
         cmocka_unit_test(real_meshes_reach_the_same_energy),
+        cmocka_unit_test(steps_turn_no_face_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

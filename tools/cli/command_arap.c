@@ -23,7 +23,9 @@ static const options_manual manual = {
     "the energy never increases; with 2 an iteration is nearly as effective as an exact one. "
     "--own-factor factors N and makes exact steps; so does the command where a step with the "
     "factor of the mesh does not halve the residual. All converge to layouts with the same energy, "
-    "as far as the energy has one minimum near the start.",
+    "as far as the energy has one minimum near the start. If faces are flipped at the end and none "
+    "was at the start, all is repeated with steps that are shortened so that none is flipped "
+    "(Smith and Schaefer 2015).",
     LAYOUT_OUTPUT
     "\nenergy: mean over the patch of (a - 1)^2 + (b - 1)^2, a and b the singular values of the "
     "map of a face, after 1, 2, 5, 10, ... iterations. residual: gradient of the energy relative "
@@ -37,6 +39,7 @@ typedef struct arap_command {
     sl_int iterations, solves;
     double tolerance;
     bool own_factor; /* steps are exact, with the patch's own factor */
+    bool keep;       /* shorten steps, so that no face is turned over */
 } arap_command;
 
 static void factor_patch(arap_command *cmd) {
@@ -86,13 +89,20 @@ static bool iterate(arap_command *cmd, double *X) {
     app_must(sl_work_create(&work, NULL), "workspace", NULL);
     double energy = arap_local_step(&a, X), lowered = INFINITY, began = app_now();
     double residual = arap_residual(&a, X, s);
+    const size_t room = 2 * (size_t)cmd->layout.d.p.m.n_vertices;
+    double *before = cmd->keep ? app_alloc(room, sizeof *before) : NULL;
+    sl_int shortened = 0;
     bool done = residual <= 1e-14;
     sl_int k = 0;
     printf("energy     %.6g initially, residual %.1e\n", energy, residual);
     while (!done && k < cmd->iterations) {
         k++;
+        if (cmd->keep) {
+            memcpy(before, X, room * sizeof *X);
+        }
         global_step(cmd, &a, X, work);
         bool poor = !cmd->own_factor && step_is_poor(&a, X, s, residual);
+        shortened += cmd->keep && arap_shorten_step(&a, X, before) < 1;
         double next = arap_local_step(&a, X);
         residual = arap_residual(&a, X, s);
         lowered = energy > 0 ? (energy - next) / energy : 0;
@@ -109,6 +119,10 @@ static bool iterate(arap_command *cmd, double *X) {
     }
     app_progress_end();
     printf("time       %.3f ms for all iterations\n", 1e3 * (app_now() - began));
+    if (shortened > 0) {
+        printf("steps      %d were shortened so that no face is turned over\n", (int)shortened);
+    }
+    free(before);
     if (!done || !isfinite(energy)) {
         app_warn("arap has not converged after %d iterations: the last one lowered the energy by "
                  "%.1e of itself, the residual is %.1e; raise --iterations",
@@ -151,10 +165,22 @@ int command_arap(int argc, char **argv) {
         factor_patch(&cmd);
     }
     layout_command_report_head();
-    (void)layout_command_report(&cmd.layout, "harmonic", X);
+    const bool may_keep = layout_command_report(&cmd.layout, "harmonic", X).flipped == 0;
+    const size_t room = 2 * (size_t)cmd.layout.d.p.m.n_vertices;
+    double *start = app_alloc(room, sizeof *start);
+    memcpy(start, X, room * sizeof *X);
     bool converged = iterate(&cmd, X);
     layout_command_report_head();
     distortion q = layout_command_report(&cmd.layout, "as rigid as possible", X);
+    if (q.flipped > 0 && may_keep) {
+        printf("again      from the harmonic layout, which flips none, with shorter steps\n");
+        memcpy(X, start, room * sizeof *X);
+        cmd.keep = true;
+        converged = iterate(&cmd, X);
+        layout_command_report_head();
+        q = layout_command_report(&cmd.layout, "as rigid as possible", X);
+    }
+    free(start);
     layout_warn(&cmd.layout, X, &q);
     layout_command_write(&cmd.layout, X);
     free(X);

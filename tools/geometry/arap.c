@@ -131,6 +131,49 @@ sl_status arap_global_step(arap *a, double *X, patch_solver *s, int solves) {
     return status;
 }
 
+/* The first t in 0..1 at which a + b t + c t^2 is 0, for a > 0; 1 if there is none. */
+static double first_root(double a, double b, double c) {
+    const double discriminant = b * b - 4 * a * c;
+    if (!(discriminant >= 0)) {
+        return 1;
+    }
+    /* 2 a / (-b +- root): the smaller of the positive ones */
+    const double root = sqrt(discriminant), low = -b + root, high = -b - root;
+    double t = 1;
+    t = low > 0 ? fmin(t, 2 * a / low) : t;
+    return high > 0 ? fmin(t, 2 * a / high) : t;
+}
+
+double arap_shorten_step(const arap *a, double *X, const double *from) {
+    const size_t n = (size_t)a->p->m.n_vertices, nf = (size_t)a->p->m.n_faces;
+    double step = 1;
+    for (size_t f = 0; f < nf; f++) {
+        const sl_int *v = a->p->m.faces + 3 * f;
+        double e[2][2], d[2][2]; /* two edges at the begin, and what the step adds to them */
+        for (size_t k = 0; k < 2; k++) {
+            for (size_t c = 0; c < 2; c++) {
+                const size_t i = c * n + (size_t)v[k + 1], o = c * n + (size_t)v[0];
+                e[k][c] = from[i] - from[o];
+                d[k][c] = X[i] - X[o] - e[k][c];
+            }
+        }
+        const double area = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+        if (area > 0) {
+            step = fmin(step, first_root(area,
+                                         e[0][0] * d[1][1] - e[0][1] * d[1][0] + d[0][0] * e[1][1] -
+                                             d[0][1] * e[1][0],
+                                         d[0][0] * d[1][1] - d[0][1] * d[1][0]));
+        }
+    }
+    if (step < 1) {
+        step *= 0.9;
+        for (size_t k = 0; k < 2 * n; k++) {
+            X[k] = from[k] + step * (X[k] - from[k]);
+        }
+    }
+    return step;
+}
+
 sl_status arap_global_step_exact(arap *a, double *X, const sl_factor *F, sl_work *W) {
     size_t n = (size_t)a->p->m.n_vertices;
     gather(a);

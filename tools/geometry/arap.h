@@ -63,6 +63,17 @@ double arap_residual(arap *a, const double *X, const patch_solver *s);
  */
 sl_status arap_global_step(arap *a, double *X, patch_solver *s, int solves);
 
+/** Shortens a step so that it turns no face over: to 0.9 of the way on which the first face loses
+ *  its area, if that is less than the whole step. For fixed rotations E is a convex quadratic
+ *  function, so that a shorter step lowers it, too.
+ *
+ *  X     [in,out]  n x 2, column-major: the end of the step.
+ *  from  [in]      n x 2: its begin. Faces that are turned over there are not looked at.
+ *  Returns  the part of the step that is left, 1 if all of it.
+ *  Source   Smith, Schaefer: Bijective parameterization with free boundaries, 2015.
+ */
+double arap_shorten_step(const arap *a, double *X, const double *from);
+
 /** The global step, exactly, on a factor of N itself (made with SL_NULL_PIVOT_SKIP).
  *
  *  X  [out]  n x 2, column-major.
