@@ -39,7 +39,13 @@ gives() {
 gives 0 'usage: sparse-local COMMAND' --help
 gives 0 'generated surface' help
 gives 2 'usage: sparse-local COMMAND'
-gives 2 'unknown command frobnicate' frobnicate
+gives 2 'unknown command frobnicate$' frobnicate
+gives 2 'unknown command heta; did you mean heat?' heta sphere:1
+gives 2 'unknown command geodesics; did you mean geodesic?' help geodesics
+gives 0 'usage: sparse-local heat ' help heat
+gives 0 '^sparse-local [0-9]*[.][0-9]*[.][0-9]*$' --version
+gives 2 'unknown option --radis; did you mean --radius?' geodesic sphere:1 --radis 3
+gives 2 'pictures are PNG files; end the name in .png' adf sphere:1 --png "$dir/x.jpg"
 # all commands but query, which takes no mesh
 commands=$("$program" --help | sed -n '/^  query /d; s/^  \([a-z]*\) .*/\1/p')
 for command in $commands; do
@@ -317,6 +323,20 @@ gives 0 'weld       0 vertices merged with others, 0 faces' adf sphere:1 --weld
 gives 2 'f.slf: a saved factor has no mesh for --weld' heat "$dir/f.slf" --weld
 gives 2 'f.slf: a saved factor has no mesh for --weld' info "$dir/f.slf" --weld
 gives 2 'weld -1: not a finite number of 0 or more' info --weld=-1 "$dir/soup.obj"
+
+# A mesh from a pipe, of any format.
+
+"$program" adf sphere:2 --out "$dir/pipe.obj" --csv "$dir/pipe.csv" >/dev/null
+for ending in obj ply vtk glb gltf obj.gz ply.gz; do
+    "$program" adf sphere:2 --out "$dir/pipe.$ending" >/dev/null &&
+        "$program" info --mesh-only - <"$dir/pipe.$ending" | grep -q '^vertices *162 '
+    record $? "a mesh in the format $ending is read from standard input"
+done
+for text in 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' \
+    'solid\nfacet\nvertex 0 0 0 vertex 1 0 0 vertex 0 1 0\nendloop\nendsolid\n'; do
+    printf "$text" | "$program" info --mesh-only - | grep -q '^faces *1 '
+    record $? "$text is read from standard input"
+done
 
 # Refusals.
 

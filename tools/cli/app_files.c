@@ -14,8 +14,8 @@
 #include "tools/mesh/surface_generator.h"
 
 const char app_mesh_help[] =
-    "a mesh file (.obj, .off, .ply, .stl, .vtk, .glb, .gltf, optionally .gz) or a generated "
-    "surface: "
+    "a mesh file (.obj, .off, .ply, .stl, .vtk, .glb, .gltf, optionally .gz), - for a mesh "
+    "from standard input, or a generated surface: "
     "grid:100x100, hills:100x100, sphere:5, blob:5, star:5, torus:120x40, knot:400x24.";
 
 double app_weld = -1;

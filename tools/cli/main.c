@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "command.h"
+#include "near_word.h"
 #include "tools/io/output_file.h"
 
 typedef struct command {
@@ -42,27 +43,61 @@ static void print_usage(FILE *out) {
     }
 }
 
+static const command *command_named(const char *name) {
+    for (int k = 0; k < N_COMMANDS; k++) {
+        if (strcmp(name, commands[k].name) == 0) {
+            return &commands[k];
+        }
+    }
+    return NULL;
+}
+
+static int refuse_command(const char *name) {
+    const char *meant = NULL;
+    for (int k = 0; k < N_COMMANDS; k++) {
+        meant = near_word(name, meant, commands[k].name);
+    }
+    if (meant != NULL) {
+        (void)fprintf(stderr, "sparse-local: unknown command %s; did you mean %s?\n", name, meant);
+    } else {
+        (void)fprintf(stderr, "sparse-local: unknown command %s\n", name);
+    }
+    print_usage(stderr);
+    return 2;
+}
+
+static int print_help(void) {
+    print_usage(stdout);
+    (void)printf("\nMESH is");
+    options_print_wrapped(app_mesh_help, 0, 7);
+    (void)printf("\nRun sparse-local COMMAND --help for the options and output of a command.\n");
+    return 0;
+}
+
 int main(int argc, char **argv) {
     output_begin_program("sparse-local");
     if (argc < 2) {
         print_usage(stderr);
         return 2;
     }
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
-        strcmp(argv[1], "help") == 0) {
-        print_usage(stdout);
-        (void)printf("\nMESH is");
-        options_print_wrapped(app_mesh_help, 0, 7);
-        (void)printf(
-            "\nRun sparse-local COMMAND --help for the options and output of a command.\n");
+    if (strcmp(argv[1], "--version") == 0) {
+        (void)printf("sparse-local %d.%d.%d\n", SL_VERSION_MAJOR, SL_VERSION_MINOR,
+                     SL_VERSION_PATCH);
         return 0;
     }
-    for (int k = 0; k < N_COMMANDS; k++) {
-        if (strcmp(argv[1], commands[k].name) == 0) {
-            return commands[k].run(argc - 1, argv + 1);
-        }
+    const bool wants_help = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
+                            strcmp(argv[1], "help") == 0;
+    if (wants_help && argc == 2) {
+        return print_help();
     }
-    (void)fprintf(stderr, "sparse-local: unknown command %s\n", argv[1]);
-    print_usage(stderr);
-    return 2;
+    const char *name = argv[wants_help ? 2 : 1]; /* help NAME is NAME --help */
+    const command *found = command_named(name);
+    if (found == NULL) {
+        return refuse_command(name);
+    }
+    if (wants_help) {
+        char help[] = "--help", *words[3] = {argv[2], help, NULL};
+        return found->run(2, words);
+    }
+    return found->run(argc - 1, argv + 1);
 }

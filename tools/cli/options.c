@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "near_word.h"
+#include "tools/io/input.h"
 #include "tools/io/output_file.h"
 
 enum { LINE_WIDTH = 90, HELP_COLUMN = 25 };
@@ -45,6 +47,23 @@ static bool store(const option *o, const char *text) {
     return true;
 }
 
+/* The message on an unknown option, with the name that was probably meant. */
+static void refuse_option(const option *options, const char *word, size_t length, char *message,
+                          size_t message_size) {
+    char name[32];
+    const char *meant = NULL;
+    (void)snprintf(name, sizeof name, "%.*s", length < 31 ? (int)length : 31, word + 2);
+    for (const option *o = options; o->kind != OPTION_END && word[1] == '-'; o++) {
+        meant = near_word(name, meant, o->name);
+    }
+    if (meant != NULL) {
+        (void)snprintf(message, message_size, "unknown option %.200s; did you mean --%s?", word,
+                       meant);
+    } else {
+        (void)snprintf(message, message_size, "unknown option %.200s", word);
+    }
+}
+
 /* Parses the option at argv[*at] and advances *at to its last word. */
 static bool read_option(const option *options, int argc, char **argv, int *at, char *message,
                         size_t message_size) {
@@ -54,7 +73,7 @@ static bool read_option(const option *options, int argc, char **argv, int *at, c
     size_t length = equals != NULL ? (size_t)(equals - name) : strlen(name);
     const option *o = word[1] == '-' ? option_named(options, name, length) : NULL;
     if (o == NULL) {
-        (void)snprintf(message, message_size, "unknown option %.200s", word);
+        refuse_option(options, word, length, message, message_size);
         return false;
     }
     if (o->kind == OPTION_FLAG) {
@@ -181,12 +200,29 @@ static const char *output_of(const option *o) {
     return o->kind == OPTION_OUTPUT ? *(const char *const *)o->value : NULL;
 }
 
+/* Does the name end as that of a picture that is not PNG? */
+static bool is_other_picture(const char *path) {
+    static const char *const endings[] = {".jpg",  ".jpeg", ".gif", ".bmp", ".tif",
+                                          ".tiff", ".webp", ".svg", ".pdf"};
+    bool found = false;
+    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
+        found = found || input_path_ends(path, endings[k]);
+    }
+    return found;
+}
+
 /* Finds out before the work, and not after it, that its result cannot be written, or that another
  * one would replace it. */
 static void check_outputs(const option *options) {
     char message[512];
     for (const option *o = options; o->kind != OPTION_END; o++) {
         const char *path = output_of(o);
+        if (path != NULL && strcmp(o->name, "png") == 0 && is_other_picture(path)) {
+            (void)fprintf(stderr,
+                          "sparse-local: --png %s: pictures are PNG files; end the name in .png\n",
+                          path);
+            exit(2);
+        }
         if (path != NULL && !output_is_possible(path, message, sizeof message)) {
             (void)fprintf(stderr, "sparse-local: %s\n", message);
             exit(1);

@@ -12,6 +12,8 @@
 /* Far above any mesh in use. It bounds the memory that a small malicious .gz can expand to. */
 #define INPUT_LIMIT ((size_t)1 << 31)
 
+enum { STDIN = 0 }; /* its descriptor */
+
 bool input_error(input *in, const char *format, ...) {
     if (in->message == NULL || in->message_size == 0) {
         return false;
@@ -74,7 +76,9 @@ bool input_open(input *in, const char *path, char *message, size_t message_size)
     if (message != NULL && message_size > 0) {
         message[0] = '\0';
     }
-    gzFile file = path != NULL ? gzopen(path, "rb") : NULL;
+    gzFile file = path == NULL             ? NULL
+                  : strcmp(path, "-") == 0 ? gzdopen(STDIN, "rb") /* closed by gzclose_r */
+                                           : gzopen(path, "rb");
     if (file == NULL) {
         return input_error(in, "cannot be opened");
     }

@@ -32,7 +32,7 @@ typedef struct input {
 /** Reads a file into memory and places the cursor at its beginning, after a UTF-8 byte order mark.
  *
  *  in       [out]  release with input_close; nothing to release on error.
- *  path     [in]   borrowed until input_close.
+ *  path     [in]   borrowed until input_close; "-": standard input, which can be read once.
  *  message  [out]  borrowed until input_close; receives the text of all errors, "" at first.
  *  Returns  true; false: the file cannot be read, is truncated (gzip) or exceeds 2 GiB, out of
  *           memory; the message is set.

@@ -197,6 +197,21 @@ static bool cut_ears(mesh_build *b) {
     return true;
 }
 
+/* The ending of a file name for what standard input begins with; OBJ has no sign of its own. */
+static const char *ending_of(const input *in) {
+    static const struct {
+        const char *start, *ending;
+    } signs[] = {{"ply", ".ply"},   {"# vtk", ".vtk"}, {"glTF", ".glb"}, {"{", ".gltf"},
+                 {"solid", ".stl"}, {"OFF", ".off"},   {"off", ".off"},  {"COFF", ".off"},
+                 {"NOFF", ".off"},  {"STOFF", ".off"}};
+    for (size_t k = 0; k < sizeof signs / sizeof *signs; k++) {
+        if (strncmp(in->at, signs[k].start, strlen(signs[k].start)) == 0) {
+            return signs[k].ending;
+        }
+    }
+    return memchr(in->at, 0, (size_t)(in->end - in->at)) != NULL ? ".stl" : ".obj";
+}
+
 bool mesh_read(mesh *out, const char *path, char *message, size_t message_size) {
     return mesh_read_noting(out, path, message, message_size, NULL, 0);
 }
@@ -223,8 +238,9 @@ bool mesh_read_noting(mesh *out, const char *path, char *message, size_t message
     b.largest = -1;
     bool known = false;
     bool ok = false;
+    const char *name = strcmp(path, "-") == 0 ? ending_of(&in) : path;
     for (size_t k = 0; k < sizeof formats / sizeof formats[0] && !known; k++) {
-        known = input_path_ends(path, formats[k].ending);
+        known = input_path_ends(name, formats[k].ending);
         ok = known && formats[k].read(&b) && mesh_build_is_in_range(&b) && cut_ears(&b);
     }
     if (!known) {

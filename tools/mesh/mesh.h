@@ -21,7 +21,7 @@ typedef struct mesh {
 } mesh;
 
 /** Reads a triangle mesh. The file name selects the format: .obj .off .ply .stl .vtk .glb .gltf,
- *  plain or .gz.
+ *  plain or .gz. The name - is standard input, whose first bytes select it.
  *
  *  OBJ  v, f and fo lines. Corners are v, v/vt, v//vn or v/vt/vn; a negative index counts back
  *       from the latest vertex; a backslash continues a line. All other lines are ignored.
