@@ -76,6 +76,10 @@ record $? "adf of a written mesh gives the same numbers"
 gives 0 'signatures of 2 of 162 vertices at 5 times' hks sphere:2 --times 5 --at 3,4 \
     --csv "$dir/h.csv"
 gives 0 'differ by at most' pairs sphere:2 --count 20 --svg "$dir/p.svg"
+grep -q 'means: one tree .*, two trees .*, all in one call .*; medians: one tree' "$dir/out"
+record $? "pairs compares means with means"
+gives 0 'would take .* estimated from 3 solves' adf sphere:2 --at 3,4,5
+gives 0 'would take .* estimated from 5 solves' adf sphere:2
 gives 0 'patch 10 of 162' reach sphere:2 --patch 10 --png "$dir/r.png" --separators "$dir/s.png" \
     --tree "$dir/t.svg" --pattern "$dir/q.png" --graph "$dir/g.svg"
 [ "$(grep -c '<text' "$dir/g.svg")" -eq 960 ] && grep -q '>161</text>' "$dir/g.svg"

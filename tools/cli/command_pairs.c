@@ -90,6 +90,14 @@ static double median(const double *values, sl_int count) {
     return middle;
 }
 
+static double mean(const double *values, sl_int count) {
+    double sum = 0;
+    for (sl_int k = 0; k < count; k++) {
+        sum += values[k];
+    }
+    return count > 0 ? sum / count : 0;
+}
+
 static void draw_histogram(const char *path, const pair_times *times, sl_int count) {
     int bins[BINS] = {0}, first = BINS, last = -1;
     char message[512];
@@ -164,9 +172,11 @@ static double report(const pair_times *times, const double *one, const double *t
         double size = fmax(fabs(two[k]), 1e-300);
         worst = fmax(worst, fmax(fabs(one[k] - two[k]), fabs(entries[k] - two[k])) / size);
     }
-    printf("microseconds per pair: one tree %.2f, two trees %.2f (medians), all in one call %.2f\n",
-           1e6 * median(times->one_tree, count), 1e6 * median(times->two_trees, count),
-           count > 0 ? 1e6 * times->together / count : 0);
+    printf("microseconds per pair, means: one tree %.2f, two trees %.2f, all in one call %.2f; "
+           "medians: one tree %.2f, two trees %.2f\n",
+           1e6 * mean(times->one_tree, count), 1e6 * mean(times->two_trees, count),
+           count > 0 ? 1e6 * times->together / count : 0, 1e6 * median(times->one_tree, count),
+           1e6 * median(times->two_trees, count));
     printf("two trees: median speedup %.2f, slower for %.2f %% of the pairs\n", median(gain, count),
            count > 0 ? 100.0 * slower / count : 0);
     printf("the methods differ by at most %.2g, relative to the value\n", worst);
