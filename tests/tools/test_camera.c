@@ -4,6 +4,7 @@
 #include "tools/draw/camera.h"
 #include "tools/draw/picture.h"
 #include "tools/draw/render.h"
+#include "tools/draw/thin_view.h"
 #include "tools/draw/upward.h"
 
 static const camera_up ups[3] = {CAMERA_UP_X, CAMERA_UP_Y, CAMERA_UP_Z};
@@ -173,12 +174,91 @@ static void upward_axes_are_guessed(void **state) {
     assert_int_equal(upward_of(&none, &reason), CAMERA_UP_Y);
 }
 
+/* A strip of `count` squares in some direction, with a wide side 4 and a narrow side 0.1. */
+static mesh strip_along(const double along[3], const double wide[3], sl_int count) {
+    mesh m = {2 * count + 2, 2 * count, test_reals(6 * (size_t)count + 6),
+              test_ints(6 * (size_t)count)};
+    for (sl_int k = 0; k <= count; k++) {
+        for (int d = 0; d < 3; d++) {
+            m.xyz[6 * k + d] = 7 + k * along[d];
+            m.xyz[6 * k + 3 + d] = 7 + k * along[d] + wide[d];
+        }
+    }
+    for (sl_int k = 0; k < count; k++) {
+        const sl_int corners[6] = {2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3};
+        memcpy(m.faces + 6 * k, corners, sizeof corners);
+    }
+    return m;
+}
+
+/* A long strip lies along the diagonal of the picture, its normal toward the camera, the camera on
+ * the side where it was; a short one changes nothing. */
+static void thin_meshes_lie_along_the_diagonal(void **state) {
+    (void)state;
+    static const double along[4][3] = {{1, 0, 0}, {0, 1, 0}, {0.6, 0, 0.8}, {-0.48, 0.6, 0.64}};
+    static const double wide[4][3] = {{0, 0, 4}, {3, 0, 0}, {0, 2, 0}, {0.8, 0, 0.6}};
+    for (int k = 0; k < 4; k++) {
+        double axes[3][3], before[3][3], normal[3], product[3];
+        camera_axes(before, CAMERA_UP_Y, 30, 20);
+        memcpy(axes, before, sizeof axes);
+        mesh m = strip_along(along[k], wide[k], 200);
+        assert_true(thin_view_turn(axes, &m, 0.75));
+        cross(product, axes[0], axes[1]);
+        cross(normal, along[k], wide[k]);
+        const double size =
+            sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+        double x = 0, y = 0, toward = 0, side = 0;
+        for (int d = 0; d < 3; d++) {
+            assert_true(fabs(product[d] - axes[2][d]) < 1e-12);
+            x += axes[0][d] * along[k][d];
+            y += axes[1][d] * along[k][d];
+            toward += axes[2][d] * normal[d] / size;
+            side += axes[2][d] * before[2][d];
+        }
+        assert_true(fabs(atan2(fabs(y), fabs(x)) - 0.9 * atan(0.75)) < 0.02);
+        assert_true(fabs(toward) > 0.999 && side >= 0);
+        mesh_free(&m);
+        m = strip_along(along[k], wide[k], 8);
+        memcpy(axes, before, sizeof axes);
+        assert_false(thin_view_turn(axes, &m, 0.75));
+        assert_memory_equal(axes, before, sizeof axes);
+        m.xyz[0] = INFINITY;
+        assert_false(thin_view_turn(axes, &m, 0.75));
+        m.n_faces = 0;
+        assert_false(thin_view_turn(axes, &m, 0.75));
+        mesh_free(&m);
+    }
+}
+
+/* A picture of a strip of 1000 to 4: it reaches over most of the height. */
+static void thin_meshes_fill_the_picture(void **state) {
+    (void)state;
+    const double along[3] = {1, 0, 0}, wide[3] = {0, 0, 4};
+    mesh m = strip_along(along, wide, 1000);
+    const render_view view = render_view_default();
+    const render_style style = {.unlit = true};
+    picture p;
+    int top = -1, bottom = -1;
+    assert_true(render_mesh(&p, &m, &view, &style));
+    for (int k = 0; k < p.width * p.height; k++) {
+        if (p.at[k].r != 255 || p.at[k].g != 255 || p.at[k].b != 255) {
+            top = top < 0 ? k / p.width : top;
+            bottom = k / p.width;
+        }
+    }
+    assert_true(bottom - top > p.height / 2);
+    picture_free(&p);
+    mesh_free(&m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(axes_are_right_handed),
         cmocka_unit_test(bad_directions_change_nothing),
         cmocka_unit_test(a_face_seen_from_its_front),
         cmocka_unit_test(upward_axes_are_guessed),
+        cmocka_unit_test(thin_meshes_lie_along_the_diagonal),
+        cmocka_unit_test(thin_meshes_fill_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "render_cover.h"
 #include "render_layers.h"
 #include "render_shade.h"
+#include "thin_view.h"
 
 enum { SUPERSAMPLE = 2 };
 
@@ -82,6 +83,9 @@ static void eye_axes(double axes[3][3], const render_view *view, const mesh *m) 
         camera_axes(axes, CAMERA_UP_Y, 0, 0);
     } else {
         camera_axes(axes, view->up, view->azimuth, view->elevation);
+    }
+    if (view->automatic) {
+        (void)thin_view_turn(axes, m, (double)view->height / view->width);
     }
 }
 

@@ -19,7 +19,9 @@ typedef struct render_view {
     double perspective; /* 0: parallel; else the camera's distance in radii of the mesh, > 1 */
     double zoom;        /* 1: the mesh fills the picture except for a margin */
     camera_up up;
-    bool automatic; /* view a mesh that is flat along a coordinate axis from that axis */
+    /* view a mesh that is flat along a coordinate axis from that axis, and one that is long and
+     * thin by its principal axes (thin_view.h) */
+    bool automatic;
 } render_view;
 
 /** 800 x 600, scale 1, azimuth 30, elevation 20, parallel projection, y up, automatic. */
