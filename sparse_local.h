@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 98b38150a3405e06
+ * FNV-1a of the lines after this comment, without the license: 591729dac5d57ee3
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -8,53 +8,53 @@
  *    202 config.h     macros that a user may define before the include, the version, and the integer types
  *    280 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
  *    458 options.h    options of all calls, threads, and the allocator
- *    597 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    807 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    905 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    979 factor.h     the numerical factorization P A P' = L D L'
- *   1100 solve.h      full solves, and the workspace of all solves
- *   1195 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1273 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1372 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1412 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1518 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1593 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1678 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1774 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1886 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1925 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2053 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2085 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2274 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2384 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2511 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2551 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2639 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2748 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2785 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2862 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2902 impl/ base: the compiler, status, memory, sorting, threads
- *   3884 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4721 impl/ matrix: sparse matrices of the caller and of the library
- *   5264 impl/ ordering: fill-reducing orderings of a graph
- *   9641 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11587 impl/ factor: the numbers of L and D
- *  14349 impl/ solve: full and local solves
- *  15929 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  17664 impl/ pivots: the order of the pivots by the values of a matrix
- *  18078 impl/ float: L and fronts in single precision
- *  18529 impl/ inverse: entries of the inverse, regions
- *  21465 impl/ change: a factor that follows changes of its matrix
- *  27996 impl/ io: files that are replaced only when they are complete
- *  28208 impl/ files: Matrix Market files, 64-bit indices
- *  28804 impl/ save: factors in files
- *  30726 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31384 impl/ batch: diagonals of many inverses
- *  31524 impl/ complex: complex Hermitian systems over real factors
- *  32034 impl/ complex: entries of the inverse
- *  32086 impl/ packs: the tables through which the core calls packs
- *  32118 impl/ last: undefine every internal macro
- *  32420 impl/ templates: the header includes them from itself, once for each instruction set
+ *    598 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    812 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    910 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    984 factor.h     the numerical factorization P A P' = L D L'
+ *   1108 solve.h      full solves, and the workspace of all solves
+ *   1203 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1281 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1380 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1420 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1526 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1601 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1686 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1782 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1894 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1933 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2061 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2093 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2282 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2392 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2519 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2559 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2647 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2756 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2793 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2870 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2910 impl/ base: the compiler, status, memory, sorting, threads
+ *   3894 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4751 impl/ matrix: sparse matrices of the caller and of the library
+ *   5294 impl/ ordering: fill-reducing orderings of a graph
+ *   9671 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11617 impl/ factor: the numbers of L and D
+ *  14760 impl/ solve: full and local solves
+ *  16340 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18075 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18489 impl/ float: L and fronts in single precision
+ *  18940 impl/ inverse: entries of the inverse, regions
+ *  21876 impl/ change: a factor that follows changes of its matrix
+ *  28407 impl/ io: files that are replaced only when they are complete
+ *  28619 impl/ files: Matrix Market files, 64-bit indices
+ *  29215 impl/ save: factors in files
+ *  31137 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31802 impl/ batch: diagonals of many inverses
+ *  31942 impl/ complex: complex Hermitian systems over real factors
+ *  32452 impl/ complex: entries of the inverse
+ *  32504 impl/ packs: the tables through which the core calls packs
+ *  32536 impl/ last: undefine every internal macro
+ *  32842 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -535,8 +535,9 @@ typedef struct sl_options {
     sl_method method;
     sl_null_pivots null_pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
-     * not read where a known null vector decides (tools/docs/singular.md); 0: (64 + n/8) epsilon;
-     * negative: only an exact zero is null */
+     * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
+     * rounding error that L shows, or where null pivots are replaced, (64 + k/8) epsilon with the
+     * k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null
@@ -602,8 +603,9 @@ typedef struct sl_error {
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
     double value;  /* the pivot or entry that was refused; 0 if none */
-    /* static text: the option that needs a pack which is not compiled in, or what in a Matrix
-     * Market file is not supported; NULL: does not apply */
+    /* static text: the option that needs a pack which is not compiled in, what in a Matrix Market
+     * file is not supported, or what helps where a factorization was refused; NULL: does not apply
+     */
     const char *what;
 } sl_error;
 
@@ -797,8 +799,11 @@ typedef struct sl_stats {
     sl_reuse_info reuse;
     sl_pins_info pins;
     sl_certificate_info certificate;
+    /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
+     * is null; 0: not known */
+    double null_bound;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[20];
+    sl_off reserved[19];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -996,6 +1001,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one;
  *           SL_ERR_PIVOT: a null pivot at error.row, or the row that shows that A is indefinite;
+ *           error.what says what helps, such as sl_symbolic_create_pivoted, and null_bound up to
+ *           which size the pivot error.value is null;
  *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
  *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
  *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
@@ -1017,8 +1024,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
                                                  const sl_csc *A, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors a matrix of the same pattern with new values. Allocates nothing; same bits as
- *  sl_factor_create.
+/** Factors a matrix of the same pattern with new values. Same bits as sl_factor_create. Allocates
+ *  nothing, but 16 bytes a row where small pivots have to be judged (singular.md); without this
+ *  memory they are null.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
  *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve
@@ -2022,7 +2030,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
                                                 sl_stats *stats);
 
 /** Refactors one or several factors of one analysis with other coefficients or values. Allocates
- *  nothing.
+ *  nothing, but to judge small pivots as sl_factor_refactor does, on the calling thread.
  *
  *  factors   [in,out]  count different factors, also of sl_factor_create. One that fails has no
  *                      numbers afterwards; the others are computed nevertheless.
@@ -3025,6 +3033,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #define SLI_INLINE __attribute__((unused)) static inline
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_NOINLINE __attribute__((unused, noinline))
+#define SLI_COLD __attribute__((unused, noinline, cold))
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 #define SLI_PREFETCH(p, bytes) \
@@ -3034,6 +3043,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #else
 #define SLI_INLINE static inline
 #define SLI_NOINLINE
+#define SLI_COLD
 #define SLI_TARGET(list)
 #if defined(_MSC_VER)
 #define SLI_ALWAYS_INLINE static __forceinline
@@ -3996,6 +4006,7 @@ enum {
 
 typedef struct sli_pivot_rule {
   double null_tolerance;
+  const sl_int *super_of, *super_first, *first_descendant;
   double epsilon;
   int replaces;
   double regularization;
@@ -4010,9 +4021,28 @@ typedef struct sli_pivot_rule {
 
 #define SLI_NULL_MOST 0.03125
 
+static double sli_null_tolerance(sl_int n, double epsilon) {
+  const double tolerance = (64.0 + n / 8) * epsilon;
+  return tolerance < SLI_NULL_MOST ? tolerance
+                   : SLI_NULL_MOST;
+}
+
+SLI_NOINLINE static double sli_rule_tolerance(const sli_pivot_rule *rule, sl_int k) {
+  const sl_int *first = rule->super_first, s = rule->super_of == NULL ? 0 : rule->super_of[k];
+  return rule->super_of == NULL
+         ? rule->null_tolerance
+         : sli_null_tolerance(first[s + 1] - first[rule->first_descendant[s]], rule->epsilon);
+}
+
 SLI_INLINE int sli_is_null(double pivot, double magnitude, double tolerance) {
   const double size = fabs(pivot);
   return size == 0.0 || (sli_is_finite(magnitude) && size <= tolerance * magnitude);
+}
+
+SLI_INLINE int sli_is_null_by_rule(const sli_pivot_rule *rule, sl_int k, double pivot,
+                   double magnitude) {
+  return sli_is_null(pivot, magnitude, rule->null_tolerance) &&
+       sli_is_null(pivot, magnitude, sli_rule_tolerance(rule, k));
 }
 
 SLI_NOINLINE static float sli_to_float(double d) {
@@ -4021,7 +4051,7 @@ SLI_NOINLINE static float sli_to_float(double d) {
 
 SLI_INLINE double sli_pivot_skipped(const sli_pivot_rule *rule, sl_int k, double d,
                   double magnitude) {
-  const int is_null = sli_is_null(d, magnitude, rule->null_tolerance);
+  const int is_null = sli_is_null_by_rule(rule, k, d, magnitude);
   const double sign = rule->signs[k] < 0 ? -1.0 : 1.0, least = rule->epsilon * magnitude;
   const int is_wrong = d * sign < 0.0;
   if (!sli_is_finite(d)) {
@@ -4047,7 +4077,7 @@ SLI_NOINLINE static double sli_pivot_by_rule(const sli_pivot_rule *rule, sl_int 
   if (rule->regularization == 0.0) {
     return sli_pivot_skipped(rule, k, d, magnitude);
   }
-  is_null = sli_is_null(d, magnitude, rule->null_tolerance);
+  is_null = sli_is_null_by_rule(rule, k, d, magnitude);
   sign = rule->signs == NULL ? 1 : rule->signs[k];
   rule->shifts[k] = 0.0;
   if (!is_null && !(d * sign < 0.0)) {
@@ -4181,7 +4211,7 @@ SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
 }
 
 SLI_NOINLINE static int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
-                double tolerance) {
+                     double tolerance) {
   const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
   const double most = fabs(f) > fabs(g) ? fabs(f) : fabs(g);
   if (e == 0.0) {
@@ -4197,7 +4227,7 @@ static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, do
                const double *magnitude) {
   const double sign = *a + *b < 0.0 ? -1.0 : 1.0, other = e != 0.0 ? fabs(e) : 1.0;
   const int is_null =
-    sli_pair_is_null(*a, *b, e, magnitude[0], magnitude[1], rule->null_tolerance);
+    sli_pair_is_null(*a, *b, e, magnitude[0], magnitude[1], sli_rule_tolerance(rule, k));
   double *const d[2] = {a, b};
   int m;
   for (m = 0; m < 2; m++) {
@@ -11599,6 +11629,7 @@ typedef struct sli_failure {
   sl_int pivot;
   sl_off position;
   double value;
+  double bound;
 } sli_failure;
 
 #define SLI_NULL_VECTORS_MAX 32
@@ -11615,7 +11646,7 @@ typedef struct sli_extent {
   double entry;
   double magnitude;
   sl_int pivot;
-  sl_int zero;
+  sl_int suspects;
 } sli_extent;
 
 typedef struct sli_storage_type sli_storage_type;
@@ -11674,6 +11705,7 @@ typedef struct sli_front_work {
   sl_off panel_room;
   sli_failure *failures;
   const sli_copied *copied;
+  int is_worker;
 } sli_front_work;
 
 typedef struct sli_row_work {
@@ -11761,6 +11793,7 @@ SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl
   f->pivot = pivot;
   f->position = position;
   f->value = value;
+  f->bound = 0.0;
   return status;
 }
 
@@ -11897,7 +11930,7 @@ typedef struct sli_loading {
 SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
   F->extents[s].entry = F->extents[s].magnitude = 0.0;
   F->extents[s].pivot = -1;
-  F->extents[s].zero = 0;
+  F->extents[s].suspects = 0;
   if (F->history.marks != NULL) {
     F->history.marks[s] = SLI_MARK_BEGIN;
   }
@@ -11905,11 +11938,47 @@ SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
 
 /* src/impl/factor/pivot_check.h: which pivots are refused, and what is recorded of the others */
 
+SLI_INLINE int sli_tolerance_is_default(const sl_factor *F) {
+  return F->rule.null_tolerance == sli_null_tolerance(F->S->n, F->rule.epsilon);
+}
+
+SLI_INLINE double sli_tolerance_option(const sl_factor *F) {
+  return sli_tolerance_is_default(F) ? 0.0 : F->rule.null_tolerance;
+}
+
+SLI_NOINLINE static void sli_tolerance_begin(sl_factor *F) {
+  const int is_default = sli_tolerance_is_default(F);
+  F->rule.super_of = is_default ? F->S->super_of : NULL;
+  F->rule.super_first = F->S->super_first;
+  F->rule.first_descendant = F->S->first_descendant;
+}
+
 SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, double magnitude) {
   if (magnitude > F->extents[s].magnitude) {
     F->extents[s].magnitude = magnitude;
     F->extents[s].pivot = k;
   }
+}
+
+SLI_COLD static sl_status sli_refuse_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
+                       double magnitude, sli_failure *failure) {
+  (void)sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
+  failure->bound = fmax(sli_rule_tolerance(&F->rule, k), 0.0) * magnitude;
+  return failure->status;
+}
+
+SLI_COLD static sl_status sli_check_small(const sl_factor *F, sl_int s, sl_int k, double pivot,
+                      double magnitude, sli_failure *failure) {
+  if (!sli_is_null(pivot, magnitude, sli_rule_tolerance(&F->rule, k))) {
+    return SL_OK;
+  }
+  if (pivot == 0.0 || F->rule.super_of == NULL) {
+    return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
+  }
+  if (F->extents[s].suspects == 0) {
+    F->extents[s].suspects = 1 + k - F->S->super_first[s];
+  }
+  return SL_OK;
 }
 
 SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
@@ -11919,11 +11988,11 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
     return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1, pivot);
   }
   if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
-    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
+    return sli_check_small(F, s, k, pivot, magnitude, failure);
   }
   if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
     !(pivot * F->rule.signs[k] > 0.0)) {
-    return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
+    return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
   }
   return SL_OK;
 }
@@ -11948,7 +12017,7 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
                       : e);
   }
   if (!F->rule.replaces &&
-    sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], F->rule.null_tolerance)) {
+    sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], sli_rule_tolerance(&F->rule, k))) {
     return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, a);
   }
   return SL_OK;
@@ -12655,6 +12724,27 @@ static double sli_null_rounding(sl_int n, double epsilon) {
   return fmin(16.0 * (64.0 + n / 8) * epsilon, SLI_NULL_MOST);
 }
 
+SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
+                       sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_off m;
+  sl_int s;
+  for (s = 0; s < S->n_supers; s++) {
+    for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+      double a;
+      if (from->A != NULL) {
+        a = from->A->x[S->scatter_from[m]];
+      } else {
+        sli_source_sum(from, m, 1, &a);
+      }
+      if (!sli_is_finite(a)) {
+        (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+        return;
+      }
+    }
+  }
+}
+
 static sl_status sli_null_vectors_check(sl_factor *F, const sli_source *from,
                     sli_failure *failure) {
   const sl_symbolic *S = F->S;
@@ -12711,6 +12801,22 @@ static int sli_null_is_suspected(const sl_factor *F) {
   return 0;
 }
 
+SLI_COLD static void *sli_judge_memory(sl_factor *F, sl_int n, size_t size) {
+  sli_block b = {NULL, 0, 0};
+  if (F->work.is_worker) {
+    F->work.is_worker = 2;
+    return NULL;
+  }
+  (void)sli_take(&b, (uint64_t)n, size);
+  return sli_block_alloc(&b, &F->allocator) == SL_OK ? b.base : NULL;
+}
+
+SLI_COLD static sl_status sli_judge_not(const sl_factor *F, sl_int k, sli_failure *failure) {
+  (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, F->D[k]);
+  failure->bound = -1.0;
+  return failure->status;
+}
+
 #define SLI_SUSPECT_ROW (sizeof(sli_null_row) + sizeof(double) + sizeof(sl_int))
 
 static int sli_null_suspect_fits(const sl_factor *F) {
@@ -12719,14 +12825,14 @@ static int sli_null_suspect_fits(const sl_factor *F) {
        (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
 }
 
-static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
-                    sli_failure *failure) {
+SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
+                        sli_failure *failure) {
   const sl_symbolic *S = F->S;
   const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
   sli_null_row *rows =
     (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->work.panels);
   double *most = (double *)(void *)(rows + S->n);
-  sl_int *last = (sl_int *)(void *)(most + S->n), k;
+  sl_int *last = (sl_int *)(void *)(most + S->n), k, count = 0;
   const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
   sli_null_components(&w, S, NULL, last, most);
   for (k = 0; k < S->n; k++) {
@@ -12735,10 +12841,18 @@ static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
   }
   for (k = 0; k < S->n; k++) {
     if (last[k] == k && most[k] <= DBL_MAX && fabs(F->D[k]) <= rounding * most[k]) {
-      return sli_fail(failure, SL_ERR_PIVOT, S->super_of[k], k, -1, F->D[k]);
+      last[count++] = k;
     }
   }
-  return SL_OK;
+  if (count > 0) {
+    *list = (sl_int *)sli_judge_memory(F, count, sizeof(sl_int));
+    if (*list == NULL) {
+      (void)sli_judge_not(F, last[0], failure);
+      return 0;
+    }
+    memcpy(*list, last, (size_t)count * sizeof(sl_int));
+  }
+  return count;
 }
 
 /* src/impl/factor/multifrontal.h: fronts in double: each passes its update matrix up */
@@ -13600,7 +13714,7 @@ static sl_status sli_nulls_find(sl_factor *F, const sli_source *from, sli_failur
 #define SLI_GROWTH_LIMIT (1.0 / DBL_EPSILON)
 #define SLI_GROWTH_LIMIT_FLOAT (1.0 / (double)FLT_EPSILON)
 
-static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
+SLI_COLD static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
   const sl_symbolic *S = F->S;
   const sl_int own = S->super_of[k];
   double most = 0.0;
@@ -13635,8 +13749,8 @@ SLI_INLINE double sli_growth(double magnitude, double entry) {
   return entry < DBL_MIN && growth > 0.0 ? growth * (DBL_MIN / entry) : growth;
 }
 
-static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double entry,
-                   sli_failure *failure) {
+SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last,
+                      double entry, sli_failure *failure) {
   const double bound = F->growth_limit * entry;
   sl_int s = first, k, cause;
   while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
@@ -13650,15 +13764,16 @@ static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last
   return sli_fail(failure, SL_ERR_INACCURATE, F->S->super_of[k], k, -1, F->D[k]);
 }
 
-static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
+static int sli_growth_check(sl_factor *F, sli_failure *failure) {
   const sl_symbolic *S = F->S;
   sl_factor_info *info = &F->stats.factor;
   double entry = 0.0, magnitude = 0.0, growth;
-  sl_int s, first = 0;
+  sl_int s, first = 0, suspects = 0;
   for (s = 0; s < S->n_supers; s++) {
     const sli_extent *own = &F->extents[s];
     entry = own->entry > entry ? own->entry : entry;
     magnitude = own->magnitude > magnitude ? own->magnitude : magnitude;
+    suspects |= own->suspects != 0;
     if (S->super_parent[s] == -1) {
       growth = sli_growth(magnitude, entry);
       info->growth = fmax(info->growth, growth);
@@ -13668,6 +13783,243 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
       }
       entry = magnitude = 0.0;
       first = s + 1;
+    }
+  }
+  return suspects;
+}
+
+/* src/impl/factor/null_judge.h: after a factorization: are its smallest pivots null, or right? */
+
+#define SLI_JUDGE_RANDOM 6.0
+#define SLI_JUDGE_BIASED 0.1
+
+#define SLI_JUDGE_READS 64.0
+
+typedef struct sli_judge {
+  sl_factor *F;
+  double *z, *t;
+  double reads;
+  double error;
+} sli_judge;
+
+static double sli_judge_size(const sl_factor *F, sl_int c) {
+  const double size = fabs(F->D[c]);
+  return F->E == NULL ? size : size + fabs(F->E[F->S->pairs[c] == SLI_PAIR_SECOND ? c - 1 : c]);
+}
+
+SLI_INLINE sl_int sli_judge_row(const sl_symbolic *S, sl_int s, sl_int r) {
+  const sli_step *step = &S->steps[s];
+  return r < step->width ? step->column + r : S->rows[S->rows_begin[s] + r - step->width];
+}
+
+SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_int last) {
+  const sl_symbolic *S = judge->F->S;
+  const sl_int begin = S->super_first[first], end = S->super_first[last + 1];
+  sl_int s, j, r;
+  for (j = begin; j < end; j++) {
+    judge->z[j] = 1.0;
+    judge->t[j] = 0.0;
+  }
+  for (s = first; s <= last; s++) {
+    const sli_step *step = &S->steps[s];
+    for (j = 0; j < step->width; j++) {
+      const double size = sli_judge_size(judge->F, step->column + j);
+      judge->t[step->column + j] += size;
+      for (r = j + 1; r < step->width + step->below; r++) {
+        const sl_int row = sli_judge_row(S, s, r);
+        double l;
+        if (row >= end) {
+          break;
+        }
+        l = sli_entry(judge->F, step->panel + sli_panel_at(step->width, r, j));
+        judge->t[row] += 2.0 * l * l * size;
+        judge->z[row] += 1.0;
+      }
+    }
+  }
+  for (j = begin; j < end; j++) {
+    judge->t[j] *= sqrt(judge->z[j]);
+  }
+}
+
+static void sli_judge_super(const sli_judge *judge, sl_int s, sl_int k) {
+  const sl_symbolic *S = judge->F->S;
+  const sli_step *step = &S->steps[s];
+  sl_int j, r;
+  for (j = sli_min(step->width, k - step->column) - 1; j >= 0; j--) {
+    double sum = 0.0;
+    for (r = j + 1; r < step->width + step->below; r++) {
+      const sl_int row = sli_judge_row(S, s, r);
+      if (row > k) {
+        break;
+      }
+      sum +=
+        judge->z[row] * sli_entry(judge->F, step->panel + sli_panel_at(step->width, r, j));
+    }
+    judge->z[step->column + j] = -sum;
+  }
+}
+
+SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
+  const sl_factor *F = judge->F;
+  const sl_symbolic *S = F->S;
+  const sl_int own = S->super_of[k], from = S->first_descendant[own];
+  const double size = fabs(F->D[k]);
+  double sum = 0.0, squares = 0.0;
+  sl_int s, j;
+  judge->reads -= (double)(S->panel_begin[own + 1] - S->panel_begin[from]);
+  judge->error = 0.0;
+  if (judge->reads < 0.0) {
+    return 1;
+  }
+  judge->z[k] = 1.0;
+  for (s = own; s >= from; s--) {
+    sli_judge_super(judge, s, k);
+  }
+  for (j = S->super_first[from]; j <= k; j++) {
+    const double t = judge->z[j] * judge->z[j] * (judge->t[j] / size);
+    sum += t;
+    squares += t * t;
+  }
+  judge->error =
+    F->rule.epsilon * (SLI_JUDGE_RANDOM * sqrt(squares) + SLI_JUDGE_BIASED * sum) * size;
+  return !(judge->error < size);
+}
+
+SLI_COLD static sl_status sli_judge_begin(sli_judge *judge, sl_factor *F, sl_int k,
+                      sli_failure *failure) {
+  judge->F = F;
+  judge->reads = SLI_JUDGE_READS * (double)F->S->panel_begin[F->S->n_supers];
+  judge->z = (double *)sli_judge_memory(F, F->S->n, 2 * sizeof(double));
+  if (judge->z == NULL) {
+    return sli_judge_not(F, k, failure);
+  }
+  judge->t = judge->z + F->S->n;
+  return SL_OK;
+}
+
+SLI_COLD static sl_status sli_judge_end(sli_judge *judge, sl_int k, double bound,
+                    sli_failure *failure) {
+  const sl_factor *F = judge->F;
+  (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, F->D[k]);
+  failure->bound = judge->error > 0.0 ? judge->error : bound;
+  return failure->status;
+}
+
+SLI_COLD static void sli_suspects_clear(sl_factor *F) {
+  sl_int s;
+  for (s = 0; s < F->S->n_supers; s++) {
+    F->extents[s].suspects = 0;
+  }
+}
+
+static sl_status sli_judge_suspects(sl_factor *F, sl_int last, sl_int at, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sli_judge judge;
+  sl_int s, k = S->super_first[last] + F->extents[last].suspects - 1;
+  int is_null = 0;
+  if (sli_judge_begin(&judge, F, k, failure) != SL_OK) {
+    return failure->status;
+  }
+  sli_judge_weigh(&judge, 0, at == last ? last - 1 : last);
+  for (s = 0; s <= last && !is_null; s++) {
+    const double bound =
+      sli_rule_tolerance(&F->rule, S->super_first[s]) * F->extents[s].magnitude;
+    const sl_int end = F->extents[s].suspects > 0 ? S->super_first[s + 1] : -1;
+    for (k = S->super_first[s] + F->extents[s].suspects - 1; k < end && !is_null; k++) {
+      judge.error = 0.0;
+      is_null = fabs(F->D[k]) <= bound && (F->E == NULL || S->pairs[k] == SLI_PAIR_NONE) &&
+            (s == at || sli_judge_is_null(&judge, k));
+      if (is_null) {
+        (void)sli_judge_end(&judge, k, bound, failure);
+      }
+    }
+  }
+  sli_free(&F->allocator, judge.z);
+  return failure->status;
+}
+
+SLI_COLD static sl_status sli_nulls_judge(sl_factor *F, sl_int at, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_int s, last = -1;
+  for (s = 0; s < S->n_supers; s++) {
+    last = F->extents[s].suspects > 0 && (at == -1 || s <= at) ? s : last;
+  }
+  if (last != -1) {
+    (void)sli_judge_suspects(F, last, at, failure);
+    sli_suspects_clear(F);
+  }
+  return failure->status;
+}
+
+static int sli_judge_last(sli_judge *judge, sl_int last) {
+  const sl_factor *F = judge->F;
+  const sl_symbolic *S = F->S;
+  double most = 0.0;
+  sl_int k = last, first;
+  int is_null;
+  while (S->parent[k] != -1) {
+    k = S->parent[k];
+  }
+  first = S->first_descendant[S->super_of[k]];
+  sli_judge_weigh(judge, first, S->super_of[last]);
+  first = S->super_first[first];
+  is_null = sli_judge_is_null(judge, last);
+  for (k = first; k < last && !is_null; k++) {
+    const double size = fabs(F->D[k]);
+    most = size > most ? size : most;
+    is_null = size <= sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+          sli_judge_is_null(judge, k);
+  }
+  return is_null;
+}
+
+SLI_COLD static sl_status sli_lasts_judge(sl_factor *F, const sl_int *last, sl_int count,
+                      sli_failure *failure) {
+  sli_judge judge;
+  sl_int m;
+  if (sli_judge_begin(&judge, F, last[0], failure) != SL_OK) {
+    return failure->status;
+  }
+  for (m = 0; m < count && failure->status == SL_OK; m++) {
+    if (sli_judge_last(&judge, last[m])) {
+      (void)sli_judge_end(&judge, last[m], 0.0, failure);
+    }
+  }
+  sli_free(&F->allocator, judge.z);
+  return failure->status;
+}
+
+static int sli_signs_are_suspected(const sl_factor *F) {
+  const sl_factor_info *info = &F->stats.factor;
+  return F->rule.super_of != NULL && !F->rule.replaces && F->E == NULL && info->positive > 0 &&
+       info->negative > 0 &&
+       info->pivot_min <= 0.125 * sli_null_rounding(F->S->n, F->rule.epsilon) * info->pivot_max;
+}
+
+SLI_COLD static sl_status sli_signs_judge(sl_factor *F, sli_failure *failure) {
+  const sl_symbolic *S = F->S;
+  sl_int k, first = 0, is_mixed = 0;
+  double most = 0.0;
+  for (k = 0; k < S->n && failure->status == SL_OK; k++) {
+    const double size = fabs(F->D[k]);
+    if (!is_mixed && (F->D[k] < 0.0) != (F->D[first] < 0.0)) {
+      sli_judge judge;
+      is_mixed = 1;
+      if (size <= 0.125 * sli_null_rounding(k - first + 1, F->rule.epsilon) * most &&
+        sli_judge_begin(&judge, F, k, failure) == SL_OK) {
+        sli_judge_weigh(&judge, S->first_descendant[S->super_of[k]], S->super_of[k]);
+        if (sli_judge_is_null(&judge, k)) {
+          (void)sli_judge_end(&judge, k, 0.0, failure);
+        }
+        sli_free(&F->allocator, judge.z);
+      }
+    }
+    most = size > most ? size : most;
+    if (S->parent[k] == -1) {
+      first = k + 1;
+      is_mixed = 0;
+      most = 0.0;
     }
   }
   return failure->status;
@@ -13815,10 +14167,6 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     F->stats.factor.bytes = bytes;
   }
   return status;
-}
-
-static double sli_null_tolerance(sl_int n, double epsilon) {
-  return fmin((64.0 + n / 8) * epsilon, SLI_NULL_MOST);
 }
 
 static int sli_factor_choices_are_valid(const sl_options *opt) {
@@ -13990,6 +14338,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   if (status == SL_OK) {
     sl_factor *F = (sl_factor *)(void *)b.base;
     *F = draft;
+    memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
     if (F->E != NULL) {
       memset(F->E, 0, (size_t)S->n * sizeof(double));
     }
@@ -14038,7 +14387,7 @@ SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
                                    : SL_ERR_STATE;
 }
 
-static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
   const sl_symbolic *S = F->S;
   sl_int row = -1, column = -1;
   if (f->position < 0) {
@@ -14055,8 +14404,37 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
   sli_fail_at(&F->stats, f->status, row, column, f->value);
 }
 
-static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f, int has_pivots) {
+SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
+  const double size = fabs(f->value);
+  if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->growth_limit) {
+    return F->S->is_pivoted ? NULL : "sl_symbolic_create_pivoted avoids pivot growth";
+  }
+  if (f->status != SL_ERR_PIVOT || f->pivot < 0) {
+    return NULL;
+  }
+  if (f->bound < 0.0) {
+    return "there was no memory to judge whether the pivot is null";
+  }
+  if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+    return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
+                : NULL;
+  }
+  if (F->S->is_pivoted) {
+    return "options.null_tolerance decides; a negative one accepts every pivot but 0";
+  }
+  return size > F->rule.epsilon * F->extents[f->super].magnitude
+         ? "the pivot may be right: a smaller or negative options.null_tolerance accepts it; "
+         "sl_symbolic_create_pivoted avoids small pivots"
+         : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+         "options.null_pivots";
+}
+
+SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
+                       int has_pivots) {
   sl_int n_done = F->S->n;
+  F->stats.error.what = sli_factor_advice(F, f);
+  F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
   if (f->status != SL_OK && f->pivot >= 0) {
     n_done = has_pivots ? n_done : f->pivot;
     sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
@@ -14078,6 +14456,16 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
   stats->error.row = F->stats.error.row;
   stats->error.column = F->stats.error.column;
   stats->error.value = F->stats.error.value;
+  stats->error.what = F->stats.error.what;
+  stats->null_bound = F->stats.null_bound;
+}
+
+static void sli_factor_outcome(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+                 int has_pivots) {
+  if (!has_pivots) {
+    F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
+  }
+  sli_factor_report(F, A, failure, has_pivots);
 }
 
 static void sli_pairs_done(sl_factor *F) {
@@ -14090,17 +14478,25 @@ static void sli_pairs_done(sl_factor *F) {
 
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                  double started, sl_stats *stats) {
-  int has_pivots;
+  int has_pivots, suspects;
   sli_stats_clear_error(&F->stats);
   if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
     (void)sli_nulls_find(F, from, failure);
   }
+  if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_NULL_PIVOT_SKIP) {
+    sli_null_finite_check(F, from, failure);
+  }
   F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
   has_pivots = failure->status == SL_OK;
-  if (has_pivots) {
-    (void)sli_growth_check(F, failure);
+  suspects = !has_pivots || sli_growth_check(F, failure);
+  if (suspects && sli_nulls_judge(F, has_pivots ? -1 : failure->super, failure) != SL_OK) {
+    has_pivots = has_pivots && failure->status == SL_ERR_INACCURATE;
   }
-  sli_factor_report(F, from->A, failure, has_pivots);
+  sli_factor_outcome(F, from->A, failure, has_pivots);
+  if (sli_signs_are_suspected(F) && failure->status == SL_OK &&
+    sli_signs_judge(F, failure) != SL_OK) {
+    sli_factor_outcome(F, from->A, failure, 0);
+  }
   F->stats.factor.seconds = sli_seconds() - started;
   F->is_valid = failure->status == SL_OK;
   if (F->is_valid) {
@@ -14143,11 +14539,26 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
 static void sli_factor_begin(sl_factor *F) {
   F->is_valid = 0;
   F->generation++;
+  sli_tolerance_begin(F);
 }
 
-static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from, sli_failure *failure) {
+SLI_NOINLINE static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from,
+                           sli_failure *failure) {
   return F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, failure)
                        : sli_uplooking(F, from, failure);
+}
+
+SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
+                    sli_failure *failure) {
+  sl_int *last = NULL;
+  const sl_int count = sli_null_suspects_find(F, from, &last, failure);
+  if (failure->status == SL_OK && sli_factor_eliminate(F, from, failure) == SL_OK) {
+    sli_suspects_clear(F);
+    if (count > 0) {
+      (void)sli_lasts_judge(F, last, count, failure);
+    }
+  }
+  sli_free(&F->allocator, last);
 }
 
 static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double started,
@@ -14170,8 +14581,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
     (void)sli_null_vectors_check(F, from, &failure);
   }
   if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
-    sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
-    (void)sli_factor_eliminate(F, from, &failure);
+    sli_null_is_suspected(F) && sli_nulls_judge(F, -1, &failure) == SL_OK) {
+    sli_factor_suspect(F, from, &failure);
   }
   return sli_factor_done(F, from, &failure, started, stats);
 }
@@ -21977,7 +22388,7 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
 }
 
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
-  const double tolerance = F->rule.null_tolerance;
+  const double tolerance = sli_rule_tolerance(&F->rule, k);
   const double known = F->extents[F->S->super_of[k]].magnitude;
   if (sli_is_null(d, magnitude, tolerance)) {
     return 1;
@@ -22735,6 +23146,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
   const sl_factor_info *info = &F->stats.factor;
   memset(q, 0, sizeof *q);
   q->u.F = F;
+  sli_tolerance_begin(F);
   q->S = F->S;
   q->stats = stats;
   q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;
@@ -24149,7 +24561,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
   opt.storage = F->type->storage;
   opt.threads = F->threads;
   opt.null_pivots = F->null.mode;
-  opt.null_tolerance = F->rule.null_tolerance;
+  opt.null_tolerance = sli_tolerance_option(F);
   opt.consistency_tolerance = F->null.consistency;
   opt.mass = F->null.mass;
   opt.growth_limit = sli_limit_option(F->growth_limit);
@@ -26116,7 +26528,7 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
                      const sl_allocator *a, sl_int *signs) {
   sl_options opt = sli_options_with(a);
   sl_int k;
-  opt.null_tolerance = F->rule.null_tolerance;
+  opt.null_tolerance = sli_tolerance_option(F);
   opt.regularization = F->rule.regularization;
   opt.growth_limit = sli_limit_option(F->growth_limit);
   opt.error_limit = sli_limit_option(F->error_limit);
@@ -27760,12 +28172,11 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 }
 
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
-  const double epsilon = DBL_EPSILON, a = F->rule.null_tolerance, b = G->rule.null_tolerance;
+  const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
        F->null.mode == G->null.mode && F->null.vectors == 1 && G->null.vectors == 1 &&
        F->rule.regularization == G->rule.regularization &&
-       (a == b || (a == sli_null_tolerance(F->S->n, epsilon) &&
-             b == sli_null_tolerance(G->S->n, epsilon)));
+       (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
 static int sli_reuse_is_alike(const sli_reuse *r, sl_int k, sl_int j) {
@@ -29618,7 +30029,7 @@ static int sli_check_extents(const sl_factor *F) {
     const sl_int least = e->magnitude > 0.0 ? S->super_first[s] : -1,
            most = e->magnitude > 0.0 ? S->super_first[s + 1] - 1 : -1;
     if (!(e->entry >= 0.0) || !sli_is_finite(e->entry) || !(e->magnitude >= 0.0) ||
-      e->pivot < least || e->pivot > most || e->zero != 0) {
+      e->pivot < least || e->pivot > most || e->suspects != 0) {
       return 0;
     }
   }
@@ -31203,6 +31614,7 @@ static void sli_factor_batch_worker(void *data, sl_int w) {
   sl_int k, turn = 0;
   for (k = 0; k < f->count; k++) {
     if (sli_factor_batch_is_serial(f, k) && turn++ % f->workers == w) {
+      f->factors[k]->work.is_worker = 1;
       sli_factor_batch_compute(f, k);
     }
   }
@@ -31216,7 +31628,13 @@ static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *thread
   f->workers = sli_max(sli_min(sli_workers(threads), n_serial), 1);
   sli_parallel(threads, f->workers, sli_factor_batch_worker, f);
   for (k = 0; k < f->count; k++) {
-    if (f->factors[k] != NULL && !sli_factor_batch_is_serial(f, k)) {
+    sl_factor *F = f->factors[k];
+    const int again =
+      F != NULL && (F->work.is_worker == 2 || !sli_factor_batch_is_serial(f, k));
+    if (F != NULL) {
+      F->work.is_worker = 0;
+    }
+    if (again) {
       sli_factor_batch_compute(f, k);
     }
   }
@@ -32129,6 +32547,7 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_INLINE
 #undef SLI_ALWAYS_INLINE
 #undef SLI_NOINLINE
+#undef SLI_COLD
 #undef SLI_TARGET
 #undef SLI_UNROLL
 #undef SLI_KEEP_CALL
@@ -32254,6 +32673,9 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_SINGLE_LEAST
 #undef SLI_ROUNDING_ERROR
 #undef SLI_NULL_PIVOT
+#undef SLI_JUDGE_RANDOM
+#undef SLI_JUDGE_BIASED
+#undef SLI_JUDGE_READS
 #undef SLI_NULL_MOST
 #undef SLI_SUSPECT_ROW
 #undef SLI_INVERSE_GROUP

@@ -138,6 +138,7 @@ extern "C" {
 #include "impl/factor/null_center.h"
 #include "impl/factor/nullspace.h"
 #include "impl/factor/growth.h"
+#include "impl/factor/null_judge.h"
 #include "impl/factor/factor_setup.h"
 #include "impl/factor/factor.h"
 #include "impl/factor/factor_query.h"

@@ -23,6 +23,8 @@
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one;
  *           SL_ERR_PIVOT: a null pivot at error.row, or the row that shows that A is indefinite;
+ *           error.what says what helps, such as sl_symbolic_create_pivoted, and null_bound up to
+ *           which size the pivot error.value is null;
  *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
  *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
  *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
@@ -44,8 +46,9 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
                                                  const sl_csc *A, const sl_options *opt,
                                                  sl_stats *stats);
 
-/** Factors a matrix of the same pattern with new values. Allocates nothing; same bits as
- *  sl_factor_create.
+/** Factors a matrix of the same pattern with new values. Same bits as sl_factor_create. Allocates
+ *  nothing, but 16 bytes a row where small pivots have to be judged (singular.md); without this
+ *  memory they are null.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
  *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve

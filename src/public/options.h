@@ -82,8 +82,9 @@ typedef struct sl_options {
     sl_method method;
     sl_null_pivots null_pivots;
     /* a pivot d is null if |d| <= null_tolerance * (sum of the magnitudes it was computed from);
-     * not read where a known null vector decides (tools/docs/singular.md); 0: (64 + n/8) epsilon;
-     * negative: only an exact zero is null */
+     * not read where a known null vector decides (tools/docs/singular.md); 0: if it is within the
+     * rounding error that L shows, or where null pivots are replaced, (64 + k/8) epsilon with the
+     * k rows of its subtree; negative: only an exact zero is null */
     double null_tolerance;
     /* with SL_NULL_PIVOT_SKIP: n weights m, copied. In each component with a null pivot the
      * solution has sum m x = 0, and b is made consistent by a multiple of m; with several null

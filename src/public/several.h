@@ -103,7 +103,7 @@ SL_API SL_WARN_UNUSED sl_status sl_batch_factor(sl_factor **out, sl_int count, c
                                                 sl_stats *stats);
 
 /** Refactors one or several factors of one analysis with other coefficients or values. Allocates
- *  nothing.
+ *  nothing, but to judge small pivots as sl_factor_refactor does, on the calling thread.
  *
  *  factors   [in,out]  count different factors, also of sl_factor_create. One that fails has no
  *                      numbers afterwards; the others are computed nevertheless.

@@ -10,8 +10,9 @@ typedef struct sl_error {
     sl_int column; /* -1: does not apply */
     sl_off line;   /* of a file, 1-based; -1: does not apply */
     double value;  /* the pivot or entry that was refused; 0 if none */
-    /* static text: the option that needs a pack which is not compiled in, or what in a Matrix
-     * Market file is not supported; NULL: does not apply */
+    /* static text: the option that needs a pack which is not compiled in, what in a Matrix Market
+     * file is not supported, or what helps where a factorization was refused; NULL: does not apply
+     */
     const char *what;
 } sl_error;
 
@@ -205,8 +206,11 @@ typedef struct sl_stats {
     sl_reuse_info reuse;
     sl_pins_info pins;
     sl_certificate_info certificate;
+    /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
+     * is null; 0: not known */
+    double null_bound;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[20];
+    sl_off reserved[19];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

@@ -136,6 +136,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 /* for functions whose calls pass a constant that must be folded into the body */
 #define SLI_ALWAYS_INLINE __attribute__((unused, always_inline)) static inline
 #define SLI_NOINLINE __attribute__((unused, noinline)) /* keeps rare code out of hot functions */
+#define SLI_COLD __attribute__((unused, noinline, cold)) /* the same, of few bytes */
 #define SLI_TARGET(list) __attribute__((target(list)))
 #define SLI_ALIGNED(variable) variable __attribute__((aligned(64)))
 /* Prefetches the cache line `bytes` after p. The line need not exist: prefetching an invalid
@@ -148,6 +149,7 @@ __declspec(dllimport) int __stdcall CloseHandle(void *handle);
 #else
 #define SLI_INLINE static inline
 #define SLI_NOINLINE
+#define SLI_COLD
 #define SLI_TARGET(list)
 #if defined(_MSC_VER)
 #define SLI_ALWAYS_INLINE static __forceinline

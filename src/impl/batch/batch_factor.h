@@ -52,13 +52,15 @@ static void sli_factor_batch_worker(void *data, sl_int w) {
     sl_int k, turn = 0;
     for (k = 0; k < f->count; k++) {
         if (sli_factor_batch_is_serial(f, k) && turn++ % f->workers == w) {
+            f->factors[k]->work.is_worker = 1;
             sli_factor_batch_compute(f, k);
         }
     }
 }
 
-/* Computes all numbers: first the serial factors, many at a time, then those with threads one by
- * one. Returns the index of the first that failed, or count. */
+/* Computes all numbers: first the serial factors, many at a time, then one by one those with
+ * threads and those that need memory to judge pivots. Returns the index of the first that failed,
+ * or count. */
 static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *threads) {
     sl_int k, n_serial = 0;
     for (k = 0; k < f->count; k++) {
@@ -67,7 +69,13 @@ static sl_int sli_factor_batch_run(sli_factor_batch *f, const sl_threads *thread
     f->workers = sli_max(sli_min(sli_workers(threads), n_serial), 1);
     sli_parallel(threads, f->workers, sli_factor_batch_worker, f);
     for (k = 0; k < f->count; k++) {
-        if (f->factors[k] != NULL && !sli_factor_batch_is_serial(f, k)) {
+        sl_factor *F = f->factors[k];
+        const int again =
+            F != NULL && (F->work.is_worker == 2 || !sli_factor_batch_is_serial(f, k));
+        if (F != NULL) {
+            F->work.is_worker = 0;
+        }
+        if (again) {
             sli_factor_batch_compute(f, k);
         }
     }

@@ -66,12 +66,11 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 
 /* Are pivots of both factors judged alike? Default tolerances count as equal. */
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
-    const double epsilon = DBL_EPSILON, a = F->rule.null_tolerance, b = G->rule.null_tolerance;
+    const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
     return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
            F->null.mode == G->null.mode && F->null.vectors == 1 && G->null.vectors == 1 &&
            F->rule.regularization == G->rule.regularization &&
-           (a == b || (a == sli_null_tolerance(F->S->n, epsilon) &&
-                       b == sli_null_tolerance(G->S->n, epsilon)));
+           (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
 /* Is column k of G treated as column j of F was? Kinds and signs of a semidefinite matrix depend on

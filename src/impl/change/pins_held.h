@@ -119,7 +119,7 @@ static sl_status sli_held_factor(sl_factor **G, const sl_factor *F, const sl_all
     opt.storage = F->type->storage;
     opt.threads = F->threads;
     opt.null_pivots = F->null.mode;
-    opt.null_tolerance = F->rule.null_tolerance;
+    opt.null_tolerance = sli_tolerance_option(F);
     opt.consistency_tolerance = F->null.consistency;
     opt.mass = F->null.mass; /* in another order: below */
     opt.growth_limit = sli_limit_option(F->growth_limit);

@@ -360,6 +360,7 @@ static void sli_rank_begin(sli_rank *q, sl_factor *F, sl_stats *stats) {
     const sl_factor_info *info = &F->stats.factor;
     memset(q, 0, sizeof *q);
     q->u.F = F;
+    sli_tolerance_begin(F); /* a loaded factor does not have it */
     q->S = F->S;
     q->stats = stats;
     q->u.sign = info->positive == F->S->n ? 1.0 : info->negative == F->S->n ? -1.0 : 0.0;

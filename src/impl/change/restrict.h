@@ -87,7 +87,7 @@ static sl_options sli_restrict_options(const sl_factor *F, const sli_restriction
                                        const sl_allocator *a, sl_int *signs) {
     sl_options opt = sli_options_with(a);
     sl_int k;
-    opt.null_tolerance = F->rule.null_tolerance;
+    opt.null_tolerance = sli_tolerance_option(F);
     opt.regularization = F->rule.regularization;
     opt.growth_limit = sli_limit_option(F->growth_limit);
     opt.error_limit = sli_limit_option(F->error_limit);

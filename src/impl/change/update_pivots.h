@@ -99,7 +99,7 @@ static double sli_update_magnitude(const sl_factor *F, sl_int k) {
 
 /* Is pivot k, now d, null? magnitude: of its change alone. */
 static int sli_update_is_null(const sl_factor *F, sl_int k, double d, double magnitude) {
-    const double tolerance = F->rule.null_tolerance;
+    const double tolerance = sli_rule_tolerance(&F->rule, k);
     const double known = F->extents[F->S->super_of[k]].magnitude;
     if (sli_is_null(d, magnitude, tolerance)) {
         return 1;

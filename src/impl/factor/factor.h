@@ -6,6 +6,7 @@
 #include "../analysis/structure.h"
 #include "factor_setup.h"
 #include "front_tasks.h"
+#include "null_judge.h"
 #include "pivot_check.h"
 #include "uplooking.h"
 
@@ -39,7 +40,7 @@ SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
 
 /* Reports what is not finite. An entry of A has its row and column in A, an entry of a sum its row
  * and column in the lower triangle, and a coefficient neither. */
-static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
+SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
     const sl_symbolic *S = F->S;
     sl_int row = -1, column = -1;
     if (f->position < 0) { /* a coefficient: no row, no column */
@@ -56,10 +57,40 @@ static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_fai
     sli_fail_at(&F->stats, f->status, row, column, f->value);
 }
 
+/* What helps where a factorization was refused, as text; NULL: nothing is known. */
+SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_failure *f) {
+    const double size = fabs(f->value);
+    if (f->status == SL_ERR_INACCURATE && F->stats.factor.growth > F->growth_limit) {
+        return F->S->is_pivoted ? NULL : "sl_symbolic_create_pivoted avoids pivot growth";
+    }
+    if (f->status != SL_ERR_PIVOT || f->pivot < 0) {
+        return NULL;
+    }
+    if (f->bound < 0.0) {
+        return "there was no memory to judge whether the pivot is null";
+    }
+    if (F->null.mode == SL_NULL_PIVOT_SKIP) {
+        return f->bound > 0.0 ? "the pivot has the wrong sign, beyond options.null_tolerance: "
+                                "SL_NULL_PIVOT_SKIP takes semidefinite matrices"
+                              : NULL;
+    }
+    if (F->S->is_pivoted) {
+        return "options.null_tolerance decides; a negative one accepts every pivot but 0";
+    }
+    return size > F->rule.epsilon * F->extents[f->super].magnitude
+               ? "the pivot may be right: a smaller or negative options.null_tolerance accepts it; "
+                 "sl_symbolic_create_pivoted avoids small pivots"
+               : "if A is regular, sl_symbolic_create_pivoted factors it; if it is semidefinite, "
+                 "options.null_pivots";
+}
+
 /* Fills F's stats: the pivot counts and, after a failure, the caller's row and column. has_pivots:
  * the failure came after all of them. */
-static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f, int has_pivots) {
+SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const sli_failure *f,
+                                           int has_pivots) {
     sl_int n_done = F->S->n; /* pivots before the failure */
+    F->stats.error.what = sli_factor_advice(F, f);
+    F->stats.null_bound = f->bound > 0.0 ? f->bound : 0.0;
     if (f->status != SL_OK && f->pivot >= 0) {
         n_done = has_pivots ? n_done : f->pivot;
         sli_fail_at(&F->stats, f->status, F->S->perm[f->pivot], -1, f->value);
@@ -81,6 +112,17 @@ static void sli_factor_stats_report(const sl_factor *F, sl_stats *stats) {
     stats->error.row = F->stats.error.row;
     stats->error.column = F->stats.error.column;
     stats->error.value = F->stats.error.value;
+    stats->error.what = F->stats.error.what;
+    stats->null_bound = F->stats.null_bound;
+}
+
+/* Reports the pivots or a failure. Without all pivots there is no growth. */
+static void sli_factor_outcome(sl_factor *F, const sl_csc *A, const sli_failure *failure,
+                               int has_pivots) {
+    if (!has_pivots) {
+        F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
+    }
+    sli_factor_report(F, A, failure, has_pivots);
 }
 
 /* Completes a factor with 2x2 pivots. The backward sweep does not divide by them. */
@@ -96,17 +138,25 @@ static void sli_pairs_done(sl_factor *F) {
  * and for the caller. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                                  double started, sl_stats *stats) {
-    int has_pivots;
+    int has_pivots, suspects;
     sli_stats_clear_error(&F->stats);
     if (failure->status == SL_OK && F->null.mode == SL_NULL_PIVOT_SKIP) {
         (void)sli_nulls_find(F, from, failure);
     }
+    if (failure->status == SL_ERR_PIVOT && F->null.mode == SL_NULL_PIVOT_SKIP) {
+        sli_null_finite_check(F, from, failure);
+    }
     F->stats.factor.growth = F->stats.factor.entry_max = 0.0;
     has_pivots = failure->status == SL_OK;
-    if (has_pivots) {
-        (void)sli_growth_check(F, failure);
+    suspects = !has_pivots || sli_growth_check(F, failure);
+    if (suspects && sli_nulls_judge(F, has_pivots ? -1 : failure->super, failure) != SL_OK) {
+        has_pivots = has_pivots && failure->status == SL_ERR_INACCURATE;
     }
-    sli_factor_report(F, from->A, failure, has_pivots);
+    sli_factor_outcome(F, from->A, failure, has_pivots);
+    if (sli_signs_are_suspected(F) && failure->status == SL_OK &&
+        sli_signs_judge(F, failure) != SL_OK) {
+        sli_factor_outcome(F, from->A, failure, 0);
+    }
     F->stats.factor.seconds = sli_seconds() - started;
     F->is_valid = failure->status == SL_OK;
     if (F->is_valid) { /* the pivots show every other option that changes more than rounding */
@@ -152,11 +202,28 @@ static void sli_factor_identify(sl_factor *F, const sli_source *from) {
 static void sli_factor_begin(sl_factor *F) {
     F->is_valid = 0;
     F->generation++;
+    sli_tolerance_begin(F);
 }
 
-static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from, sli_failure *failure) {
+SLI_NOINLINE static sl_status sli_factor_eliminate(sl_factor *F, const sli_source *from,
+                                                   sli_failure *failure) {
     return F->method == SL_METHOD_SUPERNODAL ? sli_multifrontal(F, from, failure)
                                              : sli_uplooking(F, from, failure);
+}
+
+/* Judges the suspected last pivots of components that have constants as a null vector. The search
+ * for them overwrites L. */
+SLI_COLD static void sli_factor_suspect(sl_factor *F, const sli_source *from,
+                                        sli_failure *failure) {
+    sl_int *last = NULL;
+    const sl_int count = sli_null_suspects_find(F, from, &last, failure);
+    if (failure->status == SL_OK && sli_factor_eliminate(F, from, failure) == SL_OK) {
+        sli_suspects_clear(F); /* they have been judged */
+        if (count > 0) {
+            (void)sli_lasts_judge(F, last, count, failure);
+        }
+    }
+    sli_free(&F->allocator, last);
 }
 
 /* Computes L and D of a matrix that has the analyzed pattern. */
@@ -180,8 +247,8 @@ static sl_status sli_factor_numbers(sl_factor *F, const sli_source *from, double
         (void)sli_null_vectors_check(F, from, &failure);
     }
     if (failure.status == SL_OK && sli_factor_eliminate(F, from, &failure) == SL_OK &&
-        sli_null_is_suspected(F) && sli_null_suspect_check(F, from, &failure) == SL_OK) {
-        (void)sli_factor_eliminate(F, from, &failure); /* the check has overwritten L */
+        sli_null_is_suspected(F) && sli_nulls_judge(F, -1, &failure) == SL_OK) {
+        sli_factor_suspect(F, from, &failure);
     }
     return sli_factor_done(F, from, &failure, started, stats);
 }

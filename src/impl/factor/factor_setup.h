@@ -159,13 +159,6 @@ static sl_status sli_factor_prepare(sl_factor *F) {
     return status;
 }
 
-/* The last pivot of a singular Laplacian is rounding error. Over meshes, grids and paths of 1e2 to
- * 1e6 rows it stayed below 60 + n/16 units of rounding, while every pivot of a regular matrix
- * stayed above 1e9 units. In fronts in float it stayed below 240 + n/20 units. */
-static double sli_null_tolerance(sl_int n, double epsilon) {
-    return fmin((64.0 + n / 8) * epsilon, SLI_NULL_MOST);
-}
-
 /* Checks the enumerations and the tolerances. Null pivots are either skipped or regularized, so the
  * two options exclude each other. */
 static int sli_factor_choices_are_valid(const sl_options *opt) {
@@ -353,6 +346,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
         *F = draft;
+        memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
         if (F->E != NULL) {
             memset(F->E, 0, (size_t)S->n * sizeof(double));
         }

@@ -24,6 +24,7 @@ typedef struct sli_failure {
     /* the entry that is not finite, as a position in the scatter map; -1: a coefficient */
     sl_off position;
     double value;
+    double bound; /* a pivot up to this size is null; 0: not known */
 } sli_failure;
 
 #define SLI_NULL_VECTORS_MAX 32
@@ -42,7 +43,7 @@ typedef struct sli_extent {
     double entry;     /* the largest |a| in its columns */
     double magnitude; /* the largest sum of magnitudes that one of its pivots was computed from */
     sl_int pivot;     /* that pivot; -1: all magnitudes are 0 */
-    sl_int zero;      /* instead of padding: saved factors have no undefined bytes */
+    sl_int suspects; /* 1 + a column in it: the first pivot that may be null (null_judge.h); or 0 */
 } sli_extent;
 
 typedef struct sli_storage_type sli_storage_type; /* storage_type.h */
@@ -118,6 +119,7 @@ typedef struct sli_front_work {
     sl_off panel_room;        /* doubles of such a piece */
     sli_failure *failures;    /* the first failure of a worker */
     const sli_copied *copied; /* supernodes that are copied in this factorization, or NULL */
+    int is_worker;            /* 1: on a thread that must not allocate; 2: it had to */
 } sli_front_work;
 
 /* The scratch of the up-looking factorization. */
@@ -218,6 +220,7 @@ SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl
     f->pivot = pivot;
     f->position = position;
     f->value = value;
+    f->bound = 0.0;
     return status;
 }
 

@@ -22,7 +22,7 @@
 #define SLI_GROWTH_LIMIT_FLOAT (1.0 / (double)FLT_EPSILON) /* where L is rounded to float */
 
 /* The pivot j that contributes most to row k, max |l_kj d_j l_kj|; -1 if row k of L is empty. */
-static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
+SLI_COLD static sl_int sli_growth_cause(const sl_factor *F, sl_int k) {
     const sl_symbolic *S = F->S;
     const sl_int own = S->super_of[k];
     double most = 0.0;
@@ -62,8 +62,8 @@ SLI_INLINE double sli_growth(double magnitude, double entry) {
 /* Refuses the tree of supernodes first .. last, whose growth exceeds the limit. entry: the largest
  * |a|. Row k of the first such magnitude is where the growth shows; it goes back to a pivot that is
  * small. */
-static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last, double entry,
-                                   sli_failure *failure) {
+SLI_COLD static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last,
+                                            double entry, sli_failure *failure) {
     const double bound = F->growth_limit * entry;
     sl_int s = first, k, cause;
     while (s < last && !(sli_growth(F->extents[s].magnitude, entry) > F->growth_limit)) {
@@ -77,16 +77,18 @@ static sl_status sli_growth_refuse(const sl_factor *F, sl_int first, sl_int last
     return sli_fail(failure, SL_ERR_INACCURATE, F->S->super_of[k], k, -1, F->D[k]);
 }
 
-/* Measures the growth of every tree, and refuses the first one beyond the limit. */
-static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
+/* Measures the growth of every tree, and refuses the first one beyond the limit. Returns whether
+ * pivots are left to sli_nulls_judge. */
+static int sli_growth_check(sl_factor *F, sli_failure *failure) {
     const sl_symbolic *S = F->S;
     sl_factor_info *info = &F->stats.factor;
     double entry = 0.0, magnitude = 0.0, growth;
-    sl_int s, first = 0;
+    sl_int s, first = 0, suspects = 0;
     for (s = 0; s < S->n_supers; s++) {
         const sli_extent *own = &F->extents[s]; /* no NaN: fmax, a call, is not needed */
         entry = own->entry > entry ? own->entry : entry;
         magnitude = own->magnitude > magnitude ? own->magnitude : magnitude;
+        suspects |= own->suspects != 0;
         if (S->super_parent[s] == -1) { /* in a postorder a tree ends at its root */
             growth = sli_growth(magnitude, entry);
             info->growth = fmax(info->growth, growth);
@@ -98,7 +100,7 @@ static sl_status sli_growth_check(sl_factor *F, sli_failure *failure) {
             first = s + 1;
         }
     }
-    return failure->status;
+    return suspects;
 }
 
 #endif

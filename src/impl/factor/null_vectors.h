@@ -2,6 +2,7 @@
 #ifndef SLI_FACTOR_NULL_VECTORS_H
 #define SLI_FACTOR_NULL_VECTORS_H
 
+#include "panel_load.h"
 #include "storage_type.h"
 #include "null_basis.h"
 
@@ -71,6 +72,29 @@ static double sli_null_rounding(sl_int n, double epsilon) {
     return fmin(16.0 * (64.0 + n / 8) * epsilon, SLI_NULL_MOST);
 }
 
+/* After a pivot was refused: reports the first entry that is not finite instead, if there is one.
+ * The kinds and the signs of other pivots depend on it. */
+SLI_COLD static void sli_null_finite_check(const sl_factor *F, const sli_source *from,
+                                           sli_failure *failure) {
+    const sl_symbolic *S = F->S;
+    sl_off m;
+    sl_int s;
+    for (s = 0; s < S->n_supers; s++) {
+        for (m = S->scatter_begin[s]; m < S->scatter_begin[s + 1]; m++) {
+            double a;
+            if (from->A != NULL) {
+                a = from->A->x[S->scatter_from[m]];
+            } else {
+                sli_source_sum(from, m, 1, &a);
+            }
+            if (!sli_is_finite(a)) {
+                (void)sli_fail(failure, SL_ERR_NOT_FINITE, s, -1, m, a);
+                return;
+            }
+        }
+    }
+}
+
 /* Finds the components of A and those whose null vector is known, and with them the kind of every
  * pivot. Refuses a matrix whose diagonal shows that it is indefinite. An entry that is not finite
  * is left to the factorization. */
@@ -132,7 +156,25 @@ static int sli_null_is_suspected(const sl_factor *F) {
     return 0;
 }
 
-/* The bytes a row that sli_null_suspect_check works in. */
+/* n times `size` bytes in which pivots are judged; NULL: there is no memory. */
+SLI_COLD static void *sli_judge_memory(sl_factor *F, sl_int n, size_t size) {
+    sli_block b = {NULL, 0, 0};
+    if (F->work.is_worker) {
+        F->work.is_worker = 2;
+        return NULL;
+    }
+    (void)sli_take(&b, (uint64_t)n, size);
+    return sli_block_alloc(&b, &F->allocator) == SL_OK ? b.base : NULL;
+}
+
+/* Refuses pivot k, which there is no memory to judge. */
+SLI_COLD static sl_status sli_judge_not(const sl_factor *F, sl_int k, sli_failure *failure) {
+    (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, F->D[k]);
+    failure->bound = -1.0;
+    return failure->status;
+}
+
+/* The bytes a row that sli_null_suspects_find works in. */
 #define SLI_SUSPECT_ROW (sizeof(sli_null_row) + sizeof(double) + sizeof(sl_int))
 
 /* Does it fit in L? L has 8 entries or more for each column: enough in double. */
@@ -142,28 +184,37 @@ static int sli_null_suspect_fits(const sl_factor *F) {
            (double)entries * sizeof(float) >= (double)F->S->n * SLI_SUSPECT_ROW;
 }
 
-/* Refuses A if constants are a null vector of a component whose last pivot is suspected. Overwrites
- * L, or the scratch of a factor in float where L is too short. */
-static sl_status sli_null_suspect_check(sl_factor *F, const sli_source *from,
-                                        sli_failure *failure) {
+/* Lists the last pivots that are suspected, of components that have constants as a null vector:
+ * *list, of the allocator; NULL: none. Returns their number. Overwrites L, or the scratch of a
+ * factor in float where L is too short. */
+SLI_COLD static sl_int sli_null_suspects_find(sl_factor *F, const sli_source *from, sl_int **list,
+                                              sli_failure *failure) {
     const sl_symbolic *S = F->S;
     const double rounding = sli_null_rounding(S->n, F->rule.epsilon);
     sli_null_row *rows =
         (sli_null_row *)(sli_null_suspect_fits(F) ? F->values : (void *)F->work.panels);
     double *most = (double *)(void *)(rows + S->n); /* n: of a last pivot: the heaviest one */
-    sl_int *last = (sl_int *)(void *)(most + S->n), k;
+    sl_int *last = (sl_int *)(void *)(most + S->n), k, count = 0;
     const sli_null_walk w = sli_null_product(S, from, 0, rows, NULL, NULL);
     sli_null_components(&w, S, NULL, last, most);
     for (k = 0; k < S->n; k++) {
         const double size = fabs(F->D[k]) > rows[k].size ? fabs(F->D[k]) : rows[k].size;
         most[last[k]] = size > most[last[k]] ? size : most[last[k]];
     }
-    for (k = 0; k < S->n; k++) {
+    for (k = 0; k < S->n; k++) { /* last[0 .. count-1] := the list */
         if (last[k] == k && most[k] <= DBL_MAX && fabs(F->D[k]) <= rounding * most[k]) {
-            return sli_fail(failure, SL_ERR_PIVOT, S->super_of[k], k, -1, F->D[k]);
+            last[count++] = k;
         }
     }
-    return SL_OK;
+    if (count > 0) {
+        *list = (sl_int *)sli_judge_memory(F, count, sizeof(sl_int));
+        if (*list == NULL) {
+            (void)sli_judge_not(F, last[0], failure);
+            return 0;
+        }
+        memcpy(*list, last, (size_t)count * sizeof(sl_int));
+    }
+    return count;
 }
 
 #endif

@@ -45,7 +45,7 @@ typedef struct sli_loading {
 SLI_INLINE void sli_panel_begin(const sl_factor *F, sl_int s) {
     F->extents[s].entry = F->extents[s].magnitude = 0.0;
     F->extents[s].pivot = -1;
-    F->extents[s].zero = 0;
+    F->extents[s].suspects = 0;
     if (F->history.marks != NULL) {
         F->history.marks[s] = SLI_MARK_BEGIN;
     }

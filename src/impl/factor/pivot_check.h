@@ -4,12 +4,54 @@
 
 #include "factor_types.h"
 
+/* Is the tolerance the default? */
+SLI_INLINE int sli_tolerance_is_default(const sl_factor *F) {
+    return F->rule.null_tolerance == sli_null_tolerance(F->S->n, F->rule.epsilon);
+}
+
+/* options.null_tolerance for a factor with the same tolerance. */
+SLI_INLINE double sli_tolerance_option(const sl_factor *F) {
+    return sli_tolerance_is_default(F) ? 0.0 : F->rule.null_tolerance;
+}
+
+/* Gives the rule what it reads of the analysis. */
+SLI_NOINLINE static void sli_tolerance_begin(sl_factor *F) {
+    const int is_default = sli_tolerance_is_default(F);
+    F->rule.super_of = is_default ? F->S->super_of : NULL;
+    F->rule.super_first = F->S->super_first;
+    F->rule.first_descendant = F->S->first_descendant;
+}
+
 /* Keeps the largest sum of magnitudes that a pivot k of supernode s was computed from. */
 SLI_INLINE void sli_record_magnitude(const sl_factor *F, sl_int s, sl_int k, double magnitude) {
     if (magnitude > F->extents[s].magnitude) {
         F->extents[s].magnitude = magnitude;
         F->extents[s].pivot = k;
     }
+}
+
+/* Refuses pivot k, which is null or has the wrong sign. */
+SLI_COLD static sl_status sli_refuse_pivot(const sl_factor *F, sl_int s, sl_int k, double pivot,
+                                           double magnitude, sli_failure *failure) {
+    (void)sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
+    failure->bound = fmax(sli_rule_tolerance(&F->rule, k), 0.0) * magnitude;
+    return failure->status;
+}
+
+/* Refuses pivot k if it is null; by the default tolerance leaves it to sli_nulls_judge unless it is
+ * 0. */
+SLI_COLD static sl_status sli_check_small(const sl_factor *F, sl_int s, sl_int k, double pivot,
+                                          double magnitude, sli_failure *failure) {
+    if (!sli_is_null(pivot, magnitude, sli_rule_tolerance(&F->rule, k))) {
+        return SL_OK;
+    }
+    if (pivot == 0.0 || F->rule.super_of == NULL) {
+        return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
+    }
+    if (F->extents[s].suspects == 0) {
+        F->extents[s].suspects = 1 + k - F->S->super_first[s];
+    }
+    return SL_OK;
 }
 
 /* Records the magnitudes that pivot k of supernode s was computed from. Refuses a pivot that is not
@@ -21,11 +63,11 @@ SLI_INLINE sl_status sli_check_pivot(const sl_factor *F, sl_int s, sl_int k, dou
         return sli_fail(failure, SL_ERR_NOT_FINITE, s, k, -1, pivot);
     }
     if (!F->rule.replaces && sli_is_null(pivot, magnitude, F->rule.null_tolerance)) {
-        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
+        return sli_check_small(F, s, k, pivot, magnitude, failure);
     }
     if (F->null.mode == SL_NULL_PIVOT_SKIP && !sli_is_skipped(F, k) &&
         !(pivot * F->rule.signs[k] > 0.0)) { /* indefinite */
-        return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, pivot);
+        return sli_refuse_pivot(F, s, k, pivot, magnitude, failure);
     }
     return SL_OK;
 }
@@ -52,7 +94,7 @@ SLI_INLINE sl_status sli_check_pair(const sl_factor *F, sl_int s, sl_int k, cons
                                             : e);
     }
     if (!F->rule.replaces &&
-        sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], F->rule.null_tolerance)) {
+        sli_pair_is_null(a, b, e, magnitude[0], magnitude[1], sli_rule_tolerance(&F->rule, k))) {
         return sli_fail(failure, SL_ERR_PIVOT, s, k, -1, a);
     }
     return SL_OK;

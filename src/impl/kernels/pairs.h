@@ -78,7 +78,7 @@ SLI_INLINE double sli_pair_gain(const sli_pair *D, double l, double m) {
 /* A pair is null if its block, scaled by the sums of the magnitudes m that a and b were computed
  * from, has an eigenvalue within rounding of 0: |det| <= tolerance * (largest entry). */
 SLI_NOINLINE static int sli_pair_is_null(double a, double b, double e, double m_a, double m_b,
-                                double tolerance) {
+                                         double tolerance) {
     const double f = a / m_a, g = b / m_b, h = e / (sqrt(m_a) * sqrt(m_b));
     const double most = fabs(f) > fabs(g) ? fabs(f) : fabs(g);
     if (e == 0.0) {
@@ -96,7 +96,7 @@ static void sli_pair_by_rule(const sli_pivot_rule *rule, sl_int k, double *a, do
                              const double *magnitude) {
     const double sign = *a + *b < 0.0 ? -1.0 : 1.0, other = e != 0.0 ? fabs(e) : 1.0;
     const int is_null =
-        sli_pair_is_null(*a, *b, e, magnitude[0], magnitude[1], rule->null_tolerance);
+        sli_pair_is_null(*a, *b, e, magnitude[0], magnitude[1], sli_rule_tolerance(rule, k));
     double *const d[2] = {a, b};
     int m;
     for (m = 0; m < 2; m++) {

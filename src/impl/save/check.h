@@ -293,7 +293,7 @@ static int sli_check_extents(const sl_factor *F) {
         const sl_int least = e->magnitude > 0.0 ? S->super_first[s] : -1,
                      most = e->magnitude > 0.0 ? S->super_first[s + 1] - 1 : -1;
         if (!(e->entry >= 0.0) || !sli_is_finite(e->entry) || !(e->magnitude >= 0.0) ||
-            e->pivot < least || e->pivot > most || e->zero != 0) {
+            e->pivot < least || e->pivot > most || e->suspects != 0) {
             return 0;
         }
     }
