@@ -439,6 +439,31 @@ void singular_and_indefinite() {
     CHECK(llt.compute(indefinite).info() == Eigen::Success);
 }
 
+/* [H B'; B 0] with zeros on the diagonal, against a dense solution; then other values. */
+void chosen_pivots() {
+    Dense K = Dense::Zero(6, 6);
+    for (int k = 0; k < 4; k++) K(4 + k % 2, k) = 1.0 + k;
+    for (int k = 0; k < 3; k++) K(k + 1, k) = 0.5;
+    K(0, 0) = 0.0;
+    const Dense full = K.selfadjointView<Eigen::Lower>();
+    const Sparse A = full.sparseView();
+    const Vector b = some_vector(6);
+    sl::SimplicialLDLT<Sparse> ours(A);
+    CHECK(ours.status() == SL_ERR_PIVOT && ours.stats().error.what != nullptr);
+    ours.setPivoted();
+    CHECK(all_nan(Vector(ours.solve(b)))); /* no factor any more */
+    CHECK(ours.compute(A).info() == Eigen::Success && ours.stats().symbolic.pairs > 0);
+    CHECK(close(Vector(ours.solve(b)), Vector(full.partialPivLu().solve(b)), 1e-10));
+    const int analyses = ours.analyses();
+    CHECK(ours.compute(2.0 * A).info() == Eigen::Success && ours.analyses() == analyses);
+    Sparse other = A; /* pivots that do not suit are chosen again */
+    for (int k = 0; k < other.nonZeros(); k++) other.valuePtr()[k] = 0.0;
+    CHECK(ours.compute(other).status() == SL_ERR_PIVOT && ours.analyses() == analyses + 1);
+    CHECK(ours.compute(A).info() == Eigen::Success);
+    ours.setPivoted(false).compute(A);
+    CHECK(ours.status() == SL_ERR_PIVOT);
+}
+
 void values_that_are_not_finite() {
     Sparse A = grid_matrix<Sparse, Eigen::Lower>(5);
     A.coeffRef(7, 7) = NAN;
@@ -486,6 +511,7 @@ int main() {
                        {"not_square", not_square},
                        {"empty_and_zero", empty_and_zero},
                        {"singular_and_indefinite", singular_and_indefinite},
+                       {"chosen_pivots", chosen_pivots},
                        {"values_that_are_not_finite", values_that_are_not_finite},
                        {"wrong_sets", wrong_sets}});
 }

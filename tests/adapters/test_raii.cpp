@@ -257,6 +257,28 @@ void no_rows() {
     CHECK(F.inverse_diagonal(x, sl::Rows::all()).ok() && x.empty());
 }
 
+/* [0 1; 1 0] in one word; in the order of the pattern the refusal names the call. */
+void chosen_pivots() {
+    const sl_int p[3] = {0, 2, 3}, i[3] = {0, 1, 1};
+    const double x[3] = {0.0, 1.0, 0.0};
+    const sl_csc A = {2, 2, p, i, x};
+    sl::Symbolic S;
+    sl::Factor F;
+    std::vector<double> y;
+    CHECK(S.create(A).ok());
+    CHECK(fails(SL_ERR_PIVOT, 0, [&] { return F.create(S, A); }));
+#ifdef SL_NO_EXCEPTIONS
+    const sl::Status refused = F.create(S, A);
+    CHECK(refused.advice().find("create_pivoted") != std::string::npos);
+    CHECK(refused.message().find(refused.advice()) != std::string::npos);
+    CHECK(sl::Status().advice().empty());
+#endif
+    CHECK(S.create_pivoted(A).ok() && S.info().pairs == 1 && F.create(S, A).ok());
+    CHECK(F.solve(y, {3.0, 4.0}).ok() && y[0] == 4.0 && y[1] == 3.0);
+    const sl_csc none = {2, 2, p, i, nullptr};
+    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return S.create_pivoted(none); }));
+}
+
 } // namespace
 
 int main() {
@@ -271,5 +293,6 @@ int main() {
                        {"moves", moves},
                        {"wrong_arguments", wrong_arguments},
                        {"wrong_matrices", wrong_matrices},
-                       {"no_rows", no_rows}});
+                       {"no_rows", no_rows},
+                       {"chosen_pivots", chosen_pivots}});
 }

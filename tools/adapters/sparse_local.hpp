@@ -60,6 +60,7 @@ public:
         where_.row = where_.column = -1;
         where_.line = -1;
         where_.value = 0;
+        where_.what = nullptr;
     }
     Status(sl_status code, const sl_stats &stats) : code_(code), where_(stats.error) {
     }
@@ -81,9 +82,14 @@ public:
     double value() const {
         return where_.value;
     }
-    /** The text of the status with the row and column, if it has them. */
+    /** What helps, or what is missing, as text; empty: nothing is known. */
+    std::string advice() const {
+        return where_.what != nullptr ? where_.what : "";
+    }
+    /** The text of the status with the advice, the row and the column, if it has them. */
     std::string message() const {
         std::string text = sl_status_string(code_);
+        if (where_.what != nullptr) text += std::string(": ") + where_.what;
         if (where_.row >= 0) text += ", row " + std::to_string(where_.row);
         if (where_.column >= 0) text += ", column " + std::to_string(where_.column);
         if (where_.line >= 0) text += ", line " + std::to_string(where_.line);
@@ -285,6 +291,13 @@ public:
         sl_symbolic *made = nullptr;
         sl_stats stats;
         sl_status status = sl_symbolic_create(&made, &A, options, &stats);
+        return keep(made, Status(status, stats));
+    }
+    /** The same with 1x1 and 2x2 pivots by the values of A, for indefinite matrices. */
+    SL_RESULT create_pivoted(const sl_csc &A, const sl_options *options = nullptr) {
+        sl_symbolic *made = nullptr;
+        sl_stats stats;
+        sl_status status = sl_symbolic_create_pivoted(&made, &A, options, &stats);
         return keep(made, Status(status, stats));
     }
     /** Rows of the matrix; 0 if empty. */

@@ -20,8 +20,10 @@
  *             library's own nested dissection, or options().ordering.
  * Errors      no exceptions: info() is NumericalIssue for a null pivot, a NaN or an infinity, and
  *             for a negative pivot in SimplicialLLT; InvalidInput for all other errors. status() is
- *             the library's own; stats().error names the row. A solve that fails sets info() and
- *             fills its result with NaN.
+ *             the library's own; stats().error names the row and what helps. A solve that fails
+ *             sets info() and fills its result with NaN.
+ * Indefinite  SimplicialLDLT keeps the order of the pattern unless setPivoted() chooses pivots by
+ *             the values, as KKT systems with zeros on the diagonal need.
  * Differences from Eigen's solvers:
  *             - A numerically singular matrix is refused. Eigen accepts it unless a pivot is
  *               exactly 0, and so does options().null_tolerance = -1. For a singular Laplacian set
@@ -384,7 +386,17 @@ public:
         return *this;
     }
 
-    /** Analyzes the pattern of A. */
+    /** From the next analysis on, 1x1 and 2x2 pivots are chosen by the values of the matrix, as
+     *  indefinite ones need. Other values of a pattern keep them, and if these do not suit, are
+     *  analyzed again. vectorD() has the diagonal of D only, and entries of the inverse are refused
+     *  (sl_symbolic_create_pivoted). */
+    BasicSolver &setPivoted(bool on = true) {
+        if (on != is_pivoted_) forget();
+        is_pivoted_ = on;
+        return *this;
+    }
+
+    /** Analyzes the pattern of A; with setPivoted() also its values. */
     BasicSolver &analyzePattern(const MatrixType &A) {
         internal::MatrixArrays arrays(A);
         forget();
@@ -655,7 +667,9 @@ private:
             options.triangle = SL_TRIANGLE_UPPER;
         }
         forget();
-        const sl_status status = sl_symbolic_create(&made, &A, &options, &stats_);
+        const sl_status status = is_pivoted_
+                                     ? sl_symbolic_create_pivoted(&made, &A, &options, &stats_)
+                                     : sl_symbolic_create(&made, &A, &options, &stats_);
         if (status != SL_OK) return status;
         symbolic_.reset(made, sl_symbolic_free);
         analyzed_with_ = options_;
@@ -666,7 +680,8 @@ private:
     sl_status factor_any(const sl_csc &A) {
         sl_status status = SL_ERR_PATTERN;
         if (symbolic_ && is_analyzed_as_wanted()) status = factor_numbers(A);
-        if (status == SL_ERR_PATTERN) {
+        const bool is_refused = status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE;
+        if (status == SL_ERR_PATTERN || (is_pivoted_ && is_refused)) {
             status = analyze(A);
             if (status == SL_OK) status = factor_numbers(A);
         }
@@ -846,6 +861,7 @@ private:
     }
 
     sl_options options_, analyzed_with_;
+    bool is_pivoted_ = false;
     sl_stats stats_;
     Eigen::Index n_;
     sl_status ready_; /* SL_OK, or why there are no numbers */
