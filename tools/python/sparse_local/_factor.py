@@ -6,7 +6,7 @@ import threading
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError
+from ._errors import ArgumentError, InconsistentError
 from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
 from ._plan import Plan, Region, choice, part_bits
 from ._pseudo import NullSpace
@@ -15,6 +15,7 @@ _ORDERINGS = {"nd": 0, "metis": 1, "given": 3, "natural": 4, "mindeg": 5}
 _NULL_PIVOTS = {"refuse": 0, "skip": 1}
 _STORAGES = {"double": 0, "float": 1}
 _CERTAINTIES = {"estimated": 1, "guaranteed": 2}
+_INCONSISTENT = 11  # SL_ERR_INCONSISTENT
 _SAVED_FACTOR = 1  # SL_SAVED_FACTOR: without what else the file has
 CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
 
@@ -39,6 +40,8 @@ class Factor:
     null_vector     n numbers, if the null vector is not constant; n x k: several null vectors a
                     component, such as the 3 or 6 rigid motions of an elastic body; with mass,
                     solutions have sum m z x = 0 for each of these vectors z.
+    pivoted         True: 1x1 and 2x2 pivots are chosen by the values of A, as indefinite matrices
+                    need; not with null_pivots='skip', and without entries of the inverse.
     regularization  see sparse_local.h; 1e-8 suits refinement. signs: n signs of the pivots.
     storage         'double', or 'float': half the bytes for L; solutions have the accuracy of
                     float until refine.
@@ -50,7 +53,7 @@ class Factor:
     def __init__(self, A, *, triangle=None, ordering="nd", perm=None, block_size=0,
                  null_pivots="refuse", null_tolerance=0.0, mass=None, null_vector=None,
                  consistency_tolerance=0.0, regularization=0.0, signs=None,
-                 storage="double"):
+                 storage="double", pivoted=False):
         matrix = arrays.Matrix(A)
         options = new_options()
         self._triangle = triangle
@@ -84,8 +87,9 @@ class Factor:
 
         stats = Stats()
         symbolic = ctypes.c_void_p()
-        check(lib.sl_symbolic_create(ctypes.byref(symbolic), matrix.reference(),
-                                     ctypes.byref(options), ctypes.byref(stats)), stats)
+        analyze = lib.sl_symbolic_create_pivoted if pivoted else lib.sl_symbolic_create
+        check(analyze(ctypes.byref(symbolic), matrix.reference(), ctypes.byref(options),
+                      ctypes.byref(stats)), stats)
         self._symbolic = Handle("symbolic", symbolic.value)
         if triangle is None:
             matrix.check_symmetric()
@@ -94,6 +98,7 @@ class Factor:
                                    matrix.reference(), ctypes.byref(options),
                                    ctypes.byref(stats)), stats)
         self._factor = Handle("factor", factor.value, self._symbolic)
+        self._consistency = consistency_tolerance or 1e-6
         self.n = n
         self._works = threading.local()
         self._nulls = None
@@ -194,6 +199,7 @@ class Factor:
         self._triangle = triangle
         self._symbolic = Handle("symbolic", symbolic)
         self._factor = Handle("factor", factor, self._symbolic)
+        self._consistency = None  # that of the file
         self.n = lib.sl_symbolic_view(self._symbolic.pointer).n
         self._works = threading.local()
         self._nulls = None
@@ -247,8 +253,28 @@ class Factor:
         InconsistentError: A is singular and B has no solution (null_pivots='skip' without mass).
         """
         dense = arrays.Dense(B, self.n, self.n)
-        check(lib.sl_factor_solve(self._factor.pointer, *dense.arguments(), self._work()))
+        status = lib.sl_factor_solve(self._factor.pointer, *dense.arguments(), self._work())
+        self._check_consistent(status, dense.B)
+        check(status)
         return dense.X
+
+    def _check_consistent(self, status, B, rows=None):
+        """Raises InconsistentError with its size; B in the given rows, None: all."""
+        if status != _INCONSISTENT:
+            return
+        right = np.zeros((self.n, 1 if B.ndim == 1 else B.shape[1]), order="F")
+        np.add.at(right, slice(None) if rows is None else rows, B.reshape(B.shape[0], -1))
+        defects = np.zeros((self.stats["factor"]["null"], right.shape[1]), order="F")
+        check(lib.sl_factor_defects(self._factor.pointer, arrays.address(defects),
+                                    max(defects.shape[0], 1), arrays.address(right), self.n,
+                                    right.shape[1], self._work()))
+        sizes = abs(right).sum(axis=0)
+        worst = (abs(defects).max(axis=0) / np.where(sizes > 0, sizes, 1)).max()
+        text = ("%s: |z' b| for a null vector z is %.2g of sum |b|"
+                % (lib.sl_status_string(status).decode(), worst))
+        if self._consistency is not None:
+            text += ", consistency_tolerance is %.2g" % self._consistency
+        raise InconsistentError(text, value=float(worst))
 
     def refine(self, A, X, B, steps=2):
         """Improves X, a solution of A X = B, by at most steps corrections; returns a new X and the
@@ -280,8 +306,10 @@ class Factor:
         keep_x, x_rows, nx = arrays.rows(xset)
         dense = arrays.Dense(B, self.n if bset is None else nb, self.n if xset is None else nx)
         stats = Stats()
-        check(lib.sl_local_solve(self._factor.pointer, b_rows, nb, x_rows, nx,
-                                 *dense.arguments(), self._work(), ctypes.byref(stats)), stats)
+        status = lib.sl_local_solve(self._factor.pointer, b_rows, nb, x_rows, nx,
+                                    *dense.arguments(), self._work(), ctypes.byref(stats))
+        self._check_consistent(status, dense.B, keep_b)
+        check(status, stats)
         return dense.X
 
     def plan(self, bset, xset, region=None):

@@ -7,7 +7,7 @@ import ctypes.util
 import os
 import sys
 
-from ._errors import BY_STATUS, Error
+from ._errors import BY_STATUS, Error, PivotError
 
 _INT, _OFF, _REAL, _SIZE, _PTR = (ctypes.c_int32, ctypes.c_int64, ctypes.c_double,
                                   ctypes.c_size_t, ctypes.c_void_p)
@@ -98,8 +98,8 @@ class Stats(ctypes.Structure):
                 ("region", _RegionInfo), ("refine", _RefineInfo),
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", _OFF), ("reuse", _ReuseInfo),
-                ("pins", _PinsInfo), ("certificate", _CertificateInfo),
-                ("reserved", _OFF * 20)]
+                ("pins", _PinsInfo), ("certificate", _CertificateInfo), ("null_bound", _REAL),
+                ("reserved", _OFF * 19)]
 
 
 class SavedSet(ctypes.Structure):
@@ -133,6 +133,8 @@ _CALLS = {
     "csc_multiply": [_CSC, _ENUM, _PTR, _SIZE, _PTR, _SIZE, _INT],
     "matrix_from_csc64": [_OUT, ctypes.POINTER(Csc64), _OPT, _STATS],
     "symbolic_create": [_OUT, _CSC, _OPT, _STATS],
+    "symbolic_create_pivoted": [_OUT, _CSC, _OPT, _STATS],
+    "factor_defects": [_PTR, _PTR, _SIZE, _PTR, _SIZE, _INT, _PTR],
     "factor_create": [_OUT, _PTR, _CSC, _OPT, _STATS],
     "factor_refactor": [_PTR, _CSC, _STATS],
     "factor_refactor_changed": [_PTR, _CSC, _PTR, _INT, _STATS],
@@ -247,6 +249,8 @@ def check(status, stats=None):
         value = stats.error.value
         if stats.error.what:
             text += ": " + stats.error.what.decode()
+        if kind is PivotError and stats.null_bound > 0:
+            text += ", pivot %.3g, null up to %.3g" % (value, stats.null_bound)
     raise kind(text, row, column, value)
 
 

@@ -55,6 +55,7 @@ class Plan:
         check(lib.sl_plan_create(ctypes.byref(pointer), factor._symbolic.pointer, b_rows, nb,
                                  x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats)
         self._factor = factor
+        self._bset = keep_b  # None: all rows
         self._plan = Handle("plan", pointer.value, factor._symbolic, region)
         self._scales = threading.local()
         self.nb = factor.n if bset is None else nb
@@ -64,8 +65,10 @@ class Plan:
         """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
         dense = arrays.Dense(B, self.nb, self.nx)
         factor = self._factor
-        check(lib.sl_plan_solve(self._plan.pointer, factor._factor.pointer, *dense.arguments(),
-                                factor._work()))
+        status = lib.sl_plan_solve(self._plan.pointer, factor._factor.pointer,
+                                   *dense.arguments(), factor._work())
+        factor._check_consistent(status, dense.B, self._bset)
+        check(status)
         return dense.X
 
     def solve_bounded(self, B):

@@ -26,6 +26,47 @@ def test_singular_and_indefinite():
     assert F.stats["factor"]["negative"] == 1 and F.logdet()[0] == -1
 
 
+def test_chosen_pivots():
+    A = sp.csc_matrix(np.array([[0, 1, 2.0], [1, 0, 3], [2, 3, 0]]))
+    with pytest.raises(sl.PivotError, match="create_pivoted"):
+        sl.Factor(A)
+    F = sl.Factor(A, pivoted=True)
+    b = np.array([1.0, 2, 3])
+    assert np.allclose(A @ F.solve(b), b)
+    assert F.stats["symbolic"]["pairs"] == 1
+    with pytest.raises(sl.UnsupportedError):
+        sl.Factor(A, pivoted=True, null_pivots="skip")
+
+
+def test_small_pivots_name_their_size():
+    A = sp.csc_matrix(np.array([[1, 1], [1, 1 - 1e-9]]))
+    with pytest.raises(sl.PivotError, match="wrong sign.*pivot -1e-09, null up to") as caught:
+        sl.Factor(A, null_pivots="skip")
+    assert caught.value.value == pytest.approx(-1e-9, rel=1e-6)
+    assert sl.Factor(A, null_pivots="skip", null_tolerance=1e-8).stats["factor"]["null"] == 1
+    B = abs(A)
+    B[1, 1] = 1 + 1e-9
+    assert sl.Factor(B).logdet()[0] == 1
+    with pytest.raises(sl.PivotError, match="null_tolerance.*pivot 1e-09, null up to 2e-06"):
+        sl.Factor(B, null_tolerance=1e-6)
+
+
+def test_inconsistent_systems_name_their_size():
+    F = sl.Factor(grid(6, 0.0), null_pivots="skip")
+    message = r"1 of sum \|b\|, consistency_tolerance is 1e-06"
+    with pytest.raises(sl.InconsistentError, match=message) as caught:
+        F.solve(np.ones((36, 2)))
+    assert caught.value.value == pytest.approx(1)
+    with pytest.raises(sl.InconsistentError, match=message):
+        F.local([3, 4], [1.0, 2], [0])
+    with pytest.raises(sl.InconsistentError, match=message):
+        F.plan([3], [0]).solve([1.0])
+    with pytest.raises(sl.InconsistentError, match=message):
+        F.plan(None, [0]).solve(np.ones(36))
+    F = sl.Factor(grid(6, 0.0), null_pivots="skip", consistency_tolerance=-1)
+    assert F.solve(np.ones(36)).shape == (36,)
+
+
 def test_several_null_vectors():
     L = grid(5, 0.0)
     A = sp.block_diag([L, 3 * L], format="csc")  # two components with a constant each
