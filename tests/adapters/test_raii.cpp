@@ -146,6 +146,24 @@ void regions() {
     CHECK(R.refactor(f.F).ok() && P.solve(x, f.F, {1.0}).ok());
 }
 
+void bounds() {
+    Factored f(20);
+    sl::Plan P, other;
+    std::vector<double> x, plain, errors, again, scales;
+    double eta = 0;
+    CHECK(f.made && P.create(f.S, {100}, {121, 3, 100}).ok());
+    CHECK(fails(SL_ERR_STATE, -1, [&] { return P.solve_bounded(x, errors, f.F, {1.0}, scales); }));
+    CHECK(f.F.certify(eta, f.grid.view()).ok() && eta > 0 && eta < 1e-12);
+    CHECK(P.solve_bounded(x, errors, f.F, {1.0}, scales).ok() && errors.size() == 3);
+    CHECK(P.solve(plain, f.F, {1.0}).ok() && plain == x);
+    CHECK(errors[2] > 0 && errors[2] < 1e-12 * x[2]);
+    CHECK(P.solve_bounded(x, again, f.F, {1.0}, scales).ok() && again == errors);
+    CHECK(f.F.certify(eta, f.grid.view(), SL_GUARANTEED).ok() && eta > 0 && eta < 1e-8);
+    CHECK(other.create(f.S, {3}, {121, 3, 100}).ok());
+    CHECK(other.solve_bounded(x, again, f.F, {1.0, 2.0}, scales, 2).ok() && again.size() == 6);
+    CHECK(fails(SL_ERR_ARGUMENT, -1, [&] { return P.solve_bounded(x, again, f.F, {}, scales); }));
+}
+
 void inverse() {
     Factored f(5);
     std::vector<double> diagonal, column, all;
@@ -287,6 +305,7 @@ int main() {
                        {"plans", plans},
                        {"parts_of_solves", parts_of_solves},
                        {"regions", regions},
+                       {"bounds", bounds},
                        {"inverse", inverse},
                        {"selected", selected},
                        {"matrices", matrices},

@@ -400,6 +400,16 @@ public:
         return finish(sl_factor_rcond(get(), &A, &out, work_of(work)));
     }
 
+    /** Finds eta, the largest relative error of any solve in the energy norm, for
+     *  Plan::solve_bounded; A is the factored matrix. */
+    SL_RESULT certify(double &eta, const sl_csc &A, sl_certainty certainty = SL_ESTIMATED,
+                      Work *work = nullptr) {
+        sl_stats stats = sl_stats();
+        sl_status status = sl_factor_certify(get(), &A, certainty, work_of(work), &stats);
+        eta = stats.certificate.eta;
+        return finish(Status(status, stats));
+    }
+
     /** Rows of the matrix; 0 if empty. */
     sl_int n() const {
         return get() ? sl_symbolic_view(view().symbolic).n : 0;
@@ -508,6 +518,25 @@ public:
                                          data_of(b), nb, nrhs, work_of(work));
         if (status == SL_OK) x.swap(result);
         return finish(status);
+    }
+    /** The same, and a bound for the error of each number; F is certified. scales keeps what the
+     *  bounds need of the plan and the numbers of F: an empty vector at first. */
+    SL_RESULT solve_bounded(std::vector<double> &x, std::vector<double> &bounds, const Factor &F,
+                            const std::vector<double> &b, std::vector<double> &scales,
+                            sl_int nrhs = 1, Work *work = nullptr) const {
+        std::size_t nb = std::size_t(nb_), nx = std::size_t(nx_);
+        if (nrhs < 0 || b.size() != nb * std::size_t(nrhs)) return finish(SL_ERR_ARGUMENT);
+        std::vector<double> result(nx * std::size_t(nrhs)), errors(result.size());
+        sl_stats stats;
+        scales.resize(4 * nx + 2);
+        sl_status status = sl_plan_solve_bounded(get(), F.get(), data_of(result), nx,
+                                                 data_of(errors), data_of(b), nb, nrhs,
+                                                 data_of(scales), work_of(work), &stats);
+        if (status == SL_OK) {
+            x.swap(result);
+            bounds.swap(errors);
+        }
+        return finish(Status(status, stats));
     }
     /** The forward half (SL_PART_P + L), whose x has info().b_columns rows, or the backward half
      *  (SL_PART_LT + PT), whose b has info().x_columns rows; either with D or SQRT_D. */
