@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 591729dac5d57ee3
+ * FNV-1a of the lines after this comment, without the license: 048638e4de8bad0c
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -26,35 +26,35 @@
  *   2061 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
  *   2093 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
  *   2282 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2392 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2519 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2559 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2647 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2756 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2793 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2870 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2910 impl/ base: the compiler, status, memory, sorting, threads
- *   3894 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4751 impl/ matrix: sparse matrices of the caller and of the library
- *   5294 impl/ ordering: fill-reducing orderings of a graph
- *   9671 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11617 impl/ factor: the numbers of L and D
- *  14760 impl/ solve: full and local solves
- *  16340 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18075 impl/ pivots: the order of the pivots by the values of a matrix
- *  18489 impl/ float: L and fronts in single precision
- *  18940 impl/ inverse: entries of the inverse, regions
- *  21876 impl/ change: a factor that follows changes of its matrix
- *  28407 impl/ io: files that are replaced only when they are complete
- *  28619 impl/ files: Matrix Market files, 64-bit indices
- *  29215 impl/ save: factors in files
- *  31137 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31802 impl/ batch: diagonals of many inverses
- *  31942 impl/ complex: complex Hermitian systems over real factors
- *  32452 impl/ complex: entries of the inverse
- *  32504 impl/ packs: the tables through which the core calls packs
- *  32536 impl/ last: undefine every internal macro
- *  32842 impl/ templates: the header includes them from itself, once for each instruction set
+ *   2394 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2521 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2561 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2649 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2758 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2795 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2872 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2912 impl/ base: the compiler, status, memory, sorting, threads
+ *   3896 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4753 impl/ matrix: sparse matrices of the caller and of the library
+ *   5296 impl/ ordering: fill-reducing orderings of a graph
+ *   9673 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11619 impl/ factor: the numbers of L and D
+ *  14762 impl/ solve: full and local solves
+ *  16342 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18077 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18491 impl/ float: L and fronts in single precision
+ *  18942 impl/ inverse: entries of the inverse, regions
+ *  21878 impl/ change: a factor that follows changes of its matrix
+ *  28513 impl/ io: files that are replaced only when they are complete
+ *  28725 impl/ files: Matrix Market files, 64-bit indices
+ *  29321 impl/ save: factors in files
+ *  31243 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31908 impl/ batch: diagonals of many inverses
+ *  32048 impl/ complex: complex Hermitian systems over real factors
+ *  32558 impl/ complex: entries of the inverse
+ *  32610 impl/ packs: the tables through which the core calls packs
+ *  32642 impl/ last: undefine every internal macro
+ *  32953 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -2291,10 +2291,11 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *  If all pivots of F have one sign, they must keep it: the change fails only if the changed matrix
  *  is not definite, up to rounding. With pivots of both signs it may also fail because it meets a
  *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
+ *  Drift counts what a row loses relative to its own entries, if all pivots have one sign.
  *
- *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
- *                   SL_ERR_NOT_FINITE for an overflow, or where rounding makes a pivot fail that a
- *                   trial had accepted: then it has no numbers.
+ *  F      [in,out]  the factor. On error it is as before, bit for bit. Only where rounding
+ *                   takes every digit of a pivot that a trial had found above 1e-3 of the old one
+ *                   it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
@@ -2304,9 +2305,9 @@ SL_API void sl_saved_set_free(sl_saved_set *set);
  *           malformed, or its row error.row is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
  *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
- *           growth beyond its limit; SL_ERR_STATE: F has no numbers or is mapped;
- *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STATE: F has no
+ *           numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2
+ *           pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *  Threads  exclusive use of F.
@@ -2321,7 +2322,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *
  *  The library finds rank-one changes: one for the weight of an edge of a graph, which changes a_ij
  *  by -w and a_ii and a_jj by w, one for an entry of the diagonal, and up to three for any other
- *  entry.
+ *  entry, which follow the scales of the two rows if all pivots have one sign.
  *
  *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
  *                       sides; repeated ones add up. L must have an entry there; all entries of A
@@ -2343,7 +2344,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
- *                           sl_factor_refactor.
+ *                           sl_factor_refactor; without numbers where the error of a change is too
+ *                           large and A is refused.
  *  A              [in]      the changed matrix, in the analyzed pattern. Rank-one changes compare
  *                           its size only; the other ways read it and check its pattern.
  *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in
@@ -22323,8 +22325,10 @@ typedef struct sli_update {
   int kind;
   double most;
   double loss;
+  double lost;
   double fall;
   double least;
+  double shrink;
   double top;
   double entry;
   double growth;
@@ -22342,6 +22346,8 @@ typedef struct sli_update {
   double *other, *b;
   double *trial, *scratch;
 } sli_update;
+
+#define SLI_UPDATE_LOST 256.0
 
 SLI_INLINE int sli_update_kind(sl_int count) {
   return count == 1 ? SLI_NRHS_2 : sli_lanes_kind(count);
@@ -22411,6 +22417,12 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
   return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
+static void sli_update_note_lost(sli_update *u, sl_int k, double magnitude) {
+  if (u->sign != 0.0 && magnitude > fmax(SLI_UPDATE_LOST, u->lost) * fabs(u->F->D[k])) {
+    u->lost = fmax(u->lost, magnitude / sli_update_magnitude(u->F, k));
+  }
+}
+
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
   sl_factor *F = u->F;
   const double d = F->D[k];
@@ -22428,6 +22440,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
     u->top = fabs(e) > u->top ? fabs(e) : u->top;
     sli_update_count(&F->stats.factor, d, e);
     F->D[k] = e;
+    sli_update_note_lost(u, k, magnitude);
   }
   return SL_OK;
 }
@@ -22454,6 +22467,12 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
     (!shrink || u->is_tried ||
      (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
     if (!u->is_trial) {
+      for (j = 0; j < count && most > SLI_UPDATE_LOST * least; j++) {
+        const double d = fabs(D[j]);
+        D[j] = e[j];
+        sli_update_note_lost(u, k + j,
+                   magnitudes != NULL ? magnitudes[j] : d + fabs(d - fabs(e[j])));
+      }
       memcpy(D, e, (size_t)count * sizeof *D);
       info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
       info->pivot_max = top > info->pivot_max ? top : info->pivot_max;
@@ -22652,6 +22671,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
   u->state->lanes = u->lanes;
   u->most = u->fall = u->top = u->entry = u->growth = 0.0;
   u->loss = 1.0;
+  u->lost = 0.0;
   memset(u->state->U, 0, sizeof u->state->U);
   memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
   memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
@@ -22684,6 +22704,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
   memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
   sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
   u->is_trial = 1;
+  u->shrink = 1.0;
   for (s = 0; s < R->count; s++) {
     const sli_step *step = &R->steps[s];
     for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
@@ -22695,6 +22716,9 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
         }
       }
       status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
+      for (k = 0; k < columns; k++) {
+        u->shrink = fmin(u->shrink, fabs(u->state->e[k] / u->F->D[step->column + j + k]));
+      }
     }
   }
   u->is_trial = 0;
@@ -22777,6 +22801,7 @@ static sl_status sli_path_run(sli_update *u, uint64_t seed, int is_trial) {
   one.first_tile = (sli_key(seed) - S->super_first[s]) / SLI_TILE;
   u->most = u->top = u->entry = u->growth = 0.0;
   u->loss = 1.0;
+  u->lost = 0.0;
   for (rest = u->V->p[v + 1] - u->V->p[v]; s != -1 && status == SL_OK; s = S->super_parent[s]) {
     const sli_step *step = &S->steps[s];
     const sl_int *to = S->relative + S->rows_begin[s];
@@ -22824,12 +22849,14 @@ typedef struct sli_rank {
   const sl_int *entry_rows, *entry_columns;
   const double *deltas;
   sl_int n_entries;
+  int is_balanced;
   sl_stats *stats;
   sl_status status;
   sl_int count;
   sl_int updates;
   int has_trial;
   int has_log;
+  int needs_log;
   sl_int logged;
   int is_changed;
   double flops;
@@ -22838,6 +22865,7 @@ typedef struct sli_rank {
   sli_reach whole;
   uint64_t *seeds, *scratch, *whole_seeds;
   double *log, *log_D;
+  uint64_t *log_marks;
   sli_extent *log_extents;
   sli_step *log_steps;
 
@@ -22848,6 +22876,11 @@ typedef struct sli_rank {
 } sli_rank;
 
 #define SLI_RANK_LOGGED (1 << 19)
+
+#define SLI_RANK_CLOSE 1e-3
+
+#define SLI_RANK_LARGE 1e100
+#define SLI_RANK_SMALL 1e-100
 
 static int sli_rank_is_suited(const sl_factor *F) {
   return F->E == NULL && F->null.count == 0 && F->type->storage == SL_STORAGE_DOUBLE;
@@ -22901,6 +22934,12 @@ SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
   return count == 1 && q->u.sign != 0.0;
 }
 
+static int sli_rank_may_overflow(const sli_rank *q, double size) {
+  const sl_factor_info *info = &q->u.F->stats.factor;
+  return !(size <= SLI_RANK_LARGE && info->pivot_max <= SLI_RANK_LARGE &&
+       info->pivot_min >= SLI_RANK_SMALL);
+}
+
 static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
                uint64_t *seeds) {
   uint64_t unused[SLI_TILE];
@@ -22930,17 +22969,27 @@ static void sli_rank_measure(sli_rank *q) {
   }
 }
 
+static double sli_rank_size(const sl_csc *V, sl_int v, double sigma) {
+  double most = 0.0;
+  sl_int p;
+  for (p = V->p[v]; p < V->p[v + 1]; p++) {
+    most = fmax(most, fabs(V->x[p]));
+  }
+  return fabs(sigma) * most * most;
+}
+
 static void sli_rank_sort(void *data) {
   sli_rank *q = (sli_rank *)data;
   const sl_symbolic *S = q->S;
   const sl_csc *V = q->u.V;
+  double size = 0.0;
   sl_int v, rest = 0;
-  int may_fail;
   q->count = 0;
   for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
     const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
     const sl_int first = sli_update_first(S, V, v);
     q->status = sli_rank_check_vector(q, v, first);
+    size = fmax(size, sli_rank_size(V, v, sigma));
     if (first < S->n && sigma != 0.0) {
       if (sigma * (q->u.sign < 0.0 ? -1.0 : 1.0) > 0.0) {
         q->seeds[q->count++] = sli_keyed(first, v);
@@ -22965,12 +23014,11 @@ static void sli_rank_sort(void *data) {
   }
   sli_sort(q->whole_seeds, q->count, q->scratch);
   sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-  may_fail = rest > 0 || q->u.F->stats.factor.pivot_min < DBL_MIN;
-  q->has_log = q->u.sign == 0.0 ||
-         (may_fail &&
-          (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+  q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
+         (rest > 0 && (q->count > SLI_TILE ||
+                 (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
          q->u.F->growth_limit < 2.0;
-  q->has_trial = may_fail && !q->has_log;
+  q->has_trial = rest > 0 && !q->has_log;
   sli_rank_measure(q);
 }
 
@@ -23000,6 +23048,7 @@ static void sli_rank_layout(void *data, sli_block *b) {
   if (q->has_log) {
     q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
     q->log_D = SLI_TAKE(b, double, q->whole.columns);
+    q->log_marks = SLI_TAKE(b, uint64_t, q->whole.count);
     q->log_extents = SLI_TAKE(b, sli_extent, q->whole.count);
     q->log_steps = SLI_TAKE(b, sli_step, q->whole.count);
   }
@@ -23015,7 +23064,12 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     const sl_off from = sli_tile_offset(step->width, step->first_tile);
     const size_t size = (size_t)(sli_panel_size(step->width, step->below) - from);
     double *L = (double *)F->values + step->panel + from;
-    sli_extent *extent = &F->extents[F->S->super_of[step->column]];
+    const sl_int s = F->S->super_of[step->column];
+    sli_extent *extent = &F->extents[s];
+    if (F->history.marks != NULL) {
+      uint64_t *mark = &F->history.marks[s];
+      *(restores ? mark : &q->log_marks[k]) = *(restores ? &q->log_marks[k] : mark);
+    }
     memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
     memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
          (size_t)columns * sizeof(double));
@@ -23054,7 +23108,7 @@ static void sli_rank_note(const sli_update *u) {
   const double local = fmax(fmin(own, scale), least);
   const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
   const double growth = local > 0.0 ? u->growth / local : 0.0;
-  const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
+  const double most = fmax(local > 0.0 ? u->most / local * u->loss : 0.0, u->lost);
   info->growth =
     u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
   F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
@@ -23078,8 +23132,12 @@ static sl_status sli_rank_passes(sli_rank *q) {
     } else {
       sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
       sli_update_load(&q->u, group, last - k);
-      sli_rank_unmark(F, q->u.steps, q->u.R.count);
       status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
+      if (status == SL_OK && q->has_trial && q->u.shrink < SLI_RANK_CLOSE) {
+        q->needs_log = 1;
+        return SL_OK;
+      }
+      sli_rank_unmark(F, q->u.steps, status == SL_OK ? q->u.R.count : 0);
       q->is_changed |= status == SL_OK;
       status = status == SL_OK ? sli_update_run(&q->u) : status;
     }
@@ -23105,6 +23163,10 @@ static sl_status sli_rank_run(sli_rank *q) {
   if (q->count == 0) {
     return SL_OK;
   }
+  if (before.factor.growth > F->growth_limit) {
+    const sl_int k = sli_key(q->seeds[0]);
+    return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k]);
+  }
   if (F->history.updates == 0) {
     F->history.scale = F->history.lowest = before.factor.entry_max;
   }
@@ -23117,6 +23179,9 @@ static sl_status sli_rank_run(sli_rank *q) {
     sli_rank_log(q, q->logged, 0);
   }
   status = sli_rank_passes(q);
+  if (q->needs_log && !q->has_log) {
+    return SL_OK;
+  }
   if (status == SL_OK) {
     F->history.updates += q->count;
     sli_rank_identify(q);
@@ -23128,10 +23193,10 @@ static sl_status sli_rank_run(sli_rank *q) {
     F->history.drift = drift;
     F->history.scale = scale;
     F->history.lowest = lowest;
-  } else if (q->is_changed) {
-    F->is_valid = 0;
-    F->status = status;
-    F->generation++;
+  } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
+    F->is_valid = 0;        /* untested: although the trial found it far from 0 */
+    F->status = status;     /* untested: the same */
+    F->generation++;        /* untested: the same */
   }
   return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
 }
@@ -23172,6 +23237,15 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
 static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
                        {sli_rank_layout, NULL}};
 
+static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
+  sl_status status = sli_rank_run(q);
+  if (q->needs_log && !q->has_log) {
+    status = sli_work_stages(W, stages, count, q);
+    status = status == SL_OK ? sli_rank_run(q) : status;
+  }
+  return status;
+}
+
 static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
   sl_work own = sli_work_own(&q->u.F->allocator);
   sl_status status;
@@ -23179,7 +23253,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
   status = sli_work_grow(W, 1);
   status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
   status = status == SL_OK ? q->status : status;
-  status = status == SL_OK ? sli_rank_run(q) : status;
+  status = status == SL_OK ? sli_rank_run_logged(q, stages, count, W) : status;
   sli_free(&own.allocator, own.block);
   return status;
 }
@@ -23213,6 +23287,8 @@ SL_API sl_status sl_factor_update(sl_factor *F, const sl_csc *V, const double *s
 
 /* src/impl/change/edges.h: changes given by entries of A, as rank-one changes */
 
+#define SLI_EDGES_HEAVY 16.0
+
 static void sli_edges_layout(void *data, sli_block *b) {
   sli_rank *q = (sli_rank *)data;
   const uint64_t count = (uint64_t)q->n_entries;
@@ -23225,14 +23301,14 @@ static void sli_edges_layout(void *data, sli_block *b) {
   q->diagonal = SLI_TAKE(b, double, 2 * count);
 }
 
-static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
+static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double c, double sigma) {
   sl_int *end = &q->p[q->V.n_cols + 1];
   *end = q->p[q->V.n_cols];
   q->i[*end] = i;
-  q->x[(*end)++] = 1.0;
+  q->x[(*end)++] = c;
   if (j != -1) {
     q->i[*end] = j;
-    q->x[(*end)++] = -1.0;
+    q->x[(*end)++] = -1.0 / c;
   }
   q->sigma[q->V.n_cols++] = sigma;
 }
@@ -23250,6 +23326,18 @@ static void sli_edges_sort(sli_rank *q) {
   }
 }
 
+static double sli_edges_balance(const sli_rank *q, sl_int i, sl_int j, double d) {
+  const double at_i = sli_update_magnitude(q->u.F, q->S->iperm[i]),
+         at_j = sli_update_magnitude(q->u.F, q->S->iperm[j]);
+  int first, second;
+  if (!(fabs(d) > SLI_EDGES_HEAVY * fmin(at_i, at_j))) {
+    return 1.0;
+  }
+  (void)frexp(at_i, &first);
+  (void)frexp(at_j, &second);
+  return ldexp(1.0, (first - second) / 4);
+}
+
 static sl_int sli_edges_add_all(sli_rank *q) {
   const sl_int *iperm = q->S->iperm;
   uint64_t *rows = q->order_scratch;
@@ -23258,7 +23346,7 @@ static sl_int sli_edges_add_all(sli_rank *q) {
     const sl_int e = sli_value(q->order[k]);
     const sl_int i = q->entry_rows[e], j = q->entry_columns[e];
     const sl_int low = sli_min(iperm[i], iperm[j]), high = sli_max(iperm[i], iperm[j]);
-    double sum = 0.0;
+    double sum = 0.0, c;
     for (; k < q->n_entries; k++) {
       const sl_int f = sli_value(q->order[k]);
       const sl_int a = iperm[q->entry_rows[f]], b = iperm[q->entry_columns[f]];
@@ -23267,22 +23355,26 @@ static sl_int sli_edges_add_all(sli_rank *q) {
       }
       sum += q->deltas[f];
     }
+    c = i != j && q->is_balanced ? sli_edges_balance(q, i, j, sum) : 1.0;
     if (i != j && sum != 0.0) {
-      sli_edges_add(q, i, j, -sum);
+      sli_edges_add(q, i, j, c, -sum);
     }
-    rows[terms] = sli_keyed(low, terms);
-    q->diagonal[terms++] = sum;
+    rows[terms] = sli_keyed(iperm[i], terms);
+    q->diagonal[terms++] = sum * c * c;
     if (i != j) {
-      rows[terms] = sli_keyed(high, terms);
-      q->diagonal[terms++] = sum;
+      rows[terms] = sli_keyed(iperm[j], terms);
+      q->diagonal[terms++] = sum / c / c;
     }
   }
   return terms;
 }
 
-static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
+static int sli_edges_diagonal(sli_rank *q, sl_int terms) {
+  const sl_factor *F = q->u.F;
   uint64_t *rows = q->order_scratch;
+  const int has_edges = q->V.n_cols > 0 && q->u.sign != 0.0;
   sl_int k;
+  int is_heavy = 0;
   sli_sort(rows, terms, q->order);
   for (k = 0; k < terms;) {
     const sl_int row = sli_key(rows[k]);
@@ -23292,9 +23384,12 @@ static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
       size += fabs(q->diagonal[sli_value(rows[k])]);
     }
     if (fabs(sum) > 8.0 * DBL_EPSILON * size) {
-      sli_edges_add(q, q->S->perm[row], -1, sum);
+      sli_edges_add(q, q->S->perm[row], -1, 1.0, sum);
+      is_heavy |= has_edges && !is_heavy && fabs(sum) > SLI_EDGES_HEAVY * fabs(F->D[row]) &&
+            fabs(sum) > SLI_EDGES_HEAVY * sli_update_magnitude(F, row);
     }
   }
+  return is_heavy;
 }
 
 static void sli_edges_fill(void *data) {
@@ -23305,8 +23400,14 @@ static void sli_edges_fill(void *data) {
   q->V.i = q->i;
   q->V.x = q->x;
   q->p[0] = 0;
+  q->is_balanced = 0;
   sli_edges_sort(q);
-  sli_edges_diagonal(q, sli_edges_add_all(q));
+  if (sli_edges_diagonal(q, sli_edges_add_all(q))) {
+    q->is_balanced = 1;
+    q->V.n_cols = 0;
+    sli_edges_sort(q);
+    (void)sli_edges_diagonal(q, sli_edges_add_all(q));
+  }
   q->u.V = &q->V;
   q->u.sigma = q->sigma;
 }
@@ -23559,6 +23660,7 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
                 sl_change_method *method) {
   sl_factor *F = q->u.F;
   const int can_update = sli_rank_is_suited(F) && F->is_valid;
+  const uint64_t generation = F->generation;
   sl_status status = SL_OK;
   sli_choose_seeds(c, q);
   if (can_update) {
@@ -23573,7 +23675,7 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
     *method = sli_choose_make(c, F, 1);
   }
   if (*method == SL_CHANGE_UPDATE) {
-    status = sli_rank_run(q);
+    status = sli_rank_run_logged(q, sli_edges_stages, 3, W);
     if (status != SL_OK) {
       c->reason = SL_CHANGE_REFUSED;
       *method = SL_CHANGE_REFACTOR;
@@ -23586,6 +23688,10 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
     status = sli_choose_reach(c, q, A);
   } else if (*method == SL_CHANGE_REFACTOR) {
     status = sl_factor_refactor(F, A, q->stats);
+    if (status != SL_OK && F->generation != generation && F->is_valid) {
+      F->is_valid = 0;
+      F->status = status;
+    }
   }
   return status;
 }
@@ -32800,6 +32906,11 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_PINS_WORTH
 #undef SLI_PINS_SINGLY
 #undef SLI_RANK_LOGGED
+#undef SLI_RANK_LARGE
+#undef SLI_RANK_SMALL
+#undef SLI_RANK_CLOSE
+#undef SLI_EDGES_HEAVY
+#undef SLI_UPDATE_LOST
 #undef SLI_PINS_TERM
 #undef SLI_PINS_STEP
 #undef SLI_PINS_DENSE

@@ -15,10 +15,11 @@
  *  If all pivots of F have one sign, they must keep it: the change fails only if the changed matrix
  *  is not definite, up to rounding. With pivots of both signs it may also fail because it meets a
  *  null pivot on its way. Errors add up: refactor if growth or stats.change.drift is too large.
+ *  Drift counts what a row loses relative to its own entries, if all pivots have one sign.
  *
- *  F      [in,out]  the factor. On error it is as before, bit for bit, except after
- *                   SL_ERR_NOT_FINITE for an overflow, or where rounding makes a pivot fail that a
- *                   trial had accepted: then it has no numbers.
+ *  F      [in,out]  the factor. On error it is as before, bit for bit. Only where rounding
+ *                   takes every digit of a pivot that a trial had found above 1e-3 of the old one
+ *                   it has no numbers.
  *  V      [in]      n x k, any k, in the rows of A; duplicates are summed, zeros ignored.
  *  sigma  [in]      k weights of any sign; NULL: all 1.
  *  W      [in,out]  workspace; NULL: allocated for this call.
@@ -28,9 +29,9 @@
  *           malformed, or its row error.row is not in the column of L of error.column;
  *           SL_ERR_PIVOT: a pivot would change its sign or vanish, at error.row; SL_ERR_NOT_FINITE:
  *           an entry of V at error.row, a weight (error.row = -1) or a pivot; SL_ERR_INACCURATE:
- *           growth beyond its limit; SL_ERR_STATE: F has no numbers or is mapped;
- *           SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2 pivots, or L is in float;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *           growth beyond its limit, that of a loaded factor with its drift; SL_ERR_STATE: F has no
+ *           numbers or is mapped; SL_ERR_UNSUPPORTED: null pivots were skipped, there are 2x2
+ *           pivots, or L is in float; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
  *  Cost     4 flops per vector and entry of L in the columns on its path, which are read and
  *           written once for 8 vectors. Changes that may fail take another forward sweep or a copy.
  *  Threads  exclusive use of F.
@@ -45,7 +46,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update(sl_factor *F, const sl_csc *V, 
  *
  *  The library finds rank-one changes: one for the weight of an edge of a graph, which changes a_ij
  *  by -w and a_ii and a_jj by w, one for an entry of the diagonal, and up to three for any other
- *  entry.
+ *  entry, which follow the scales of the two rows if all pivots have one sign.
  *
  *  rows, columns  [in]  count entries (i, j) of either triangle, each pair i != j once for both
  *                       sides; repeated ones add up. L must have an entry there; all entries of A
@@ -67,7 +68,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_update_entries(sl_factor *F, const sl_
  *  are not possible or have added up too much error, the other two remain (stats.change.reason).
  *
  *  F              [in,out]  the factor, or a failed one, which is refactored. On error as with
- *                           sl_factor_refactor.
+ *                           sl_factor_refactor; without numbers where the error of a change is too
+ *                           large and A is refused.
  *  A              [in]      the changed matrix, in the analyzed pattern. Rank-one changes compare
  *                           its size only; the other ways read it and check its pattern.
  *  rows, columns, deltas  [in]  how it differs from the matrix of F, as in

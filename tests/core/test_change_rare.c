@@ -338,8 +338,8 @@ static void entries_outside_of_L_are_refused(void **state) {
     factored_free(&y);
 }
 
-/* Changes a 1 x 1 matrix by `count` equal vectors. An update whose pivot stays subnormal is refused
- * and changes no bit; one that overflows leaves no numbers. */
+/* Changes a 1 x 1 matrix by `count` equal vectors. An update whose pivot stays subnormal, or one
+ * that overflows, is refused and changes no bit. */
 static void check_tiny_and_huge(sl_int count, sl_isa isa) {
     static const struct {
         double pivot, entry;
@@ -374,11 +374,6 @@ static void check_tiny_and_huge(sl_int count, sl_isa isa) {
             assert_true(fabs(D[0] - wanted) <= 16.0 * DBL_EPSILON * wanted);
         } else {
             assert_int_equal(stats.error.row, 0);
-        }
-        if (cases[k].status == SL_ERR_NOT_FINITE) {
-            SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, &y, 1, &b, 1, 1, NULL));
-            SL_CHECK(sl_factor_refactor(F, &A, NULL));
-            b = D[0];
         }
         assert_true(cases[k].status == SL_OK || D[0] == cases[k].pivot);
         SL_CHECK(sl_factor_solve(F, &y, 1, &b, 1, 1, NULL));

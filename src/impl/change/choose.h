@@ -215,6 +215,7 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
                                 sl_change_method *method) {
     sl_factor *F = q->u.F;
     const int can_update = sli_rank_is_suited(F) && F->is_valid;
+    const uint64_t generation = F->generation;
     sl_status status = SL_OK;
     sli_choose_seeds(c, q);
     if (can_update) {
@@ -229,7 +230,7 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
         *method = sli_choose_make(c, F, 1);
     }
     if (*method == SL_CHANGE_UPDATE) {
-        status = sli_rank_run(q);
+        status = sli_rank_run_logged(q, sli_edges_stages, 3, W);
         if (status != SL_OK) {
             c->reason = SL_CHANGE_REFUSED; /* A may be indefinite: its factorization decides */
             *method = SL_CHANGE_REFACTOR;
@@ -242,6 +243,10 @@ static sl_status sli_choose_run(sli_change_choice *c, sli_rank *q, const sl_csc 
         status = sli_choose_reach(c, q, A);
     } else if (*method == SL_CHANGE_REFACTOR) {
         status = sl_factor_refactor(F, A, q->stats);
+        if (status != SL_OK && F->generation != generation && F->is_valid) {
+            F->is_valid = 0; /* it has changed, and A cannot replace what it has lost */
+            F->status = status;
+        }
     }
     return status;
 }

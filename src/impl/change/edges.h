@@ -4,8 +4,14 @@
 
 #include "rank.h"
 
-/* A symmetric change by d at (i, j) and (j, i) is -d (e_i - e_j)(e_i - e_j)' with d added to both
- * diagonal entries. Where the edges of a graph change, that cancels the changes of the diagonal. */
+/* A symmetric change by d at (i, j) and (j, i) is -d v v' with v = c e_i - e_j / c, and d c^2 and
+ * d / c^2 added to the diagonal. Where the edges of a graph change, c = 1 cancels the changes of
+ * the diagonal. Where that leaves d in a row whose entry of the diagonal is much less, the row
+ * would lose its digits: then c^2 is about the root of a_ii / a_jj, so that the split follows the
+ * scales of A. c is a power of 2: it rounds nothing. */
+
+/* A row can lose so much and keep all but one hexadecimal digit. */
+#define SLI_EDGES_HEAVY 16.0
 
 static void sli_edges_layout(void *data, sli_block *b) {
     sli_rank *q = (sli_rank *)data;
@@ -19,15 +25,15 @@ static void sli_edges_layout(void *data, sli_block *b) {
     q->diagonal = SLI_TAKE(b, double, 2 * count);
 }
 
-/* Appends sigma v v' with v = e_i - e_j, or v = e_i if j = -1. */
-static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double sigma) {
+/* Appends sigma v v' with v = c e_i - e_j / c, or v = c e_i if j = -1. */
+static void sli_edges_add(sli_rank *q, sl_int i, sl_int j, double c, double sigma) {
     sl_int *end = &q->p[q->V.n_cols + 1];
     *end = q->p[q->V.n_cols];
     q->i[*end] = i;
-    q->x[(*end)++] = 1.0;
+    q->x[(*end)++] = c;
     if (j != -1) {
         q->i[*end] = j;
-        q->x[(*end)++] = -1.0;
+        q->x[(*end)++] = -1.0 / c;
     }
     q->sigma[q->V.n_cols++] = sigma;
 }
@@ -46,6 +52,19 @@ static void sli_edges_sort(sli_rank *q) {
     }
 }
 
+/* c of a change by d at (i, j). */
+static double sli_edges_balance(const sli_rank *q, sl_int i, sl_int j, double d) {
+    const double at_i = sli_update_magnitude(q->u.F, q->S->iperm[i]),
+                 at_j = sli_update_magnitude(q->u.F, q->S->iperm[j]);
+    int first, second;
+    if (!(fabs(d) > SLI_EDGES_HEAVY * fmin(at_i, at_j))) {
+        return 1.0;
+    }
+    (void)frexp(at_i, &first);
+    (void)frexp(at_j, &second);
+    return ldexp(1.0, (first - second) / 4);
+}
+
 /* Appends the edges; returns how many changes of the diagonal they leave in q->diagonal. */
 static sl_int sli_edges_add_all(sli_rank *q) {
     const sl_int *iperm = q->S->iperm;
@@ -55,7 +74,7 @@ static sl_int sli_edges_add_all(sli_rank *q) {
         const sl_int e = sli_value(q->order[k]);
         const sl_int i = q->entry_rows[e], j = q->entry_columns[e];
         const sl_int low = sli_min(iperm[i], iperm[j]), high = sli_max(iperm[i], iperm[j]);
-        double sum = 0.0;
+        double sum = 0.0, c;
         for (; k < q->n_entries; k++) {
             const sl_int f = sli_value(q->order[k]);
             const sl_int a = iperm[q->entry_rows[f]], b = iperm[q->entry_columns[f]];
@@ -64,23 +83,28 @@ static sl_int sli_edges_add_all(sli_rank *q) {
             }
             sum += q->deltas[f];
         }
+        c = i != j && q->is_balanced ? sli_edges_balance(q, i, j, sum) : 1.0;
         if (i != j && sum != 0.0) {
-            sli_edges_add(q, i, j, -sum);
+            sli_edges_add(q, i, j, c, -sum);
         }
-        rows[terms] = sli_keyed(low, terms);
-        q->diagonal[terms++] = sum;
+        rows[terms] = sli_keyed(iperm[i], terms);
+        q->diagonal[terms++] = sum * c * c;
         if (i != j) {
-            rows[terms] = sli_keyed(high, terms);
-            q->diagonal[terms++] = sum;
+            rows[terms] = sli_keyed(iperm[j], terms);
+            q->diagonal[terms++] = sum / c / c;
         }
     }
     return terms;
 }
 
-/* Appends what remains on the diagonal. */
-static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
+/* Appends what remains on the diagonal. Returns whether that is much more than the entry of the
+ * diagonal in a row of a definite matrix, where changes off the diagonal may be why. */
+static int sli_edges_diagonal(sli_rank *q, sl_int terms) {
+    const sl_factor *F = q->u.F;
     uint64_t *rows = q->order_scratch;
+    const int has_edges = q->V.n_cols > 0 && q->u.sign != 0.0;
     sl_int k;
+    int is_heavy = 0;
     sli_sort(rows, terms, q->order);
     for (k = 0; k < terms;) {
         const sl_int row = sli_key(rows[k]);
@@ -90,9 +114,12 @@ static void sli_edges_diagonal(sli_rank *q, sl_int terms) {
             size += fabs(q->diagonal[sli_value(rows[k])]);
         }
         if (fabs(sum) > 8.0 * DBL_EPSILON * size) { /* the caller has rounded, too */
-            sli_edges_add(q, q->S->perm[row], -1, sum);
+            sli_edges_add(q, q->S->perm[row], -1, 1.0, sum);
+            is_heavy |= has_edges && !is_heavy && fabs(sum) > SLI_EDGES_HEAVY * fabs(F->D[row]) &&
+                        fabs(sum) > SLI_EDGES_HEAVY * sli_update_magnitude(F, row);
         }
     }
+    return is_heavy;
 }
 
 static void sli_edges_fill(void *data) {
@@ -103,8 +130,14 @@ static void sli_edges_fill(void *data) {
     q->V.i = q->i;
     q->V.x = q->x;
     q->p[0] = 0;
+    q->is_balanced = 0;
     sli_edges_sort(q);
-    sli_edges_diagonal(q, sli_edges_add_all(q));
+    if (sli_edges_diagonal(q, sli_edges_add_all(q))) {
+        q->is_balanced = 1;
+        q->V.n_cols = 0;
+        sli_edges_sort(q);
+        (void)sli_edges_diagonal(q, sli_edges_add_all(q));
+    }
     q->u.V = &q->V;
     q->u.sigma = q->sigma;
 }

@@ -13,12 +13,14 @@ typedef struct sli_rank {
     const sl_int *entry_rows, *entry_columns; /* a change given by entries */
     const double *deltas;
     sl_int n_entries;
+    int is_balanced; /* the entries are split by the scales of their rows */
     sl_stats *stats;
     sl_status status;
     sl_int count;    /* vectors that change something */
     sl_int updates;  /* those of the sign of the pivots: they come first */
     int has_trial;   /* its only pass may fail: it is tried first */
-    int has_log;     /* a later pass may fail, or growth may become too large */
+    int has_log;     /* a later pass may fail, growth may become too large, or numbers overflow */
+    int needs_log;   /* the trial was close: the pass itself, rounded otherwise, may fail */
     sl_int logged;   /* steps in the log */
     int is_changed;  /* a pass has begun to change F */
     double flops;    /* entries of L that the passes change, times their vectors' cost */
@@ -27,6 +29,7 @@ typedef struct sli_rank {
     sli_reach whole; /* of all vectors */
     uint64_t *seeds, *scratch, *whole_seeds; /* vectors: first pivot and number */
     double *log, *log_D;
+    uint64_t *log_marks;
     sli_extent *log_extents;
     sli_step *log_steps;
 
@@ -40,6 +43,14 @@ typedef struct sli_rank {
 /* Up to so many entries of L a pass of several vectors keeps a copy of them. As long as it stays in
  * the caches, that takes less time than a trial. */
 #define SLI_RANK_LOGGED (1 << 19)
+
+/* Where a trial of several vectors takes a pivot to less than this part of it, the pass has a log,
+ * too: its rounding is not that of the trial. */
+#define SLI_RANK_CLOSE 1e-3
+
+/* Beyond these sizes of pivots and changes, numbers of a pass may overflow. */
+#define SLI_RANK_LARGE 1e100
+#define SLI_RANK_SMALL 1e-100
 
 /* Can F have rank-one changes? In float each one would round all of its columns again. */
 static int sli_rank_is_suited(const sl_factor *F) {
@@ -98,6 +109,13 @@ SLI_INLINE int sli_rank_is_path(const sli_rank *q, sl_int count) {
     return count == 1 && q->u.sign != 0.0;
 }
 
+/* May numbers of a pass overflow? size: the largest change of an entry of A by one vector. */
+static int sli_rank_may_overflow(const sli_rank *q, double size) {
+    const sl_factor_info *info = &q->u.F->stats.factor;
+    return !(size <= SLI_RANK_LARGE && info->pivot_max <= SLI_RANK_LARGE &&
+             info->pivot_min >= SLI_RANK_SMALL);
+}
+
 /* Lists the vectors of a pass, updates first, and its seeds. */
 static void sli_rank_group(const sli_rank *q, sl_int first, sl_int last, sl_int *group,
                            uint64_t *seeds) {
@@ -130,18 +148,29 @@ static void sli_rank_measure(sli_rank *q) {
     }
 }
 
+/* The largest change of an entry of the diagonal of A by vector v. */
+static double sli_rank_size(const sl_csc *V, sl_int v, double sigma) {
+    double most = 0.0;
+    sl_int p;
+    for (p = V->p[v]; p < V->p[v + 1]; p++) {
+        most = fmax(most, fabs(V->x[p]));
+    }
+    return fabs(sigma) * most * most;
+}
+
 /* Checks and sorts the vectors, those of the sign of the pivots first, and measures their reach. */
 static void sli_rank_sort(void *data) {
     sli_rank *q = (sli_rank *)data;
     const sl_symbolic *S = q->S;
     const sl_csc *V = q->u.V;
+    double size = 0.0;
     sl_int v, rest = 0;
-    int may_fail;
     q->count = 0;
     for (v = 0; v < V->n_cols && q->status == SL_OK; v++) {
         const double sigma = q->u.sigma == NULL ? 1.0 : q->u.sigma[v];
         const sl_int first = sli_update_first(S, V, v);
         q->status = sli_rank_check_vector(q, v, first);
+        size = fmax(size, sli_rank_size(V, v, sigma));
         if (first < S->n && sigma != 0.0) {
             if (sigma * (q->u.sign < 0.0 ? -1.0 : 1.0) > 0.0) {
                 q->seeds[q->count++] = sli_keyed(first, v);
@@ -166,13 +195,11 @@ static void sli_rank_sort(void *data) {
     }
     sli_sort(q->whole_seeds, q->count, q->scratch);
     sli_reach_measure(S, q->whole_seeds, q->count, &q->whole);
-    /* pivots that grow are refused only where they stay subnormal */
-    may_fail = rest > 0 || q->u.F->stats.factor.pivot_min < DBL_MIN;
-    q->has_log = q->u.sign == 0.0 ||
-                 (may_fail &&
-                  (q->count > SLI_TILE || (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
+    q->has_log = q->u.sign == 0.0 || q->needs_log || sli_rank_may_overflow(q, size) ||
+                 (rest > 0 && (q->count > SLI_TILE ||
+                               (q->count > 1 && q->whole.entries <= SLI_RANK_LOGGED))) ||
                  q->u.F->growth_limit < 2.0; /* else pivots of one sign do not exceed it */
-    q->has_trial = may_fail && !q->has_log;
+    q->has_trial = rest > 0 && !q->has_log;  /* pivots that grow are not refused */
     sli_rank_measure(q);
 }
 
@@ -203,12 +230,13 @@ static void sli_rank_layout(void *data, sli_block *b) {
     if (q->has_log) {
         q->log = SLI_TAKE(b, double, sli_rank_panels(S, q->whole_seeds, q->count));
         q->log_D = SLI_TAKE(b, double, q->whole.columns);
+        q->log_marks = SLI_TAKE(b, uint64_t, q->whole.count);
         q->log_extents = SLI_TAKE(b, sli_extent, q->whole.count);
         q->log_steps = SLI_TAKE(b, sli_step, q->whole.count);
     }
 }
 
-/* Saves or restores the panels, pivots and extents of the first `count` steps of the log. */
+/* Saves or restores the panels, pivots, extents and marks of the first `count` steps of the log. */
 static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
     sl_factor *F = q->u.F;
     double *log = q->log, *log_D = q->log_D;
@@ -219,7 +247,12 @@ static void sli_rank_log(sli_rank *q, sl_int count, int restores) {
         const sl_off from = sli_tile_offset(step->width, step->first_tile);
         const size_t size = (size_t)(sli_panel_size(step->width, step->below) - from);
         double *L = (double *)F->values + step->panel + from;
-        sli_extent *extent = &F->extents[F->S->super_of[step->column]];
+        const sl_int s = F->S->super_of[step->column];
+        sli_extent *extent = &F->extents[s];
+        if (F->history.marks != NULL) {
+            uint64_t *mark = &F->history.marks[s];
+            *(restores ? mark : &q->log_marks[k]) = *(restores ? &q->log_marks[k] : mark);
+        }
         memcpy(restores ? L : log, restores ? log : L, size * sizeof(double));
         memcpy(restores ? F->D + step->column : log_D, restores ? log_D : F->D + step->column,
                (size_t)columns * sizeof(double));
@@ -264,7 +297,7 @@ static void sli_rank_note(const sli_update *u) {
     const double local = fmax(fmin(own, scale), least);
     const double rise = scale > 0.0 ? fmax(1.0, F->history.lowest / scale) : 1.0;
     const double growth = local > 0.0 ? u->growth / local : 0.0;
-    const double most = local > 0.0 ? u->most / local * u->loss : 0.0;
+    const double most = fmax(local > 0.0 ? u->most / local * u->loss : 0.0, u->lost);
     info->growth =
         u->sign != 0.0 ? fmax(info->growth, fmin(growth, 2.0)) : fmax(info->growth * rise, growth);
     F->history.drift = F->history.drift * rise + DBL_EPSILON * fmax(1.0, most);
@@ -272,7 +305,8 @@ static void sli_rank_note(const sli_update *u) {
     F->history.scale = scale;
 }
 
-/* Runs all passes. */
+/* Runs all passes. Where a trial of several vectors was close it changes nothing and asks for a
+ * log. The trial of a path has the rounding of the pass. */
 static sl_status sli_rank_passes(sli_rank *q) {
     sl_factor *F = q->u.F;
     sl_factor_info *info = &F->stats.factor;
@@ -289,8 +323,12 @@ static sl_status sli_rank_passes(sli_rank *q) {
         } else {
             sli_reach_fill(F->S, seeds, last - k, q->u.steps, q->u.rows, &q->u.R);
             sli_update_load(&q->u, group, last - k);
-            sli_rank_unmark(F, q->u.steps, q->u.R.count);
             status = q->has_trial ? sli_update_try(&q->u, group, last - k) : SL_OK;
+            if (status == SL_OK && q->has_trial && q->u.shrink < SLI_RANK_CLOSE) {
+                q->needs_log = 1;
+                return SL_OK;
+            }
+            sli_rank_unmark(F, q->u.steps, status == SL_OK ? q->u.R.count : 0);
             q->is_changed |= status == SL_OK;
             status = status == SL_OK ? sli_update_run(&q->u) : status;
         }
@@ -317,6 +355,10 @@ static sl_status sli_rank_run(sli_rank *q) {
     if (q->count == 0) {
         return SL_OK;
     }
+    if (before.factor.growth > F->growth_limit) { /* a saved factor has its drift as growth */
+        const sl_int k = sli_key(q->seeds[0]);
+        return sli_fail_at(q->stats, SL_ERR_INACCURATE, F->S->perm[k], -1, F->D[k]);
+    }
     if (F->history.updates == 0) {
         F->history.scale = F->history.lowest = before.factor.entry_max;
     }
@@ -329,6 +371,9 @@ static sl_status sli_rank_run(sli_rank *q) {
         sli_rank_log(q, q->logged, 0);
     }
     status = sli_rank_passes(q);
+    if (q->needs_log && !q->has_log) {
+        return SL_OK;
+    }
     if (status == SL_OK) {
         F->history.updates += q->count;
         sli_rank_identify(q);
@@ -340,10 +385,10 @@ static sl_status sli_rank_run(sli_rank *q) {
         F->history.drift = drift;
         F->history.scale = scale;
         F->history.lowest = lowest;
-    } else if (q->is_changed) { /* an overflow */
-        F->is_valid = 0;
-        F->status = status;
-        F->generation++;
+    } else if (q->is_changed) { /* untested: rounding has taken all digits of a pivot, */
+        F->is_valid = 0;        /* untested: although the trial found it far from 0 */
+        F->status = status;     /* untested: the same */
+        F->generation++;        /* untested: the same */
     }
     return sli_fail_at(q->stats, status, F->S->perm[q->u.pivot], -1, q->u.value);
 }
@@ -387,6 +432,16 @@ static void sli_rank_report(const sli_rank *q, double started, sl_stats *stats) 
 static const sli_stage sli_rank_stages[2] = {{sli_rank_layout_seeds, sli_rank_sort},
                                              {sli_rank_layout, NULL}};
 
+/* Runs a change whose stages are prepared; prepares them once more where it asks for a log. */
+static sl_status sli_rank_run_logged(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
+    sl_status status = sli_rank_run(q);
+    if (q->needs_log && !q->has_log) {
+        status = sli_work_stages(W, stages, count, q);
+        status = status == SL_OK ? sli_rank_run(q) : status;
+    }
+    return status;
+}
+
 /* Prepares the stages of a change, in the caller's workspace or in `own`, and runs it. */
 static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count, sl_work *W) {
     sl_work own = sli_work_own(&q->u.F->allocator);
@@ -395,7 +450,7 @@ static sl_status sli_rank_apply(sli_rank *q, const sli_stage *stages, int count,
     status = sli_work_grow(W, 1); /* so that no array is NULL, not even an empty one */
     status = status == SL_OK ? sli_work_stages(W, stages, count, q) : status;
     status = status == SL_OK ? q->status : status;
-    status = status == SL_OK ? sli_rank_run(q) : status;
+    status = status == SL_OK ? sli_rank_run_logged(q, stages, count, W) : status;
     sli_free(&own.allocator, own.block);
     return status;
 }

@@ -187,6 +187,7 @@ static void sli_update_load(sli_update *u, const sl_int *group, sl_int count) {
     u->state->lanes = u->lanes;
     u->most = u->fall = u->top = u->entry = u->growth = 0.0;
     u->loss = 1.0;
+    u->lost = 0.0;
     memset(u->state->U, 0, sizeof u->state->U);
     memset(u->x, 0, (size_t)u->R.columns * (size_t)u->lanes * sizeof(double));
     memset(u->gain, 0, (size_t)u->R.columns * sizeof(double));
@@ -221,6 +222,7 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
     memcpy(u->trial, u->x, (size_t)R->columns * (size_t)u->lanes * sizeof(double));
     sli_forward_sweep(u->F, u->kind, R, u->trial, u->scratch);
     u->is_trial = 1;
+    u->shrink = 1.0;
     for (s = 0; s < R->count; s++) {
         const sli_step *step = &R->steps[s];
         for (j = 0; j < sli_step_columns(step) && status == SL_OK; j += SLI_TILE) {
@@ -232,6 +234,9 @@ static sl_status sli_update_try(sli_update *u, const sl_int *group, sl_int count
                 }
             }
             status = sli_update_pivots(u, step->column + j, columns, NULL, u->local, u->c);
+            for (k = 0; k < columns; k++) {
+                u->shrink = fmin(u->shrink, fabs(u->state->e[k] / u->F->D[step->column + j + k]));
+            }
         }
     }
     u->is_trial = 0;

@@ -29,8 +29,10 @@ typedef struct sli_update {
     int kind;
     double most;   /* the largest sum of magnitudes that a pivot of the pass was computed from */
     double loss;   /* of digits in a pivot, which later ones multiply: of pivots of both signs */
+    double lost;   /* of digits in a row, relative to its own entry of the diagonal */
     double fall;   /* by at most this much the pass changes the largest |a| */
     double least;  /* a smaller pivot may be null, and is refused where it was larger */
+    double shrink; /* of a trial: the least ratio of a new pivot to the old one */
     double top;    /* the largest new pivot */
     double entry;  /* the largest |a| that is known of the columns of the pass */
     double growth; /* the largest growth of rows in them */
@@ -48,6 +50,9 @@ typedef struct sli_update {
     double *other, *b;       /* of one vector: the rows of the next step, and b of the columns */
     double *trial, *scratch; /* of a trial: the compact vector, and what the kernel needs */
 } sli_update;
+
+/* Where the magnitudes of a pivot exceed it by less, no more than two digits are lost. */
+#define SLI_UPDATE_LOST 256.0
 
 /* The kernel for passes of `count` vectors. One vector takes another kernel (path.h) where all
  * pivots have one sign. */
@@ -126,6 +131,14 @@ static double sli_update_cancelled(const sl_factor *F, double d, double e) {
     return fabs(e) > 4.0 * fabs(d) ? fabs(e) * sqrt(largest / fabs(d)) : 0.0;
 }
 
+/* Notes what row k has lost, relative to the magnitudes that are left of it: its scale may be far
+ * below that of the largest entry. Few pivots lose so much that this is worth a look at the row. */
+static void sli_update_note_lost(sli_update *u, sl_int k, double magnitude) {
+    if (u->sign != 0.0 && magnitude > fmax(SLI_UPDATE_LOST, u->lost) * fabs(u->F->D[k])) {
+        u->lost = fmax(u->lost, magnitude / sli_update_magnitude(u->F, k));
+    }
+}
+
 /* Takes pivot k from d to e. magnitude: the sum of the magnitudes that e was computed from. */
 static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magnitude) {
     sl_factor *F = u->F;
@@ -144,6 +157,7 @@ static sl_status sli_update_take(sli_update *u, sl_int k, double e, double magni
         u->top = fabs(e) > u->top ? fabs(e) : u->top;
         sli_update_count(&F->stats.factor, d, e);
         F->D[k] = e;
+        sli_update_note_lost(u, k, magnitude);
     }
     return SL_OK;
 }
@@ -172,6 +186,12 @@ static sl_status sli_update_take_all(sli_update *u, sl_int k, sl_int count, cons
         (!shrink || u->is_tried ||
          (least > u->least && !sli_is_null(least, most + known, F->rule.null_tolerance)))) {
         if (!u->is_trial) {
+            for (j = 0; j < count && most > SLI_UPDATE_LOST * least; j++) {
+                const double d = fabs(D[j]);
+                D[j] = e[j];
+                sli_update_note_lost(u, k + j,
+                                     magnitudes != NULL ? magnitudes[j] : d + fabs(d - fabs(e[j])));
+            }
             memcpy(D, e, (size_t)count * sizeof *D);
             info->pivot_min = least < info->pivot_min ? least : info->pivot_min;
             info->pivot_max = top > info->pivot_max ? top : info->pivot_max;

@@ -1,0 +1,117 @@
+/* test_change_scaled.c: changes of definite matrices whose rows have very different scales */
+#include "tests/lib/test.h"
+
+enum { N = 60 };
+
+/* A band of 3, D B D with D = 1, s, 1. */
+typedef struct band_t {
+    sl_int p[N + 1], i[3 * N];
+    double a[3 * N];
+    sl_csc view;
+    sl_symbolic *S;
+    sl_factor *F;
+} band_t;
+
+static double scale_of(sl_int j, double s) {
+    return j % 3 == 1 ? s : 1.0;
+}
+
+static void band_make(band_t *y, double s) {
+    sl_int k = 0;
+    for (sl_int j = 0; j < N; j++) {
+        y->p[j] = k;
+        for (sl_int t = 0; t < 3 && j + t < N; t++) {
+            y->i[k] = j + t;
+            y->a[k++] = (t == 0 ? 5.0 : -1.0) * scale_of(j, s) * scale_of(j + t, s);
+        }
+    }
+    y->p[N] = k;
+    y->view.n_rows = y->view.n_cols = N;
+    y->view.p = y->p;
+    y->view.i = y->i;
+    y->view.x = y->a;
+    SL_CHECK(sl_symbolic_create(&y->S, &y->view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&y->F, y->S, &y->view, NULL, NULL));
+}
+
+static void band_free(band_t *y) {
+    sl_factor_free(y->F);
+    sl_symbolic_free(y->S);
+}
+
+/* The largest error of x for b = A (D^-1 1), each relative to its own size: diagonal scaling does
+ * not change it. */
+static double error_of(const band_t *y, double s) {
+    double x[N], b[N], found[N], worst = 0.0;
+    for (sl_int j = 0; j < N; j++) {
+        x[j] = 1.0 / scale_of(j, s);
+    }
+    SL_CHECK(sl_csc_multiply(&y->view, SL_AS_SYMMETRIC, b, N, x, N, 1));
+    SL_CHECK(sl_factor_solve(y->F, found, N, b, N, 1, NULL));
+    for (sl_int j = 0; j < N; j++) {
+        worst = fmax(worst, fabs(found[j] / x[j] - 1.0));
+    }
+    return worst;
+}
+
+/* Entries beside the diagonal change by 10 %: rows keep their digits at any scale. */
+static void entries_change_by_the_scales_of_their_rows(void **state) {
+    (void)state;
+    for (int e = 0; e <= 14; e++) {
+        for (int both = 0; both < 2; both++) {
+            const double s = pow(10.0, -e);
+            band_t y;
+            sl_int rows[N], columns[N], count = 0;
+            double deltas[N];
+            sl_stats stats;
+            band_make(&y, s);
+            for (sl_int j = 0; j + 1 < N && count < 12; j += 2) {
+                const sl_int low = both ? j + 1 : j, high = both ? j : j + 1;
+                double *a = &y.a[y.p[j] + 1];
+                rows[count] = low;
+                columns[count] = high;
+                deltas[count++] = 0.1 * *a;
+                *a += deltas[count - 1];
+            }
+            SL_CHECK(sl_factor_update_entries(y.F, rows, columns, deltas, count, NULL, &stats));
+            assert_true(error_of(&y, s) <= 64.0 * DBL_EPSILON);
+            assert_true(stats.change.drift <= 64.0 * DBL_EPSILON);
+            band_free(&y);
+        }
+    }
+}
+
+/* Where vectors of the caller add a weight to a small row and subtract it, drift says what is lost,
+ * in one call and in two, with one vector and with several. */
+static void lost_digits_of_small_rows_are_drift(void **state) {
+    (void)state;
+    for (int way = 0; way < 4; way++) {
+        const double s = 1e-6, one[4] = {1.0, 1.0, 1.0, 1.0};
+        const double weights[4] = {1.0, way % 2 ? 1e-9 : 0.0, -1.0, way % 2 ? 1e-9 : 0.0};
+        const sl_int p[5] = {0, 1, 2, 3, 4}, rows[4] = {1, 30, 1, 30};
+        band_t y;
+        sl_stats stats;
+        band_make(&y, s);
+        if (way < 2) {
+            const sl_csc V = {N, 4, p, rows, one};
+            SL_CHECK(sl_factor_update(y.F, &V, weights, NULL, &stats));
+        } else {
+            const sl_csc V = {N, way % 2 ? 2 : 1, p, rows, one};
+            SL_CHECK(sl_factor_update(y.F, &V, weights, NULL, NULL));
+            SL_CHECK(sl_factor_update(y.F, &V, weights + 2, NULL, &stats));
+        }
+        const double lost = error_of(&y, s);
+        print_message("way %d: error %.1e, drift %.1e\n", way, lost, stats.change.drift);
+        assert_true(stats.change.drift >= 0.1 * lost);
+        assert_true(stats.change.drift <= 1e-2);
+        band_free(&y);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(entries_change_by_the_scales_of_their_rows),
+        cmocka_unit_test(lost_digits_of_small_rows_are_drift),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
