@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 048638e4de8bad0c
+ * FNV-1a of the lines after this comment, without the license: 252016a7d31e44ba
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -17,44 +17,44 @@
  *   1281 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
  *   1380 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1420 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1526 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1601 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1686 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1782 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1894 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1933 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2061 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2093 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2282 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2394 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2521 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2561 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2649 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2758 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2795 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2872 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2912 impl/ base: the compiler, status, memory, sorting, threads
- *   3896 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4753 impl/ matrix: sparse matrices of the caller and of the library
- *   5296 impl/ ordering: fill-reducing orderings of a graph
- *   9673 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11619 impl/ factor: the numbers of L and D
- *  14762 impl/ solve: full and local solves
- *  16342 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18077 impl/ pivots: the order of the pivots by the values of a matrix
- *  18491 impl/ float: L and fronts in single precision
- *  18942 impl/ inverse: entries of the inverse, regions
- *  21878 impl/ change: a factor that follows changes of its matrix
- *  28513 impl/ io: files that are replaced only when they are complete
- *  28725 impl/ files: Matrix Market files, 64-bit indices
- *  29321 impl/ save: factors in files
- *  31243 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31908 impl/ batch: diagonals of many inverses
- *  32048 impl/ complex: complex Hermitian systems over real factors
- *  32558 impl/ complex: entries of the inverse
- *  32610 impl/ packs: the tables through which the core calls packs
- *  32642 impl/ last: undefine every internal macro
- *  32953 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1528 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1603 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1688 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1784 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1896 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1935 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2063 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2095 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2284 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2396 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2523 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2563 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2651 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2760 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2797 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2874 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2914 impl/ base: the compiler, status, memory, sorting, threads
+ *   3898 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4755 impl/ matrix: sparse matrices of the caller and of the library
+ *   5298 impl/ ordering: fill-reducing orderings of a graph
+ *   9675 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11621 impl/ factor: the numbers of L and D
+ *  14764 impl/ solve: full and local solves
+ *  16344 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18086 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18500 impl/ float: L and fronts in single precision
+ *  18951 impl/ inverse: entries of the inverse, regions
+ *  21887 impl/ change: a factor that follows changes of its matrix
+ *  28522 impl/ io: files that are replaced only when they are complete
+ *  28734 impl/ files: Matrix Market files, 64-bit indices
+ *  29330 impl/ save: factors in files
+ *  31256 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31921 impl/ batch: diagonals of many inverses
+ *  32061 impl/ complex: complex Hermitian systems over real factors
+ *  32571 impl/ complex: entries of the inverse
+ *  32623 impl/ packs: the tables through which the core calls packs
+ *  32655 impl/ last: undefine every internal macro
+ *  32966 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1454,15 +1454,17 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
 
 /** sl_plan_solve with a regularized factor, L D L' = P (A + E) P', refined to solve A x = b.
  *
- *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. If nothing was
- *  regularized, this is sl_plan_solve.
+ *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. Their backward
+ *  error is taken to be epsilon times the growth (stats.factor), at least, where L is in float with
+ *  the epsilon of float. If nothing was regularized, x is that of sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
  *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
- *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|; error.row with
- *                SL_ERR_ARGUMENT: a regularized row outside the reaches; may be NULL.
+ *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
+ *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
+ *                outside the reaches; may be NULL.
  *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
  *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
  *           a region and a factor with regularized rows.
@@ -17047,6 +17049,11 @@ static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *r
   }
 }
 
+static double sli_local_rounding(const sl_factor *F) {
+  const double epsilon = sli_is_float(F) ? (double)FLT_EPSILON : DBL_EPSILON;
+  return fmax(epsilon * fmax(F->stats.factor.growth, 1.0), F->history.drift);
+}
+
 static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
                   sl_work *W, sl_stats *stats) {
   sli_block b = {NULL, 0, 0};
@@ -17070,6 +17077,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
       worst = sli_max_error(f->error[c], worst);
     }
   }
+  worst = sli_max_error(sli_local_rounding(f->F), worst);
   return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
@@ -17090,7 +17098,8 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
   }
   if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
     status = sli_solve(F, &P->query, &rhs, W);
-    return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
+    return status != SL_OK ? status
+                 : sli_refine_done(F, stats, steps, 0, sli_local_rounding(F));
   }
   if (!sli_query_fits(&P->query, F)) {
     return SL_ERR_STATE;
@@ -29987,8 +29996,12 @@ static int sli_check_structure(const sl_symbolic *S) {
   }
   for (s = 0; s < S->n_supers; s++) {
     const sl_int width = S->super_first[s + 1] - S->super_first[s];
-    const sl_off below = S->rows_begin[s + 1] - S->rows_begin[s];
-    if (S->rows_begin[s + 1] < S->rows_begin[s] || below > S->n - S->super_first[s + 1] ||
+    sl_off below;
+    if (S->rows_begin[s + 1] < S->rows_begin[s]) {
+      return 0;
+    }
+    below = S->rows_begin[s + 1] - S->rows_begin[s];
+    if (below > S->n - S->super_first[s + 1] ||
       S->panel_begin[s + 1] != S->panel_begin[s] + sli_panel_size(width, (sl_int)below)) {
       return 0;
     }
@@ -30796,7 +30809,7 @@ static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const 
     const sl_int s = supers[k], up = S->super_parent[s];
     const sl_int at = up == -1 ? k : sli_lower_bound(supers, count, up);
     if (at == count || (up != -1 && supers[at] != up) ||
-      begin[k + 1] - begin[k] != S->panel_begin[s + 1] - S->panel_begin[s]) {
+      begin[k + 1] != begin[k] + S->panel_begin[s + 1] - S->panel_begin[s]) {
       return 0;
     }
   }

@@ -40,15 +40,17 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refine(const sl_factor *F, const sl_cs
 
 /** sl_plan_solve with a regularized factor, L D L' = P (A + E) P', refined to solve A x = b.
  *
- *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. If nothing was
- *  regularized, this is sl_plan_solve.
+ *  Removes the error of regularization; rounding errors remain as in sl_plan_solve. Their backward
+ *  error is taken to be epsilon times the growth (stats.factor), at least, where L is in float with
+ *  the epsilon of float. If nothing was regularized, x is that of sl_plan_solve.
  *
  *  P      [in]   a plan whose two reaches contain every regularized row of the components of b.
  *                This holds if these rows are in both sets.
  *  F, X, ldx, B, ldb, nrhs, W  as in sl_plan_solve.
  *  steps  [in]   maximum number of corrections per column, 0 or more; 0 only measures.
- *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|; error.row with
- *                SL_ERR_ARGUMENT: a regularized row outside the reaches; may be NULL.
+ *  stats  [out]  refine, with backward_error = max |E (x - previous x)| / max |b|, or that of
+ *                rounding where it is larger; error.row with SL_ERR_ARGUMENT: a regularized row
+ *                outside the reaches; may be NULL.
  *  Returns  as sl_plan_solve; SL_ERR_INACCURATE: this backward error is above options.error_limit
  *           of the factor after one or more steps, and X is written; SL_ERR_UNSUPPORTED: a plan in
  *           a region and a factor with regularized rows.

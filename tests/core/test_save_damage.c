@@ -133,6 +133,30 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
     }
 }
 
+/* Replaces every 64-bit word, or every third one, by numbers at the ends of their range. The
+ * undefined-behavior sanitizer notices a difference of numbers that are not checked. */
+static void every_extreme_word_is_noticed_or_harmless(void **state) {
+    (void)state;
+    sl_options from = options_none();
+    from.relaxation = SL_RELAXATION_NONE; /* so that supernodes have rows below */
+    for (int way = 0; way < SAVED_WAYS; way++) {
+        saved_case_t c = saved_case_make(way, GEN_GRID2, 16, 0, &from);
+        saved_t m = saved_make(c.y.S, c.y.F), k = saved_of_size(m.size);
+        for (size_t at = 8; at < m.size; at += way == SAVED_DEFINITE ? 8 : 24) {
+            for (int v = 0; v < SAVED_EXTREMES; v++) {
+                memcpy(k.bytes, m.bytes, m.size);
+                saved_put64(k.bytes + at, saved_extreme(v, 16));
+                saved_repair(k.bytes, m.size);
+                (void)attempt(v % 2 ? pair_load_memory : pair_map_memory, &k, m.size,
+                              SL_LOAD_CHECKED, &c.y.M.view);
+            }
+        }
+        saved_free(&m);
+        saved_free(&k);
+        saved_case_free(&c);
+    }
+}
+
 /* Replaces every 64-bit word of the sections with numbers by reals that no object has. */
 static void every_replaced_real_is_noticed_or_harmless(void **state) {
     (void)state;
@@ -322,6 +346,7 @@ int main(void) {
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(every_flipped_bit_is_noticed_or_harmless),
         cmocka_unit_test(every_replaced_word_is_noticed_or_harmless),
+        cmocka_unit_test(every_extreme_word_is_noticed_or_harmless),
         cmocka_unit_test(every_replaced_real_is_noticed_or_harmless),
         cmocka_unit_test(a_missing_section_is_refused),
         cmocka_unit_test(sections_must_follow_each_other),

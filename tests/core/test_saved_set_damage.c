@@ -211,6 +211,25 @@ static void every_replaced_word_is_noticed_or_harmless(void **state) {
     }
 }
 
+/* Replaces every 64-bit word of what version 2 adds by numbers at the ends of their range. */
+static void every_extreme_word_is_noticed_or_harmless(void **state) {
+    (void)state;
+    for (int way = 0; way < 4; way++) {
+        target_t t;
+        target_make(&t, way % 2, way / 2);
+        for (size_t at = 8; at < t.m.size; at += 8) {
+            for (int v = 0; v < SAVED_EXTREMES && is_added(&t, at); v++) {
+                memcpy(t.k.bytes, t.m.bytes, t.m.size);
+                saved_put64(t.k.bytes + at, saved_extreme(v, 25));
+                saved_repair(t.k.bytes, t.m.size);
+                (void)attempt(v % 2 ? sl_load_memory : sl_map_memory, &t.k, t.m.size,
+                              SL_LOAD_CHECKED, t.A);
+            }
+        }
+        target_free(&t);
+    }
+}
+
 /* ---- single lies ---- */
 
 /* Where the lower half of an integer of a section begins. */
@@ -295,6 +314,7 @@ int main(void) {
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(every_flipped_bit_is_noticed_or_harmless),
         cmocka_unit_test(every_replaced_word_is_noticed_or_harmless),
+        cmocka_unit_test(every_extreme_word_is_noticed_or_harmless),
         cmocka_unit_test(lists_must_be_those_of_regions),
         cmocka_unit_test(lists_must_be_those_of_a_selected_inverse),
     };

@@ -197,12 +197,28 @@ static void try_bytes(const unsigned char *bytes, size_t size) {
     free(block);
 }
 
+/* Sets a word of 8 or 4 bytes to the ends of its range, or beside the number of rows. */
+static void set_extreme(unsigned char *file, size_t size, size_t word, uint32_t value) {
+    const uint64_t numbers = saved_u64(saved_entry(file, 0) + SAVED_OFFSET) % (size / 8);
+    const uint64_t n = saved_u64(file + numbers);
+    const uint64_t extreme = saved_extreme((int)(value / 2 % SAVED_EXTREMES), n);
+    if (value % 2 == 0 && word + 1 < size / 4) {
+        saved_put64(file + 4 * (word - word % 2), extreme);
+    } else {
+        saved_put32(file + 4 * word, (uint32_t)(extreme >> (extreme > UINT32_MAX ? 32 : 0)));
+    }
+}
+
 /* Damages a file: edits of 4 bytes, of which two name a word of it. */
 static void edit(unsigned char *file, size_t size, const uint8_t *data, size_t count) {
     for (; count >= 4; data += 4, count -= 4) {
         const size_t word = (data[0] + 256u * data[1]) % (size / 4);
         unsigned char *at = file + 4 * word;
         const uint32_t value = data[3], old = saved_u32(at);
+        if (data[2] >= 0xc0) {
+            set_extreme(file, size, word, value);
+            continue;
+        }
         switch (data[2] % 8) {
         case 0:
             saved_put32(at, value);

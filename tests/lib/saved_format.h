@@ -35,6 +35,25 @@ static inline void saved_put32(unsigned char *at, uint32_t value) {
     memcpy(at, &value, sizeof value);
 }
 
+/* Number k of those whose differences, sums and products overflow, and of those beside n. */
+enum { SAVED_EXTREMES = 16 };
+static inline uint64_t saved_extreme(int k, uint64_t n) {
+    static const uint64_t values[SAVED_EXTREMES - 3] = {0,
+                                                        UINT64_MAX,
+                                                        (uint64_t)INT64_MAX,
+                                                        (uint64_t)INT64_MAX + 1,
+                                                        UINT64_C(1) << 31,
+                                                        (UINT64_C(1) << 31) - 1,
+                                                        UINT64_C(1) << 32,
+                                                        UINT64_C(1) << 58,
+                                                        UINT64_C(1) << 62,
+                                                        UINT64_C(0) - (UINT64_C(1) << 31),
+                                                        UINT64_C(0x7fffffff7fffffff),
+                                                        UINT64_C(0x8000000080000000),
+                                                        1};
+    return k < SAVED_EXTREMES - 3 ? values[k] : n + (uint64_t)(k - SAVED_EXTREMES + 2);
+}
+
 static inline void saved_put64(unsigned char *at, uint64_t value) {
     memcpy(at, &value, sizeof value);
 }

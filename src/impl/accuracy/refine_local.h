@@ -147,6 +147,13 @@ static void sli_local_refinement_block(sli_local_refinement *f, const sli_rhs *r
     }
 }
 
+/* The backward error that refinement leaves, as it removes that of E alone: what growth lets
+ * rounding do, and what changes have added. */
+static double sli_local_rounding(const sl_factor *F) {
+    const double epsilon = sli_is_float(F) ? (double)FLT_EPSILON : DBL_EPSILON;
+    return fmax(epsilon * fmax(F->stats.factor.growth, 1.0), F->history.drift);
+}
+
 /* Refines the right-hand sides in blocks, in a workspace. */
 static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, sl_int steps,
                                   sl_work *W, sl_stats *stats) {
@@ -171,6 +178,7 @@ static sl_status sli_local_refine(sli_local_refinement *f, const sli_rhs *rhs, s
             worst = sli_max_error(f->error[c], worst);
         }
     }
+    worst = sli_max_error(sli_local_rounding(f->F), worst);
     return sli_refine_done(f->F, stats, steps, f->steps, worst);
 }
 
@@ -191,7 +199,8 @@ SL_API sl_status sl_plan_solve_refined(const sl_plan *P, const sl_factor *F, dou
     }
     if (F->stats.factor.regularized == 0 || nrhs == 0 || P->query.nx == 0) {
         status = sli_solve(F, &P->query, &rhs, W);
-        return status == SL_OK ? sli_refine_done(F, stats, steps, 0, 0.0) : status;
+        return status != SL_OK ? status
+                               : sli_refine_done(F, stats, steps, 0, sli_local_rounding(F));
     }
     if (!sli_query_fits(&P->query, F)) {
         return SL_ERR_STATE;

@@ -137,8 +137,12 @@ static int sli_check_structure(const sl_symbolic *S) {
     }
     for (s = 0; s < S->n_supers; s++) {
         const sl_int width = S->super_first[s + 1] - S->super_first[s];
-        const sl_off below = S->rows_begin[s + 1] - S->rows_begin[s];
-        if (S->rows_begin[s + 1] < S->rows_begin[s] || below > S->n - S->super_first[s + 1] ||
+        sl_off below;
+        if (S->rows_begin[s + 1] < S->rows_begin[s]) { /* a difference could overflow */
+            return 0;
+        }
+        below = S->rows_begin[s + 1] - S->rows_begin[s];
+        if (below > S->n - S->super_first[s + 1] ||
             S->panel_begin[s + 1] != S->panel_begin[s] + sli_panel_size(width, (sl_int)below)) {
             return 0;
         }

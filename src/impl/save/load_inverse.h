@@ -47,7 +47,7 @@ static int sli_check_selected(const sl_symbolic *S, const sl_int *supers, const 
         const sl_int s = supers[k], up = S->super_parent[s];
         const sl_int at = up == -1 ? k : sli_lower_bound(supers, count, up);
         if (at == count || (up != -1 && supers[at] != up) ||
-            begin[k + 1] - begin[k] != S->panel_begin[s + 1] - S->panel_begin[s]) {
+            begin[k + 1] != begin[k] + S->panel_begin[s + 1] - S->panel_begin[s]) {
             return 0;
         }
     }
