@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 252016a7d31e44ba
+ * FNV-1a of the lines after this comment, without the license: 6955bcb9a2d1e8f4
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -37,24 +37,24 @@
  *   3898 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
  *   4755 impl/ matrix: sparse matrices of the caller and of the library
  *   5298 impl/ ordering: fill-reducing orderings of a graph
- *   9675 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11621 impl/ factor: the numbers of L and D
- *  14764 impl/ solve: full and local solves
- *  16344 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18086 impl/ pivots: the order of the pivots by the values of a matrix
- *  18500 impl/ float: L and fronts in single precision
- *  18951 impl/ inverse: entries of the inverse, regions
- *  21887 impl/ change: a factor that follows changes of its matrix
- *  28522 impl/ io: files that are replaced only when they are complete
- *  28734 impl/ files: Matrix Market files, 64-bit indices
- *  29330 impl/ save: factors in files
- *  31256 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31921 impl/ batch: diagonals of many inverses
- *  32061 impl/ complex: complex Hermitian systems over real factors
- *  32571 impl/ complex: entries of the inverse
- *  32623 impl/ packs: the tables through which the core calls packs
- *  32655 impl/ last: undefine every internal macro
- *  32966 impl/ templates: the header includes them from itself, once for each instruction set
+ *   9660 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11606 impl/ factor: the numbers of L and D
+ *  14749 impl/ solve: full and local solves
+ *  16329 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18071 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18485 impl/ float: L and fronts in single precision
+ *  18936 impl/ inverse: entries of the inverse, regions
+ *  21872 impl/ change: a factor that follows changes of its matrix
+ *  28507 impl/ io: files that are replaced only when they are complete
+ *  28719 impl/ files: Matrix Market files, 64-bit indices
+ *  29315 impl/ save: factors in files
+ *  31241 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31906 impl/ batch: diagonals of many inverses
+ *  32046 impl/ complex: complex Hermitian systems over real factors
+ *  32556 impl/ complex: entries of the inverse
+ *  32608 impl/ packs: the tables through which the core calls packs
+ *  32640 impl/ last: undefine every internal macro
+ *  32951 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -5389,14 +5389,12 @@ static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
   sl_int *to = NULL;
   sl_off *at = NULL;
   sl_status status = SL_OK;
-  int pass;
   if (sli_graph_is_sorted(G)) {
     return SL_OK;
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     to = SLI_TAKE(&b, sl_int, edges);
     at = SLI_TAKE(&b, sl_off, G->n);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status == SL_OK) {
     sli_graph_sort(G, to, at);
@@ -5982,15 +5980,13 @@ static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_cl
                     sli_level *c, sli_shares *ranges, const sl_allocator *a) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   c->n = n;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
     c->weight = SLI_TAKE(&b, sl_int, n);
     c->coarse = SLI_TAKE(&b, sl_int, n);
     c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
     c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   c->block = b.base;
   if (status == SL_OK) {
@@ -8492,16 +8488,14 @@ static sl_status sli_order_nd(const sli_order_job *job) {
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int k;
-  int pass;
   memset(&w, 0, sizeof w);
   w.G = job->G;
   w.weight = job->weight;
   w.d.leaf_size = SLI_DISSECT_LEAF;
   w.d.team = job->team;
   w.d.a = w.d.pool.a = job->a;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, job->a, status) {
     sli_nd_layout(&w, &b);
-    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status == SL_OK) {
     const int has_avx2 =
@@ -8640,20 +8634,18 @@ static sl_status sli_order_compressed(const sli_order_job *job) {
   sli_compressed c;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   memset(&c, 0, sizeof c);
   c.G.n = sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
   if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
     return sli_order_nd(job);
   }
   c.first = job->scratch;
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, job->a, status) {
     c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
     c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
     c.weight = SLI_TAKE(&b, sl_int, c.G.n);
     c.number = SLI_TAKE(&b, sl_int, G->n);
     c.perm = SLI_TAKE(&b, sl_int, c.G.n);
-    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -8725,19 +8717,18 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
   sl_off edges = 0;
   sl_status status = SL_OK;
   sl_int k;
-  int pass, result;
+  int result;
   for (k = 0; k < count; k++) {
     edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
   }
   if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
     return SL_ERR_TOO_LARGE;                               /* untested: the same */
   }
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, job->a, status) {
     xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
     adjncy = SLI_TAKE(&b, idx_t, edges);
     perm = SLI_TAKE(&b, idx_t, count);
     iperm = SLI_TAKE(&b, idx_t, count);
-    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -9272,11 +9263,9 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_co
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
   sl_int pivot;
-  int pass;
   memset(&q, 0, sizeof q);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, a, status) {
     sli_quotient_layout(&q, &b, G->n, G->begin[G->n]);
-    status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -9537,11 +9526,9 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
   sli_peel p;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   memset(&p, 0, sizeof p);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, job->a, status) {
     sli_peel_layout(&p, &b, job->G->n, job->G->begin[job->G->n]);
-    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;
@@ -9583,13 +9570,11 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
   sli_graph G;
   sli_block b = {NULL, 0, 0};
   sl_status status = SL_OK;
-  int pass;
   memset(&G, 0, sizeof G);
-  for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+  SLI_LAYOUT(&b, job->a, status) {
     G.n = job->A->n_cols / job->block;
     G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
     G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(job->A));
-    status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
   }
   if (status != SL_OK) {
     return status;

@@ -138,20 +138,18 @@ static sl_status sli_order_compressed(const sli_order_job *job) {
     sli_compressed c;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     memset(&c, 0, sizeof c);
     c.G.n = sli_compress_find(G, job->scratch, (uint32_t *)(void *)job->perm, job->team);
     if (100 * (int64_t)c.G.n > SLI_COMPRESS_SHARE * (int64_t)G->n) {
         return sli_order_nd(job);
     }
     c.first = job->scratch;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, job->a, status) {
         c.G.begin = SLI_TAKE(&b, sl_off, (size_t)c.G.n + 1);
         c.G.to = SLI_TAKE(&b, sl_int, G->begin[G->n]);
         c.weight = SLI_TAKE(&b, sl_int, c.G.n);
         c.number = SLI_TAKE(&b, sl_int, G->n);
         c.perm = SLI_TAKE(&b, sl_int, c.G.n);
-        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

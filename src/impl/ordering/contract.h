@@ -184,15 +184,13 @@ static sl_status sli_coarsen_clusters(const sli_level *g, sl_int n, const sli_cl
                                       sli_level *c, sli_shares *ranges, const sl_allocator *a) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     c->n = n;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         c->begin = SLI_TAKE(&b, sl_off, (size_t)n + 1);
         c->weight = SLI_TAKE(&b, sl_int, n);
         c->coarse = SLI_TAKE(&b, sl_int, n);
         c->to = SLI_TAKE(&b, sl_int, g->begin[g->n]);
         c->edge = SLI_TAKE(&b, sl_int, g->begin[g->n]);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     c->block = b.base;
     if (status == SL_OK) {

@@ -112,14 +112,12 @@ static sl_status sli_graph_make_canonical(sli_graph *G, const sl_allocator *a) {
     sl_int *to = NULL;
     sl_off *at = NULL;
     sl_status status = SL_OK;
-    int pass;
     if (sli_graph_is_sorted(G)) {
         return SL_OK;
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         to = SLI_TAKE(&b, sl_int, edges);
         at = SLI_TAKE(&b, sl_off, G->n);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status == SL_OK) {
         sli_graph_sort(G, to, at);

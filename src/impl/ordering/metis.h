@@ -62,19 +62,18 @@ static sl_status sli_metis_order(const sli_order_job *job, sl_int *vertices, sl_
     sl_off edges = 0;
     sl_status status = SL_OK;
     sl_int k;
-    int pass, result;
+    int result;
     for (k = 0; k < count; k++) {
         edges += G->begin[vertices[k] + 1] - G->begin[vertices[k]];
     }
     if (sizeof(idx_t) < sizeof(sl_off) && edges > INT32_MAX) { /* untested: 2^31 edges */
         return SL_ERR_TOO_LARGE;                               /* untested: the same */
     }
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, job->a, status) {
         xadj = SLI_TAKE(&b, idx_t, (size_t)count + 1);
         adjncy = SLI_TAKE(&b, idx_t, edges);
         perm = SLI_TAKE(&b, idx_t, count);
         iperm = SLI_TAKE(&b, idx_t, count);
-        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

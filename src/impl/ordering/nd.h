@@ -261,16 +261,14 @@ static sl_status sli_order_nd(const sli_order_job *job) {
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int k;
-    int pass;
     memset(&w, 0, sizeof w);
     w.G = job->G;
     w.weight = job->weight;
     w.d.leaf_size = SLI_DISSECT_LEAF;
     w.d.team = job->team;
     w.d.a = w.d.pool.a = job->a;
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, job->a, status) {
         sli_nd_layout(&w, &b);
-        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status == SL_OK) {
         /* CPUID takes longer than what it saves in a small graph */

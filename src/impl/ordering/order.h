@@ -80,11 +80,9 @@ static sl_status sli_order_peeled(const sli_order_job *job) {
     sli_peel p;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     memset(&p, 0, sizeof p);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, job->a, status) {
         sli_peel_layout(&p, &b, job->G->n, job->G->begin[job->G->n]);
-        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
@@ -128,13 +126,11 @@ static sl_status sli_order_by_graph(sli_order_job *job) {
     sli_graph G;
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
-    int pass;
     memset(&G, 0, sizeof G);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, job->a, status) {
         G.n = job->A->n_cols / job->block;
         G.begin = SLI_TAKE(&b, sl_off, (size_t)G.n + 1);
         G.to = SLI_TAKE(&b, sl_int, 2 * (size_t)sli_nnz(job->A));
-        status = pass == 0 ? sli_block_alloc(&b, job->a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;

@@ -81,11 +81,9 @@ static sl_status sli_order_mindeg(const sli_graph *G, sl_int *perm, sli_order_co
     sli_block b = {NULL, 0, 0};
     sl_status status = SL_OK;
     sl_int pivot;
-    int pass;
     memset(&q, 0, sizeof q);
-    for (pass = 0; pass < 2 && status == SL_OK; pass++) {
+    SLI_LAYOUT(&b, a, status) {
         sli_quotient_layout(&q, &b, G->n, G->begin[G->n]);
-        status = pass == 0 ? sli_block_alloc(&b, a) : SL_OK;
     }
     if (status != SL_OK) {
         return status;
