@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 6955bcb9a2d1e8f4
+ * FNV-1a of the lines after this comment, without the license: 0296799215d43be9
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,22 +39,22 @@
  *   5298 impl/ ordering: fill-reducing orderings of a graph
  *   9660 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11606 impl/ factor: the numbers of L and D
- *  14749 impl/ solve: full and local solves
- *  16329 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18071 impl/ pivots: the order of the pivots by the values of a matrix
- *  18485 impl/ float: L and fronts in single precision
- *  18936 impl/ inverse: entries of the inverse, regions
- *  21872 impl/ change: a factor that follows changes of its matrix
- *  28507 impl/ io: files that are replaced only when they are complete
- *  28719 impl/ files: Matrix Market files, 64-bit indices
- *  29315 impl/ save: factors in files
- *  31241 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31906 impl/ batch: diagonals of many inverses
- *  32046 impl/ complex: complex Hermitian systems over real factors
- *  32556 impl/ complex: entries of the inverse
- *  32608 impl/ packs: the tables through which the core calls packs
- *  32640 impl/ last: undefine every internal macro
- *  32951 impl/ templates: the header includes them from itself, once for each instruction set
+ *  14751 impl/ solve: full and local solves
+ *  16331 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18073 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18487 impl/ float: L and fronts in single precision
+ *  18940 impl/ inverse: entries of the inverse, regions
+ *  21876 impl/ change: a factor that follows changes of its matrix
+ *  28511 impl/ io: files that are replaced only when they are complete
+ *  28723 impl/ files: Matrix Market files, 64-bit indices
+ *  29319 impl/ save: factors in files
+ *  31245 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31910 impl/ batch: diagonals of many inverses
+ *  32050 impl/ complex: complex Hermitian systems over real factors
+ *  32582 impl/ complex: entries of the inverse
+ *  32634 impl/ packs: the tables through which the core calls packs
+ *  32666 impl/ last: undefine every internal macro
+ *  32977 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -11845,6 +11845,7 @@ struct sli_storage_type {
   int (*suits)(const sl_factor *F);
   int (*accepts)(const sli_source *from);
   int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
+  const sli_storage_type *in_double;
 };
 
 static const sli_storage_type *sli_storage_type_of(sl_storage storage);
@@ -12972,6 +12973,7 @@ static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
                           sli_double_front_load,
                           sli_double_front_assemble,
                           sli_double_front_finish,
+                          NULL,
                           NULL,
                           NULL,
                           NULL,
@@ -14311,7 +14313,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
   }
   if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
-    draft.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
+    draft.type = draft.type->in_double;
   }
   sli_factor_rules(&draft, opt);
   draft.method = sli_method(S, draft.type, opt);
@@ -18908,7 +18910,8 @@ static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
                            sli_float_entry_clear,
                            NULL,
                            NULL,
-                           NULL};
+                           NULL,
+                           &sli_storage_double};
 
 static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
                           sizeof(float),
@@ -18928,7 +18931,8 @@ static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
                           sli_float_entry_clear,
                           sli_single_suits,
                           NULL,
-                          NULL};
+                          NULL,
+                          &sli_storage_double};
 
 #endif
 /* inverse: entries of the inverse, regions */
@@ -22267,7 +22271,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
     return status;
   }
   if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
-    entries >= (uint64_t)sli_nnz(A)) {
+    F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
     return sl_factor_refactor(F, A, stats);
   }
   status = sli_factor_prepare(F);
@@ -28274,8 +28278,8 @@ static sl_status sli_reuse_begin(sli_reuse *r, const sl_int *new_of, sl_stats *s
 static int sli_reuse_is_suited(const sl_factor *F, const sl_factor *G) {
   const double a = F->rule.null_tolerance, b = G->rule.null_tolerance;
   return F->history.marks != NULL && G->history.marks != NULL && F->E == NULL && G->E == NULL &&
-       F->null.mode == G->null.mode && F->null.vectors == 1 && G->null.vectors == 1 &&
-       F->rule.regularization == G->rule.regularization &&
+       G->type->accepts == NULL && F->null.mode == G->null.mode && F->null.vectors == 1 &&
+       G->null.vectors == 1 && F->rule.regularization == G->rule.regularization &&
        (a == b || (sli_tolerance_is_default(F) && sli_tolerance_is_default(G)));
 }
 
@@ -32245,6 +32249,27 @@ static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
   return &sli_complex_kernels_of(kernels->isa)->front;
 }
 
+static const sli_storage_type sli_storage_complex_in_double = {SL_STORAGE_DOUBLE,
+                                 sizeof(double),
+                                 sizeof(double),
+                                 0,
+                                 DBL_EPSILON,
+                                 sli_double_sweeps,
+                                 sli_double_front,
+                                 sli_double_factor,
+                                 sli_double_shared,
+                                 sli_double_front_clear,
+                                 sli_double_front_load,
+                                 sli_double_front_assemble,
+                                 sli_double_front_finish,
+                                 NULL,
+                                 NULL,
+                                 NULL,
+                                 sli_complex_suits,
+                                 sli_complex_accepts,
+                                 sli_complex_keeps,
+                                 NULL};
+
 static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
                            sizeof(double),
                            sizeof(double),
@@ -32263,7 +32288,8 @@ static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
                            NULL,
                            sli_complex_suits,
                            sli_complex_accepts,
-                           sli_complex_keeps};
+                           sli_complex_keeps,
+                           &sli_storage_complex_in_double};
 
 /* src/impl/complex/hermitian.h: complex Hermitian matrices as real symmetric ones of twice the size */
 

@@ -68,6 +68,37 @@ static void what_is_not_complex_is_refused(void **state) {
     }
 }
 
+/* Plain C keeps L in double where SIMD is compiled in. It takes the same matrices. */
+static void plain_c_refuses_what_is_not_complex(void **state) {
+    (void)state;
+    pair_t y = pair_make(GEN_GRID2, 49, 0, SL_ISA_SCALAR);
+    const sl_options opt = options_complex(SL_ISA_SCALAR);
+    const size_t entries = (size_t)y.A.p[y.n];
+    double *x = test_reals(entries);
+    sl_int *same = test_ints((size_t)y.n);
+    const sl_int changed = 4;
+    sl_factor *G = NULL;
+    sl_csc A = y.A;
+    A.x = x;
+    memcpy(x, y.A.x, entries * sizeof *x);
+    x[A.p[changed]] += 0.5;
+    for (sl_int k = 0; k < y.n; k++) {
+        same[k] = k;
+    }
+    assert_int_equal(create(y.S, &A, opt), SL_ERR_UNSUPPORTED);
+    SL_CHECK(sl_factor_edit(&G, y.F[1], y.S, &y.A, same, &opt, NULL));
+    sl_factor_free(G);
+    assert_int_equal(sl_factor_edit(&G, y.F[1], y.S, &A, same, &opt, NULL), SL_ERR_UNSUPPORTED);
+    assert_null(G);
+    SL_CHECK(sl_factor_refactor_changed(y.F[1], &y.A, &changed, 1, NULL));
+    assert_int_equal(sl_factor_refactor_changed(y.F[1], &A, &changed, 1, NULL), SL_ERR_UNSUPPORTED);
+    assert_int_equal(sl_factor_refactor(y.F[1], &A, NULL), SL_ERR_UNSUPPORTED);
+    SL_CHECK(sl_factor_refactor(y.F[1], &y.A, NULL));
+    free(same);
+    free(x);
+    pair_free(&y);
+}
+
 /* Neither is a matrix in which an entry of a block is not stored, unless it is the 0 beside a
  * diagonal entry, nor is a random one of real numbers. */
 static void blocks_must_be_complete(void **state) {
@@ -168,6 +199,7 @@ static void failing_allocations(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_not_complex_is_refused),
+        cmocka_unit_test(plain_c_refuses_what_is_not_complex),
         cmocka_unit_test(blocks_must_be_complete),
         cmocka_unit_test(a_column_without_a_diagonal_is_refused),
         cmocka_unit_test(an_infinite_entry_is_refused),

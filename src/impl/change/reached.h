@@ -128,7 +128,7 @@ static sl_status sli_reached_refactor(sl_factor *F, const sl_csc *A, const sli_c
         return status;
     }
     if (F->method != SL_METHOD_SUPERNODAL || F->type->storage != SL_STORAGE_DOUBLE ||
-        entries >= (uint64_t)sli_nnz(A)) {
+        F->type->accepts != NULL || entries >= (uint64_t)sli_nnz(A)) {
         return sl_factor_refactor(F, A, stats);
     }
     status = sli_factor_prepare(F);

@@ -106,6 +106,28 @@ static const sli_front_kernels *sli_complex_front(const sli_kernels *kernels) {
     return &sli_complex_kernels_of(kernels->isa)->front;
 }
 
+/* The same in double: of the same matrices. */
+static const sli_storage_type sli_storage_complex_in_double = {SL_STORAGE_DOUBLE,
+                                                               sizeof(double),
+                                                               sizeof(double),
+                                                               0,
+                                                               DBL_EPSILON,
+                                                               sli_double_sweeps,
+                                                               sli_double_front,
+                                                               sli_double_factor,
+                                                               sli_double_shared,
+                                                               sli_double_front_clear,
+                                                               sli_double_front_load,
+                                                               sli_double_front_assemble,
+                                                               sli_double_front_finish,
+                                                               NULL,
+                                                               NULL,
+                                                               NULL,
+                                                               sli_complex_suits,
+                                                               sli_complex_accepts,
+                                                               sli_complex_keeps,
+                                                               NULL};
+
 static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
                                                      sizeof(double),
                                                      sizeof(double),
@@ -124,6 +146,7 @@ static const sli_storage_type sli_storage_complex = {SL_STORAGE_COMPLEX,
                                                      NULL,
                                                      sli_complex_suits,
                                                      sli_complex_accepts,
-                                                     sli_complex_keeps};
+                                                     sli_complex_keeps,
+                                                     &sli_storage_complex_in_double};
 
 #endif

@@ -330,7 +330,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
         return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
     }
     if (draft.kernels != NULL && draft.type->sweeps(draft.kernels) == NULL) {
-        draft.type = sli_storage_type_of(SL_STORAGE_DOUBLE);
+        draft.type = draft.type->in_double;
     }
     sli_factor_rules(&draft, opt);
     draft.method = sli_method(S, draft.type, opt);

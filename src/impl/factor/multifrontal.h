@@ -145,6 +145,7 @@ static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
                                                     NULL,
                                                     NULL,
                                                     NULL,
+                                                    NULL,
                                                     NULL};
 
 #endif

@@ -42,6 +42,8 @@ struct sli_storage_type {
     int (*accepts)(const sli_source *from);
     /* Has the matrix on these rows, with the analysis S, that form, too? NULL: always. */
     int (*keeps)(const sl_int *rows, sl_int count, const sl_symbolic *S);
+    /* the storage in double that takes its place where no kernels serve it; of that itself NULL */
+    const sli_storage_type *in_double;
 };
 
 /* The table of a storage; NULL: it is not compiled in, and what it needs. Both are defined where

@@ -167,7 +167,8 @@ static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
                                                    sli_float_entry_clear,
                                                    NULL,
                                                    NULL,
-                                                   NULL};
+                                                   NULL,
+                                                   &sli_storage_double};
 
 static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
                                                     sizeof(float),
@@ -187,6 +188,7 @@ static const sli_storage_type sli_storage_single = {SL_STORAGE_FLOAT_FRONTS,
                                                     sli_float_entry_clear,
                                                     sli_single_suits,
                                                     NULL,
-                                                    NULL};
+                                                    NULL,
+                                                    &sli_storage_double};
 
 #endif
