@@ -328,6 +328,20 @@ gives 2 'f.slf: a saved factor has no mesh for --weld' heat "$dir/f.slf" --weld
 gives 2 'f.slf: a saved factor has no mesh for --weld' info "$dir/f.slf" --weld
 gives 2 'weld -1: not a finite number of 0 or more' info --weld=-1 "$dir/soup.obj"
 
+# On a sphere the logarithm of a vertex far away has the length of the way to it.
+
+for raw in '' --raw; do
+    "$program" vectors sphere:4 --from 0 --log $raw --csv "$dir/log.csv" >"$dir/out" 2>"$dir/err"
+    "$program" geodesic sphere:4 --from 0 --csv "$dir/distance.csv" >"$dir/more" 2>&1
+    awk -F, -v raw="$raw" 'FNR == 1 { next } FNR == NR { distance[$1] = $2; next }
+        { off = sqrt($2 * $2 + $3 * $3 + $4 * $4) - distance[$1]; off = off < 0 ? -off : off
+          worst = off > worst ? off : worst }
+        END { exit !(raw == "" ? worst < 0.05 : worst > 0.3) }' "$dir/distance.csv" "$dir/log.csv"
+    record $? "lengths of logarithms $raw beside distances"
+done
+! grep -q '^paths' "$dir/out"
+record $? "with --raw logarithms are not compared with paths"
+
 # A mesh from a pipe, of any format.
 
 "$program" adf sphere:2 --out "$dir/pipe.obj" --csv "$dir/pipe.csv" >/dev/null

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "heat_system.h"
 #include "tools/draw/arrows.h"
+#include "path_check.h"
 #include "tools/geometry/vector_heat.h"
 
 static const options_usage usage = {
@@ -24,7 +25,10 @@ static const options_manual manual = {
     "sources alone.\n"
     "Exact: linear solves, and both results on planes and on what can be unrolled to a plane. "
     "Elsewhere errors are those of the mesh and of the diffusion, which averages over several "
-    "edges; where two paths are almost equally short, so are the results. In a short time heat "
+    "edges; where two paths are almost equally short, so are the results. Far from the source "
+    "logarithms become too long or too short: their lengths are compared with paths over the faces "
+    "as the command geodesic does, and moved where they differ by more than a quarter of an edge "
+    "and half the difference of two paths (not with --raw); directions stay. In a short time heat "
     "can become negative behind obtuse faces: results there are nan. Unless a time is given, "
     "it grows until no heat is. "
     "Faces must be oriented alike: vectors turn arbitrarily where they are not, and at edges of "
@@ -41,7 +45,7 @@ static const options_manual manual = {
 
 typedef struct vectors_command {
     const char *from, *vectors;
-    bool log;
+    bool log, raw;
     double radius;
     heat_time time;
     app_output output;
@@ -111,6 +115,36 @@ static void prepare(vectors_command *cmd, double t) {
            1e3 * (app_now() - began));
 }
 
+/* Gives the logarithms lengths that paths over the faces allow (path_check.h); directions stay. */
+static void bound_lengths(vectors_command *cmd) {
+    const size_t n = (size_t)cmd->f.n;
+    double *length = app_alloc(n, sizeof *length), *z = cmd->f.z;
+    heat_field field;
+    path_check check;
+    memset(&field, 0, sizeof field);
+    field.n = cmd->f.n;
+    field.vertices = cmd->f.vertices;
+    field.distance = length;
+    for (size_t k = 0; k < n; k++) {
+        length[k] = hypot(z[2 * k], z[2 * k + 1]);
+    }
+    app_stage("comparing with paths");
+    path_check_open(&check, &cmd->m);
+    check.slack = 0.25; /* the plane, where logarithms are exact, stays as it is */
+    path_check_distances(&check, &field, cmd->sources, 1, 0,
+                         cmd->radius > 0 ? 2 * cmd->radius : INFINITY);
+    app_progress_end();
+    path_check_report(&check);
+    path_check_close(&check);
+    for (size_t k = 0; k < n; k++) {
+        const double before = hypot(z[2 * k], z[2 * k + 1]);
+        const double scale = before > 0 ? length[k] / before : 1;
+        z[2 * k] *= scale;
+        z[2 * k + 1] *= scale;
+    }
+    free(length);
+}
+
 static void solve(vectors_command *cmd) {
     vector_field *f = &cmd->f;
     const double began = app_now();
@@ -154,6 +188,9 @@ static void compute(vectors_command *cmd) {
         app_warn("%d edges have three or more faces or faces of unlike orientation; vectors turn "
                  "arbitrarily there",
                  (int)cmd->s.frames.irregular);
+    }
+    if (cmd->log && !cmd->raw) {
+        bound_lengths(cmd);
     }
     cmd->space = app_alloc(3 * (size_t)f->n, sizeof *cmd->space);
     for (sl_int k = 0; k < f->n; k++) {
@@ -256,6 +293,8 @@ int command_vectors(int argc, char **argv) {
          "the vector X,Y,Z in space of all sources, or one for each, separated by colons; what of "
          "it is tangent to the surface counts (1,0,0, or 0,1,0 where that is almost normal)"},
         {OPTION_FLAG, "log", &cmd.log, NULL, "compute the logarithmic map of the one source"},
+        {OPTION_FLAG, "raw", &cmd.raw, NULL,
+         "with --log: keep the lengths as they are, without the comparison with paths"},
         {OPTION_ABOVE_0, "radius", &cmd.radius, "R",
          "only for vertices within the distance R, along edges, of a source"},
         {OPTION_ABOVE_0, "time", &cmd.time.time, "T", "diffuse for the time T"},

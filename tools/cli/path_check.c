@@ -7,15 +7,15 @@
 #include "tools/geometry/laplacian.h"
 #include "tools/geometry/straight_lines.h"
 
-/* What a distance may fall short of a path in any case, in mean edges; and what the path to the
- * site of a cell may exceed that to the nearest one. */
-static const double slack = 0.03, cell_slack = 0.25;
+/* What the path to the site of a cell may exceed that to the nearest one, in mean edges. */
+static const double cell_slack = 0.25;
 
 void path_check_open(path_check *check, const mesh *m) {
     const double began = app_now();
     memset(check, 0, sizeof *check);
     check->m = m;
     check->edge = app_mean_edge_length(m);
+    check->slack = 0.03;
     if (!incidence_create(&check->inc, m) || !surface_search_create(&check->one, &check->inc, 1) ||
         !surface_search_create(&check->three, &check->inc, 3)) {
         app_die("out of memory for paths over the faces");
@@ -58,7 +58,7 @@ void path_check_distances(path_check *check, heat_field *f, const sl_int *source
     keep_near(f, u3, radius, true);
     const surface_correction c =
         surface_paths_correct(f->distance, f->vertices, f->n, surface_search_lengths(check->one),
-                              u3, slack * check->edge);
+                              u3, check->slack * check->edge);
     const sl_int straight = straight_lines_raise(f->distance, check->m, f->vertices, f->n, sources,
                                                  count, &check->sum.largest);
     if (straight < 0) {

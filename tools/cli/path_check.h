@@ -13,6 +13,7 @@ typedef struct path_check {
     incidence inc;
     surface_search *one, *three; /* through 1 and 3 points of each edge */
     double edge;                 /* the mean length */
+    double slack; /* what a distance may fall short of a path in any case, in mean edges */
     double seconds;
     surface_correction sum; /* over all distances; mean_width is a sum until the report */
     double width_sum;

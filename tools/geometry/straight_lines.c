@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A distance that falls short of the line by this part of it stays. */
+static const double rounding = 1e-12;
+
 /* A source; they are sorted by their first coordinate. */
 typedef struct place {
     double x[3];
@@ -55,7 +58,7 @@ sl_int straight_lines_raise(double *distance, const mesh *m, const sl_int *verti
     qsort(p, (size_t)count, sizeof *p, by_first);
     for (sl_int k = 0; k < n; k++) {
         const double line = nearest(p, count, m->xyz + 3 * (size_t)vertices[k]);
-        if (distance[k] < line) {
+        if (distance[k] < line * (1 - rounding)) {
             *largest = fmax(*largest, line - distance[k]);
             distance[k] = line;
             raised++;

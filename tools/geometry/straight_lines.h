@@ -7,7 +7,7 @@
 #include "tools/mesh/mesh.h"
 
 /** Raises distances to the length of the straight line from the nearest source. A distance on a
- *  surface cannot be shorter.
+ *  surface cannot be shorter. Those that are so by rounding stay.
  *
  *  distance  [in,out]  n values of the vertices `vertices` of m; NaNs stay.
  *  sources   [in]      count >= 1 vertices of m.
