@@ -328,6 +328,18 @@ gives 2 'f.slf: a saved factor has no mesh for --weld' heat "$dir/f.slf" --weld
 gives 2 'f.slf: a saved factor has no mesh for --weld' info "$dir/f.slf" --weld
 gives 2 'weld -1: not a finite number of 0 or more' info --weld=-1 "$dir/soup.obj"
 
+# Sources in faces, on edges, at corners, and near points in space.
+
+for from in face:40,0.2,0.3 face:40,0,0.5 face:40,1,0 point:0.31,0.42,0.1 point:0.5,0.5,9; do
+    gives 0 '^source     in face' geodesic grid:20x20 --from "$from" --exact plane
+    awk '/^exact/ { sub(",", "", $9); good = $9 + 0 < 0.03 } END { exit !good }' "$dir/out"
+    record $? "distances from $from"
+done
+gives 1 'there is no such face; the last one is 721' geodesic grid:20x20 --from face:800,0,0
+gives 2 'U and V are 0 or more' geodesic grid:20x20 --from face:8,0.7,0.7
+gives 2 'expected face:F,U,V or point:X,Y,Z' geodesic grid:20x20 --from face:8,0.7
+gives 2 'expected face:F,U,V or point:X,Y,Z' geodesic grid:20x20 --from point:1,2,3x
+
 # On a sphere the logarithm of a vertex far away has the length of the way to it.
 
 for raw in '' --raw; do

@@ -13,6 +13,7 @@
 #include "solve_accuracy.h"
 #include "tools/geometry/heat_distance.h"
 #include "tools/geometry/laplacian.h"
+#include "tools/mesh/insert_point.h"
 
 static const options_usage usage = {
     "geodesic", "MESH", 1, 1,
@@ -86,8 +87,49 @@ void geodesic_write_field(const geodesic_command *cmd, const mesh_field *field, 
     free(marks);
 }
 
+/* A point of the surface: face:F,U,V, or point:X,Y,Z for the nearest one to a point in space. Makes
+ * it a vertex. */
+static sl_int place_source(const char *from, mesh *m) {
+    double x[3];
+    char rest = 0;
+    face_point p;
+    sl_int vertex = 0;
+    const bool in_face = strncmp(from, "face:", 5) == 0;
+    if (sscanf(strchr(from, ':') + 1, "%lf,%lf,%lf%c", &x[0], &x[1], &x[2], &rest) != 3 ||
+        !isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2])) {
+        app_die_usage("--from %s: expected face:F,U,V or point:X,Y,Z", from);
+    }
+    if (in_face) {
+        if (!(x[0] >= 0 && x[0] < m->n_faces && x[0] == floor(x[0]))) {
+            app_die("--from %s: there is no such face; the last one is %d", from,
+                    (int)m->n_faces - 1);
+        }
+        if (!(x[1] >= 0 && x[2] >= 0 && x[1] + x[2] <= 1)) {
+            app_die_usage("--from %s: U and V are 0 or more, and together at most 1", from);
+        }
+        p.face = (sl_int)x[0];
+        p.u = x[1];
+        p.v = x[2];
+    } else {
+        p = nearest_face_point(m, x);
+    }
+    if (!insert_face_point(m, &p, &vertex)) {
+        app_die("--from %s: out of memory for a vertex there", from);
+    }
+    const double *at = m->xyz + 3 * (size_t)vertex;
+    printf("source     in face %d at (%.3g, %.3g), vertex %d at %.6g %.6g %.6g\n", (int)p.face, p.u,
+           p.v, (int)vertex, at[0], at[1], at[2]);
+    return vertex;
+}
+
 /* The vertices of --from without repetitions. */
-static sl_int *sources_of(const char *from, const mesh *m, sl_int *count) {
+static sl_int *sources_of(const char *from, mesh *m, sl_int *count) {
+    if (from != NULL && (strncmp(from, "face:", 5) == 0 || strncmp(from, "point:", 6) == 0)) {
+        sl_int *one = app_alloc(1, sizeof *one);
+        one[0] = place_source(from, m);
+        *count = 1;
+        return one;
+    }
     if (from != NULL) {
         sl_int *list = app_vertices("from", from, m->n_vertices, 1, count);
         *count = app_distinct(list, *count, m->n_vertices);
@@ -170,7 +212,9 @@ int command_geodesic(int argc, char **argv) {
     cmd.solves = HEAT_SOLVES;
     const option options[] = {
         {OPTION_TEXT, "from", &cmd.from, "VERTICES",
-         "sources or sites: 3,17,100-200 or random:5 (the first vertex of a face with an area)"},
+         "sources or sites: 3,17,100-200 or random:5 (the first vertex of a face with an area); or "
+         "one point of the surface, which becomes a vertex: face:F,U,V, (1-U-V, U, V) of the "
+         "corners of face F, or point:X,Y,Z, the nearest one to a point in space"},
         {OPTION_ABOVE_0, "radius", &cmd.radius, "R", "largest distance wanted (unlimited)"},
         {OPTION_REAL, "margin", &cmd.margin, "F",
          "radius of the ball along edges, in units of --radius (1.5)"},
