@@ -139,6 +139,41 @@ static void local_refinement_matches_full_and_dense(void **state) {
     }
 }
 
+/* What is reported is not less than epsilon times the growth, and above options.error_limit it is
+ * refused, with x written; L in float has the epsilon of float. */
+static void growth_is_an_error_that_remains(void **state) {
+    (void)state;
+    kkt_t y = kkt_make(N, 0, SL_ORDERING_ND);
+    sl_plan *P = NULL;
+    double b[N], x[N], same[N];
+    gen_reals(b, N, 5);
+    SL_CHECK(sl_plan_create(&P, y.S, NULL, 0, NULL, 0, NULL, NULL));
+    for (int way = 0; way < 4; way++) {
+        const int is_float = way % 2;
+        sl_options opt = options_none();
+        sl_factor *F = NULL;
+        sl_stats stats;
+        opt.regularization = 1e-7;
+        opt.signs = y.signs;
+        opt.storage = is_float ? SL_STORAGE_FLOAT : SL_STORAGE_DOUBLE;
+        opt.error_limit = -1.0;
+        SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, &stats));
+        const double least =
+            (is_float ? (double)FLT_EPSILON : DBL_EPSILON) * fmax(stats.factor.growth, 1.0);
+        sl_factor_free(F);
+        opt.error_limit = way < 2 ? 0.5 * least : 1.0 + least;
+        SL_CHECK(sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+        SL_CHECK(sl_plan_solve_refined(P, F, same, N, b, N, 1, 0, NULL, NULL)); /* measures */
+        SL_EXPECT(way < 2 ? SL_ERR_INACCURATE : SL_OK,
+                  sl_plan_solve_refined(P, F, x, N, b, N, 1, 20, NULL, &stats));
+        assert_true(stats.refine.backward_error >= least);
+        assert_true(x[0] != same[0]);
+        sl_factor_free(F);
+    }
+    sl_plan_free(P);
+    kkt_free(&y);
+}
+
 /* A plan that lacks a regularized row is refused and the row reported. A factor without regularized
  * rows is solved plainly. Sets may be empty. */
 static void a_plan_must_hold_the_regularized_rows(void **state) {
@@ -286,6 +321,7 @@ static void failed_allocations_change_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(local_refinement_matches_full_and_dense),
+        cmocka_unit_test(growth_is_an_error_that_remains),
         cmocka_unit_test(a_plan_must_hold_the_regularized_rows),
         cmocka_unit_test(rows_of_other_components_may_be_missing),
         cmocka_unit_test(failed_allocations_change_nothing),

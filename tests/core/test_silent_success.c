@@ -1,0 +1,133 @@
+/* test_silent_success.c: calls that succeed without a word elsewhere have a signal here */
+#include "tests/lib/factored.h"
+
+enum { N = 49 };
+
+/* Every call that would use numbers. */
+static void every_use_is_refused(const sl_factor *F, const sl_symbolic *S) {
+    const sl_int set[2] = {0, N - 1};
+    double b[2 * N] = {1.0}, x[2 * N], log_abs, sign;
+    sl_plan *P = NULL;
+    sl_matrix *L = NULL;
+    sl_selected *Z = NULL;
+    sl_region *R = NULL;
+    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, N, b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_solve_part(F, SL_PART_P | SL_PART_L, x, N, b, N, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_logdet(F, &log_abs, &sign));
+    SL_EXPECT(SL_ERR_STATE, sl_factor_lower(&L, F, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_inverse_diagonal(F, x, set, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_selected_create(&Z, F, NULL, 0, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_region_create(&R, F, set, 2, NULL, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, set, 2, set, 2, NULL, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve(P, F, x, 2, b, 2, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_plan_solve_refined(P, F, x, 2, b, 2, 1, 1, NULL, NULL));
+    sl_plan_free(P);
+}
+
+/* A factor that could not be made again answers nothing until it can. */
+static void a_failed_factor_answers_nothing(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
+    sl_csc A = y.M.view;
+    const sl_int nnz = A.p[N];
+    double *x = test_reals((size_t)nnz);
+    A.x = x;
+    for (int way = 0; way < 3; way++) {
+        memcpy(x, y.M.view.x, (size_t)nnz * sizeof *x);
+        for (sl_int p = 0; p < nnz; p++) {
+            x[p] = way == 0 ? 0.0 : x[p];
+        }
+        x[0] = way == 1 ? NAN : way == 2 ? INFINITY : x[0];
+        assert_int_not_equal(sl_factor_refactor(y.F, &A, NULL), SL_OK);
+        every_use_is_refused(y.F, y.S);
+        SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+    }
+    free(x);
+    factored_free(&y);
+}
+
+/* A matrix that is not definite: its factor counts the negative pivot, its root is refused, and so
+ * is a change that would make a definite matrix one. */
+static void an_indefinite_matrix_is_not_taken_for_definite(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
+    sl_csc A = y.M.view;
+    double *values = test_reals((size_t)A.p[N]), b[N] = {1.0}, x[N];
+    const sl_int row = N / 2;
+    const double less = -100.0;
+    sl_stats stats;
+    memcpy(values, A.x, (size_t)A.p[N] * sizeof *values);
+    A.x = values;
+    for (sl_int p = A.p[row]; p < A.p[row + 1]; p++) {
+        values[p] += A.i[p] == row ? less : 0.0;
+    }
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_update_entries(y.F, &row, &row, &less, 1, NULL, NULL));
+    SL_CHECK(sl_factor_refactor(y.F, &A, &stats));
+    assert_int_equal(stats.factor.negative, 1);
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_solve_part(y.F, SL_PART_P | SL_PART_L | SL_PART_SQRT_D, x, N,
+                                                 b, N, 1, NULL));
+    free(values);
+    factored_free(&y);
+}
+
+/* A triangle is not taken for the other one, nor for the whole, nor is a pattern of as many entries
+ * for the analyzed one. */
+static void another_pattern_is_not_taken_for_the_analyzed_one(void **state) {
+    (void)state;
+    for (int style = 0; style < 3; style++) {
+        factored_t y = factored_make(GEN_GRID2, N, 1, style, NULL);
+        const sl_int nnz = y.M.view.p[N];
+        sl_factor *F = NULL;
+        for (int other = 0; other < 3; other++) {
+            factored_t z = factored_make(GEN_GRID2, N, 1, other, NULL);
+            if (other != style) {
+                SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &z.M.view, NULL));
+                SL_EXPECT(SL_ERR_PATTERN, sl_factor_create(&F, y.S, &z.M.view, NULL, NULL));
+                assert_null(F);
+            }
+            factored_free(&z);
+        }
+        sl_int *rows = test_ints((size_t)nnz);
+        sl_csc moved = y.M.view;
+        memcpy(rows, moved.i, (size_t)nnz * sizeof *rows);
+        moved.i = rows;
+        rows[nnz / 2] = (rows[nnz / 2] + 1) % N; /* another entry */
+        SL_EXPECT(SL_ERR_PATTERN, sl_factor_refactor(y.F, &moved, NULL));
+        SL_EXPECT(SL_ERR_PATTERN, sl_factor_create(&F, y.S, &moved, NULL, NULL));
+        free(rows);
+        factored_free(&y);
+    }
+}
+
+/* A given order that names a row twice, or one out of range. */
+static void an_order_has_to_be_a_permutation(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, N, 1, 0, NULL);
+    static const sl_int wrong[4] = {0, -1, N, INT32_MAX};
+    for (int k = 0; k < 4; k++) {
+        sl_int perm[N];
+        sl_options opt = options_none();
+        sl_symbolic *S = NULL;
+        for (sl_int i = 0; i < N; i++) {
+            perm[i] = N - 1 - i;
+        }
+        opt.ordering = SL_ORDERING_GIVEN;
+        opt.perm = perm;
+        SL_CHECK(sl_symbolic_create(&S, &y.M.view, &opt, NULL));
+        sl_symbolic_free(S);
+        perm[5] = wrong[k];
+        SL_EXPECT(SL_ERR_ARGUMENT, sl_symbolic_create(&S, &y.M.view, &opt, NULL));
+        assert_null(S);
+    }
+    factored_free(&y);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_failed_factor_answers_nothing),
+        cmocka_unit_test(an_indefinite_matrix_is_not_taken_for_definite),
+        cmocka_unit_test(another_pattern_is_not_taken_for_the_analyzed_one),
+        cmocka_unit_test(an_order_has_to_be_a_permutation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
