@@ -464,6 +464,24 @@ void chosen_pivots() {
     CHECK(ours.status() == SL_ERR_PIVOT);
 }
 
+/* A matrix that stores only the triangle that is not read would pass for its diagonal. */
+void the_wrong_triangle_is_refused() {
+    const Sparse lower = grid_matrix<Sparse, Eigen::Lower>(4), upper = lower.transpose();
+    Sparse diagonal(16, 16), whole = lower.selfadjointView<Eigen::Lower>();
+    diagonal.setIdentity();
+    sl::SimplicialLDLT<Sparse> ours(upper);
+    CHECK(ours.info() != Eigen::Success && ours.status() == SL_ERR_PATTERN);
+    CHECK(all_nan(Vector(ours.solve(some_vector(16)))));
+    CHECK(ours.compute(lower).info() == Eigen::Success);
+    CHECK(ours.compute(upper).status() == SL_ERR_PATTERN);
+    CHECK(all_nan(Vector(ours.solve(some_vector(16)))));
+    CHECK(ours.compute(whole).info() == Eigen::Success);
+    CHECK(ours.compute(diagonal).info() == Eigen::Success);
+    sl::SimplicialLDLT<Sparse, Eigen::Upper> other(lower);
+    CHECK(other.status() == SL_ERR_PATTERN);
+    CHECK(other.compute(upper).info() == Eigen::Success);
+}
+
 void values_that_are_not_finite() {
     Sparse A = grid_matrix<Sparse, Eigen::Lower>(5);
     A.coeffRef(7, 7) = NAN;
@@ -512,6 +530,7 @@ int main() {
                        {"empty_and_zero", empty_and_zero},
                        {"singular_and_indefinite", singular_and_indefinite},
                        {"chosen_pivots", chosen_pivots},
+                       {"the_wrong_triangle_is_refused", the_wrong_triangle_is_refused},
                        {"values_that_are_not_finite", values_that_are_not_finite},
                        {"wrong_sets", wrong_sets}});
 }

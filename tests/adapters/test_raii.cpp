@@ -261,6 +261,8 @@ void wrong_matrices() {
     CHECK(F.create(S, A, &skip).ok() && F.info().null == 1);
     grid.x[0] = NAN;
     CHECK(fails(SL_ERR_NOT_FINITE, 0, [&] { return F.refactor(A); }));
+    std::vector<double> x, b(16, 1.0);
+    CHECK(fails(SL_ERR_STATE, -1, [&] { return F.solve(x, b); })); /* it has no numbers */
 }
 
 void no_rows() {

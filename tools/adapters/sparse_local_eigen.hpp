@@ -672,6 +672,13 @@ private:
                                      : sl_symbolic_create(&made, &A, &options, &stats_);
         if (status != SL_OK) return status;
         symbolic_.reset(made, sl_symbolic_free);
+        /* only the other triangle is stored: what is read would be a diagonal matrix */
+        const sl_symbolic_info &read = stats_.symbolic;
+        if (options.triangle != SL_TRIANGLE_NONE && read.components == read.n &&
+            sl_off(A.p[A.n_cols]) > read.nnz_a) {
+            forget();
+            return SL_ERR_PATTERN;
+        }
         analyzed_with_ = options_;
         analyses_++;
         return SL_OK;
