@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 0296799215d43be9
+ * FNV-1a of the lines after this comment, without the license: 7e75c5b2dd213a91
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -11681,7 +11681,7 @@ typedef struct sli_history {
 
 typedef struct sli_certificate {
   double eta;
-  sl_int certainty;
+  sl_certainty certainty;
   uint64_t generation;
 } sli_certificate;
 
@@ -18052,7 +18052,7 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
   }
   if (stats != NULL) {
     memset(&stats->certificate, 0, sizeof stats->certificate);
-    stats->certificate.certainty = (sl_certainty)F->certificate.certainty;
+    stats->certificate.certainty = F->certificate.certainty;
     stats->certificate.eta = F->certificate.eta;
   }
   if (nrhs == 0 || P->query.nx == 0) {
@@ -29851,7 +29851,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
   F->identity.b = g->identity[1];
   F->generation = F->certificate.generation = 1;
   F->certificate.eta = g->eta;
-  F->certificate.certainty = (sl_int)g->certainty;
+  F->certificate.certainty = (sl_certainty)g->certainty;
   F->is_valid = 1;
   F->status = SL_OK;
   info->positive = (sl_int)g->positive;

@@ -292,7 +292,7 @@ SL_API sl_status sl_plan_solve_bounded(const sl_plan *P, const sl_factor *F, dou
     }
     if (stats != NULL) {
         memset(&stats->certificate, 0, sizeof stats->certificate);
-        stats->certificate.certainty = (sl_certainty)F->certificate.certainty;
+        stats->certificate.certainty = F->certificate.certainty;
         stats->certificate.eta = F->certificate.eta;
     }
     if (nrhs == 0 || P->query.nx == 0) {

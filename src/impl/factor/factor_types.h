@@ -104,7 +104,7 @@ typedef struct sli_history {
 /* What is proved of the errors of all solves: the largest relative one in the energy norm. */
 typedef struct sli_certificate {
     double eta;
-    sl_int certainty;    /* sl_certainty */
+    sl_certainty certainty;
     uint64_t generation; /* of the numbers that it is about; of others it says nothing */
 } sli_certificate;
 

@@ -146,7 +146,7 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     F->identity.b = g->identity[1];
     F->generation = F->certificate.generation = 1;
     F->certificate.eta = g->eta;
-    F->certificate.certainty = (sl_int)g->certainty;
+    F->certificate.certainty = (sl_certainty)g->certainty;
     F->is_valid = 1;
     F->status = SL_OK;
     info->positive = (sl_int)g->positive;
