@@ -47,6 +47,7 @@ PACK_ALSO_complex = inverse
 PACK_TESTS_float = storage
 PACK_ALSO_float = accuracy inverse
 PACK_TESTS_accuracy = bounds condition refine refine_local reserve
+PACK_ALSO_accuracy = float
 PACK_TESTS_files = csc64 csc_write locale matrix_market matrix_market_file
 PACK_TESTS_pivots = pivots_rare
 PACK_ALSO_pivots = float
