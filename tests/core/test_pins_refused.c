@@ -8,18 +8,18 @@ static void failing_allocations_refuse_solves(void **state) {
     counter_t counter = counter_make();
     sl_options opt = options_counted(&counter);
     pinned_t p = pinned_make(GEN_GRID2, 100, 1, NULL);
-    sl_int rows[40];
+    sl_int rows[48];
     double x[100] = {0.0};
     sl_status status = SL_ERR_MEMORY;
     sl_stats stats;
     sl_pins_free(p.P);
     SL_CHECK(sl_pins_create(&p.P, p.y.F, &opt));
     SL_CHECK(sl_pins_refactor(p.P, &p.y.M.view, NULL));
-    for (sl_int k = 0; k < 40; k++) {
+    for (sl_int k = 0; k < 48; k++) {
         rows[k] = 2 * k;
     }
-    pin_rows(&p, rows, 40, &stats);
-    assert_int_equal(stats.pins.eliminated, 40);
+    pin_rows(&p, rows, 48, &stats);
+    assert_int_equal(stats.pins.eliminated, 48);
     SL_CHECK(sl_factor_refactor(p.y.F, &p.y.M.view, NULL));
     for (int m = 0; status != SL_OK; m++) {
         SL_EXPECT(SL_ERR_STATE, sl_pins_solve(p.P, NULL, x, 100, x, 100, x, 100, 1, NULL));
@@ -28,7 +28,7 @@ static void failing_allocations_refuse_solves(void **state) {
         assert_true(status == SL_ERR_MEMORY || (status == SL_OK && m > 5));
         counter.fail_at = -1;
     }
-    assert_int_equal(stats.pins.eliminated, 40);
+    assert_int_equal(stats.pins.eliminated, 48);
     assert_pinned(&p, 2);
     pinned_free(&p);
     COUNTER_CLEAN(&counter);
