@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 7e75c5b2dd213a91
+ * FNV-1a of the lines after this comment, without the license: 90501c67f6cf8774
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -18,43 +18,43 @@
  *   1380 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1420 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1528 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1603 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1688 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1784 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1896 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1935 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2063 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2095 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2284 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2396 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2523 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2563 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2651 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2760 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2797 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2874 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2914 impl/ base: the compiler, status, memory, sorting, threads
- *   3898 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4755 impl/ matrix: sparse matrices of the caller and of the library
- *   5298 impl/ ordering: fill-reducing orderings of a graph
- *   9660 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11606 impl/ factor: the numbers of L and D
- *  14751 impl/ solve: full and local solves
- *  16331 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18073 impl/ pivots: the order of the pivots by the values of a matrix
- *  18487 impl/ float: L and fronts in single precision
- *  18940 impl/ inverse: entries of the inverse, regions
- *  21876 impl/ change: a factor that follows changes of its matrix
- *  28511 impl/ io: files that are replaced only when they are complete
- *  28723 impl/ files: Matrix Market files, 64-bit indices
- *  29319 impl/ save: factors in files
- *  31245 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31910 impl/ batch: diagonals of many inverses
- *  32050 impl/ complex: complex Hermitian systems over real factors
- *  32582 impl/ complex: entries of the inverse
- *  32634 impl/ packs: the tables through which the core calls packs
- *  32666 impl/ last: undefine every internal macro
- *  32977 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1604 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1689 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1785 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1897 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1936 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2064 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2096 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2285 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2397 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2524 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2564 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2652 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2761 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2798 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2875 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2915 impl/ base: the compiler, status, memory, sorting, threads
+ *   3899 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4756 impl/ matrix: sparse matrices of the caller and of the library
+ *   5299 impl/ ordering: fill-reducing orderings of a graph
+ *   9661 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11607 impl/ factor: the numbers of L and D
+ *  14752 impl/ solve: full and local solves
+ *  16332 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18088 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18502 impl/ float: L and fronts in single precision
+ *  18955 impl/ inverse: entries of the inverse, regions
+ *  21891 impl/ change: a factor that follows changes of its matrix
+ *  28526 impl/ io: files that are replaced only when they are complete
+ *  28738 impl/ files: Matrix Market files, 64-bit indices
+ *  29334 impl/ save: factors in files
+ *  31260 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31925 impl/ batch: diagonals of many inverses
+ *  32065 impl/ complex: complex Hermitian systems over real factors
+ *  32597 impl/ complex: entries of the inverse
+ *  32649 impl/ packs: the tables through which the core calls packs
+ *  32681 impl/ last: undefine every internal macro
+ *  32993 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1568,7 +1568,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *  P       [in]      the plan; not in a region.
  *  F       [in]      a factor that sl_factor_certify has certified.
  *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve; the solutions have the same bits.
- *  bounds  [out]     as X, with its leading dimension; must not overlap X or B.
+ *  bounds  [out]     as X, with its leading dimension; must not overlap X or B. Infinite where
+ *                    squares of b leave the range of double, below about 1e-100.
  *  scales  [in,out]  4 nx + 2 numbers that depend on P and the numbers of F alone, all 0 before the
  *                    first call: computed in a call that finds those of another plan or of other
  *                    numbers. NULL: computed in every call.
@@ -17801,6 +17802,8 @@ enum { SLI_SCALE_COMMON, SLI_SCALE_REST, SLI_SCALE_ALL, SLI_SCALE_JOINT, SLI_SCA
 
 #define SLI_NORM_FLOOR 1e-50
 
+#define SLI_SQUARE_LEAST 1e-200
+
 typedef struct sli_bounds {
   const sl_factor *F;
   const sli_query *q;
@@ -17858,7 +17861,7 @@ static void sli_scales_add(const sli_bounds *p, const sli_step *step, sl_int fro
     const sl_int column = step->column + k;
     double *to = squares[column >= from ? SLI_SCALE_COMMON : SLI_SCALE_REST];
     for (r = 0; r < count && !sli_is_skipped(p->F, column); r++) {
-      to[r] += y[r] * y[r] / p->F->D[column];
+      to[r] += y[r] * (y[r] / p->F->D[column]);
     }
   }
 }
@@ -17927,7 +17930,7 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
     const double *D = F->D + step->column;
     for (; k + 4 <= columns; k += 4) {
       for (r = 0; r < 4; r++) {
-        chains[r] += row[k + r] * row[k + r] / D[k + r];
+        chains[r] += row[k + r] * (row[k + r] / D[k + r]);
       }
     }
     own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
@@ -17935,13 +17938,25 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
   for (; k < columns; k++) {
     const double d = sli_is_skipped(F, step->column + k) ? 0.0 : 1.0 / F->D[step->column + k];
     for (r = 0; r < lanes; r++) {
-      own[r] += row[(ptrdiff_t)k * lanes + r] * row[(ptrdiff_t)k * lanes + r] * d;
+      own[r] += row[(ptrdiff_t)k * lanes + r] * (row[(ptrdiff_t)k * lanes + r] * d);
     }
   }
 }
 
-static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes) {
+static double sli_norm_of(double square, const double *y, sl_int columns, sl_int lanes) {
+  sl_int k = 0;
+  if (square >= SLI_SQUARE_LEAST) {
+    return sqrt(square);
+  }
+  while (k < columns && y[(ptrdiff_t)k * lanes] == 0.0) {
+    k++;
+  }
+  return k == columns ? 0.0 : HUGE_VAL;
+}
+
+static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count) {
   const sli_reach *R = &p->q->forward;
+  const sl_int lanes = (sl_int)1 << sli_lanes_kind(count);
   double *all = p->norms + (ptrdiff_t)R->count * lanes;
   sl_int s, r;
   memset(all, 0, (size_t)lanes * sizeof(double));
@@ -17954,8 +17969,8 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes)
       own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
     }
   }
-  for (r = 0; r < lanes; r++) {
-    all[r] = sqrt(all[r]);
+  for (r = 0; r < count; r++) {
+    all[r] = sli_norm_of(all[r], y + r, R->columns, lanes);
   }
   for (s = 0; s < R->count; s++) {
     for (r = 0; r < lanes; r++) {
@@ -17979,7 +17994,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
     const double *shared = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
     for (r = 0; r < X->nrhs; r++) {
       const size_t here = (size_t)k * at.row + (size_t)r * at.column;
-      const double whole = scale[SLI_SCALE_ALL] * all[r];
+      const double whole = joint == -1 ? 0.0 : scale[SLI_SCALE_ALL] * all[r];
       const double part = joint < 0 ? 0.0 : common * all[r] + rest * shared[r];
       to[here] = joint == SLI_JOINT_NULL
                ? fabs(X->X[here])
@@ -17997,7 +18012,7 @@ static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *b
     block = sli_rhs_part(rhs, r, count);
     v = sli_vectors_of(p->q, count, p->memory);
     (void)sli_sweep_load(p->F, p->q, &v, &block);
-    sli_bounds_norms(p, v.y, (sl_int)1 << sli_lanes_kind(count));
+    sli_bounds_norms(p, v.y, count);
     sli_sweep_backward(p->F, p->q, &v, count);
     sli_unpack(p->F, p->q, &block, v.x);
     sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
@@ -32962,6 +32977,7 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_OTHER_ROUNDINGS
 #undef SLI_JOINT_NULL
 #undef SLI_NORM_FLOOR
+#undef SLI_SQUARE_LEAST
 #undef SLI_WRITE_VERSION_PLAIN
 #endif
 

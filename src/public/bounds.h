@@ -47,7 +47,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_certify(sl_factor *F, const sl_csc *A,
  *  P       [in]      the plan; not in a region.
  *  F       [in]      a factor that sl_factor_certify has certified.
  *  X, B, ldx, ldb, nrhs, W  as in sl_plan_solve; the solutions have the same bits.
- *  bounds  [out]     as X, with its leading dimension; must not overlap X or B.
+ *  bounds  [out]     as X, with its leading dimension; must not overlap X or B. Infinite where
+ *                    squares of b leave the range of double, below about 1e-100.
  *  scales  [in,out]  4 nx + 2 numbers that depend on P and the numbers of F alone, all 0 before the
  *                    first call: computed in a call that finds those of another plan or of other
  *                    numbers. NULL: computed in every call.

@@ -110,6 +110,69 @@ static void what_has_no_bound_is_refused(void **state) {
     }
 }
 
+/* S A S with powers of 2 in S: L, D, x and its bounds scale exactly, in spite of squares that leave
+ * the range of double. */
+static void bounds_scale_with_the_rows(void **state) {
+    (void)state;
+    static const sl_int bset[2] = {7, 50};
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
+    const sl_csc A = y.M.view;
+    double bounds[2][2][2 * 100], x[2 * 100], b[2 * 2] = {1.0, -0.5, 0.75, 0.25};
+    sl_plan *P = NULL;
+    int exponent[100];
+    for (int k = 0; k < 100; k++) {
+        exponent[k] = k % 2 ? 280 : -280;
+    }
+    SL_CHECK(sl_plan_create(&P, y.S, bset, 2, NULL, 0, NULL, NULL));
+    for (int turn = 0; turn < 2; turn++) {
+        SL_CHECK(sl_factor_refactor(y.F, &A, NULL));
+        SL_CHECK(sl_factor_certify(y.F, &A, SL_GUARANTEED, NULL, NULL));
+        for (sl_int nrhs = 1; nrhs <= 2; nrhs++) {
+            double *found = bounds[turn][nrhs - 1];
+            SL_CHECK(sl_plan_solve_bounded(P, y.F, x, 100, found, b, 2, nrhs, NULL, NULL, NULL));
+            for (int k = 0; k < 100 * nrhs; k++) {
+                const double scaled = ldexp(found[k], turn * exponent[k % 100]);
+                assert_true(scaled > 0.0 && scaled == bounds[0][nrhs - 1][k]);
+            }
+        }
+        for (int j = 0; j < 100; j++) {
+            for (sl_int q = A.p[j]; q < A.p[j + 1]; q++) {
+                y.M.x[q] = ldexp(y.M.x[q], exponent[A.i[q]] + exponent[j]);
+            }
+        }
+        for (int k = 0; k < 4; k++) {
+            b[k] = ldexp(b[k], exponent[bset[k % 2]]);
+        }
+    }
+    sl_plan_free(P);
+    factored_free(&y);
+}
+
+/* Squares of b leave the range: no bound is known. Those of b = 0 are 0, and so are those of other
+ * components. */
+static void unknown_norms_give_infinite_bounds(void **state) {
+    (void)state;
+    static const sl_int column[5] = {0, 2, 3, 4, 5}, row[5] = {0, 1, 1, 2, 3}, bset[2] = {0, 1};
+    static const double values[5] = {2.0, -1.0, 3.0, 2.0, 5.0};
+    const sl_csc A = {4, 4, column, row, values};
+    const double b[3 * 2] = {1e-170, 0.0, 0.0, 0.0, 0.0, 1e170};
+    double x[3 * 4], bounds[3 * 4];
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_plan *P = NULL;
+    SL_CHECK(sl_symbolic_create(&S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &A, NULL, NULL));
+    SL_CHECK(sl_factor_certify(F, &A, SL_GUARANTEED, NULL, NULL));
+    SL_CHECK(sl_plan_create(&P, S, bset, 2, NULL, 0, NULL, NULL));
+    SL_CHECK(sl_plan_solve_bounded(P, F, x, 4, bounds, b, 2, 3, NULL, NULL, NULL));
+    for (int k = 0; k < 3 * 4; k++) {
+        assert_true(bounds[k] == (k / 4 == 1 || k % 4 > 1 ? 0.0 : HUGE_VAL));
+    }
+    sl_plan_free(P);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+}
+
 static void wrong_arguments(void **state) {
     (void)state;
     static const sl_int bset[1] = {7}, xset[2] = {30, 7};
@@ -353,6 +416,8 @@ int main(void) {
         cmocka_unit_test(bounds_are_those_of_the_numbers),
         cmocka_unit_test(other_values_are_noticed),
         cmocka_unit_test(what_has_no_bound_is_refused),
+        cmocka_unit_test(bounds_scale_with_the_rows),
+        cmocka_unit_test(unknown_norms_give_infinite_bounds),
         cmocka_unit_test(wrong_arguments),
         cmocka_unit_test(inconsistent_right_hand_sides),
         cmocka_unit_test(scales_know_what_they_are_of),

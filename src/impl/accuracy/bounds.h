@@ -25,6 +25,9 @@ enum { SLI_SCALE_COMMON, SLI_SCALE_REST, SLI_SCALE_ALL, SLI_SCALE_JOINT, SLI_SCA
  * underflow. */
 #define SLI_NORM_FLOOR 1e-50
 
+/* A smaller sum of squares may lack some that are not small beside it. */
+#define SLI_SQUARE_LEAST 1e-200
+
 typedef struct sli_bounds {
     const sl_factor *F;
     const sli_query *q;
@@ -91,7 +94,7 @@ static void sli_scales_add(const sli_bounds *p, const sli_step *step, sl_int fro
         const sl_int column = step->column + k;
         double *to = squares[column >= from ? SLI_SCALE_COMMON : SLI_SCALE_REST];
         for (r = 0; r < count && !sli_is_skipped(p->F, column); r++) {
-            to[r] += y[r] * y[r] / p->F->D[column];
+            to[r] += y[r] * (y[r] / p->F->D[column]); /* y y may overflow */
         }
     }
 }
@@ -163,7 +166,7 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
         const double *D = F->D + step->column;
         for (; k + 4 <= columns; k += 4) {
             for (r = 0; r < 4; r++) {
-                chains[r] += row[k + r] * row[k + r] / D[k + r];
+                chains[r] += row[k + r] * (row[k + r] / D[k + r]);
             }
         }
         own[0] = (chains[0] + chains[1]) + (chains[2] + chains[3]);
@@ -171,14 +174,28 @@ static void sli_norms_step(const sl_factor *F, const sli_step *step, const doubl
     for (; k < columns; k++) {
         const double d = sli_is_skipped(F, step->column + k) ? 0.0 : 1.0 / F->D[step->column + k];
         for (r = 0; r < lanes; r++) {
-            own[r] += row[(ptrdiff_t)k * lanes + r] * row[(ptrdiff_t)k * lanes + r] * d;
+            own[r] += row[(ptrdiff_t)k * lanes + r] * (row[(ptrdiff_t)k * lanes + r] * d);
         }
     }
 }
 
-/* The norms of one block from its forward vector. */
-static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes) {
+/* The norm from the sum of squares. It is not known if squares may have been lost, of numbers near
+ * the ends of the range. y: one of `lanes` vectors by rows. */
+static double sli_norm_of(double square, const double *y, sl_int columns, sl_int lanes) {
+    sl_int k = 0;
+    if (square >= SLI_SQUARE_LEAST) {
+        return sqrt(square);
+    }
+    while (k < columns && y[(ptrdiff_t)k * lanes] == 0.0) {
+        k++;
+    }
+    return k == columns ? 0.0 : HUGE_VAL;
+}
+
+/* The norms of one block of `count` vectors from its forward vector. */
+static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int count) {
     const sli_reach *R = &p->q->forward;
+    const sl_int lanes = (sl_int)1 << sli_lanes_kind(count);
     double *all = p->norms + (ptrdiff_t)R->count * lanes;
     sl_int s, r;
     memset(all, 0, (size_t)lanes * sizeof(double));
@@ -191,8 +208,8 @@ static void sli_bounds_norms(const sli_bounds *p, const double *y, sl_int lanes)
             own[r] += step->up == -1 ? 0.0 : p->norms[(ptrdiff_t)step->up * lanes + r];
         }
     }
-    for (r = 0; r < lanes; r++) {
-        all[r] = sqrt(all[r]);
+    for (r = 0; r < count; r++) {
+        all[r] = sli_norm_of(all[r], y + r, R->columns, lanes);
     }
     for (s = 0; s < R->count; s++) {
         for (r = 0; r < lanes; r++) {
@@ -217,7 +234,7 @@ static void sli_bounds_write(const sli_bounds *p, double *to, const sli_rhs *X) 
         const double *shared = joint < 0 ? all : p->norms + (ptrdiff_t)joint * lanes;
         for (r = 0; r < X->nrhs; r++) {
             const size_t here = (size_t)k * at.row + (size_t)r * at.column;
-            const double whole = scale[SLI_SCALE_ALL] * all[r];
+            const double whole = joint == -1 ? 0.0 : scale[SLI_SCALE_ALL] * all[r];
             const double part = joint < 0 ? 0.0 : common * all[r] + rest * shared[r];
             to[here] = joint == SLI_JOINT_NULL
                            ? fabs(X->X[here])
@@ -236,7 +253,7 @@ static void sli_bounds_blocks(const sli_bounds *p, const sli_rhs *rhs, double *b
         block = sli_rhs_part(rhs, r, count);
         v = sli_vectors_of(p->q, count, p->memory);
         (void)sli_sweep_load(p->F, p->q, &v, &block);
-        sli_bounds_norms(p, v.y, (sl_int)1 << sli_lanes_kind(count));
+        sli_bounds_norms(p, v.y, count);
         sli_sweep_backward(p->F, p->q, &v, count);
         sli_unpack(p->F, p->q, &block, v.x);
         sli_bounds_write(p, bounds + (size_t)r * sli_dense_of(rhs->ldx).column, &block);
