@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 90501c67f6cf8774
+ * FNV-1a of the lines after this comment, without the license: 416c29f6d80c06af
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -1536,8 +1536,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
  *                       options.mass; L in double or float.
  *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from.
- *  certainty  [in]      SL_ESTIMATED: 2 times the largest error that 12 solves show, whose
- *                       right-hand sides approach the worst ones; 4 times if n < 512.
+ *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
+ *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
  *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.
@@ -17554,7 +17554,7 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
 #define SLI_PROBES 4
 #define SLI_PROBE_TURNS 3
 
-#define SLI_PROBE_SAFETY(n) ((n) < 512 ? 4.0 : 2.0)
+#define SLI_PROBE_SAFETY 4.0
 
 #define SLI_ETA_MOST 0.0625
 
@@ -17730,7 +17730,7 @@ static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
     sli_probes_multiply(p);
     sli_probes_measure(p, 0);
   }
-  p->eta = SLI_PROBE_SAFETY(p->F->S->n) * fmax(p->eta, DBL_EPSILON / 2.0);
+  p->eta = SLI_PROBE_SAFETY * fmax(p->eta, DBL_EPSILON / 2.0);
   return SL_OK;
 }
 

@@ -15,8 +15,8 @@
  *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
  *                       options.mass; L in double or float.
  *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from.
- *  certainty  [in]      SL_ESTIMATED: 2 times the largest error that 12 solves show, whose
- *                       right-hand sides approach the worst ones; 4 times if n < 512.
+ *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
+ *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
  *                       eigenvalue of A, which a second factor of A with a smaller diagonal proves;
  *                       as a rule 1e3 to 1e6 times larger. Barring underflow.

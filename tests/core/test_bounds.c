@@ -122,6 +122,55 @@ static void guaranteed_bounds_hold(void **state) {
     assert_true(tally.tightest > 10.0);
 }
 
+/* Every solve stays within one of many small components: the worst one is within its bound. */
+static void estimated_bounds_hold_in_small_components(void **state) {
+    (void)state;
+    enum { PARTS = 1000, ROWS = 3 * PARTS };
+    uint64_t random = 4;
+    gen_list_t t = gen_list(ROWS);
+    double *b = test_reals(ROWS), x[3], bounds[3], tightest = HUGE_VAL;
+    twice_t *exact = (twice_t *)test_array(ROWS, sizeof *exact);
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_work *W = NULL;
+    for (sl_int i = 0; i < ROWS; i++) {
+        for (sl_int j = i - i % 3; j <= i; j++) {
+            const double a = gen_real(&random);
+            gen_add(&t, i, j, i == j ? 1.0 + fabs(a) : 0.1 * a);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_certify(F, &M.view, SL_ESTIMATED, NULL, NULL));
+    SL_CHECK(sl_work_create(&W, NULL));
+    for (uint64_t turn = 0; turn < 4; turn++) {
+        gen_reals(b, ROWS, turn);
+        exact_solve(F, &M.view, b, NULL, exact);
+        for (sl_int part = 0; part < PARTS; part++) {
+            const sl_int set[3] = {3 * part, 3 * part + 1, 3 * part + 2};
+            sl_plan *P = NULL;
+            SL_CHECK(sl_plan_create(&P, S, set, 3, set, 3, NULL, NULL));
+            SL_CHECK(sl_plan_solve_bounded(P, F, x, 3, bounds, b + set[0], 3, 1, NULL, W, NULL));
+            for (int k = 0; k < 3; k++) {
+                const twice_t z = exact[set[k]];
+                const double error = fabs((z.high - x[k]) + z.low);
+                tightest = error > 0.0 ? fmin(tightest, bounds[k] / error) : tightest;
+            }
+            sl_plan_free(P);
+        }
+    }
+    print_message("bounds at least %.2f times the error\n", tightest);
+    assert_true(tightest >= 1.0);
+    sl_work_free(W);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+    gen_list_free(&t);
+    free(exact);
+    free(b);
+}
+
 /* The exact answer is the one that is 0 in the rows of the null pivots. */
 static void bounds_hold_with_skipped_null_pivots(void **state) {
     (void)state;
@@ -160,6 +209,7 @@ static void bounds_hold_with_skipped_null_pivots(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimated_bounds_hold),
+        cmocka_unit_test(estimated_bounds_hold_in_small_components),
         cmocka_unit_test(guaranteed_bounds_hold),
         cmocka_unit_test(bounds_hold_with_skipped_null_pivots),
     };
