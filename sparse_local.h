@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 416c29f6d80c06af
+ * FNV-1a of the lines after this comment, without the license: 5a6901ee270c02bd
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -18,43 +18,43 @@
  *   1380 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
  *   1420 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
  *   1528 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1604 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1689 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1785 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1897 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1936 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2064 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2096 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2285 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2397 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2524 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2564 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2652 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2761 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2798 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2875 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2915 impl/ base: the compiler, status, memory, sorting, threads
- *   3899 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4756 impl/ matrix: sparse matrices of the caller and of the library
- *   5299 impl/ ordering: fill-reducing orderings of a graph
- *   9661 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11607 impl/ factor: the numbers of L and D
- *  14752 impl/ solve: full and local solves
- *  16332 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18088 impl/ pivots: the order of the pivots by the values of a matrix
- *  18502 impl/ float: L and fronts in single precision
- *  18955 impl/ inverse: entries of the inverse, regions
- *  21891 impl/ change: a factor that follows changes of its matrix
- *  28526 impl/ io: files that are replaced only when they are complete
- *  28738 impl/ files: Matrix Market files, 64-bit indices
- *  29334 impl/ save: factors in files
- *  31260 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31925 impl/ batch: diagonals of many inverses
- *  32065 impl/ complex: complex Hermitian systems over real factors
- *  32597 impl/ complex: entries of the inverse
- *  32649 impl/ packs: the tables through which the core calls packs
- *  32681 impl/ last: undefine every internal macro
- *  32993 impl/ templates: the header includes them from itself, once for each instruction set
+ *   1605 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1690 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1786 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1898 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1937 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2065 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2097 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2286 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2398 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2525 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2565 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2653 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2762 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2799 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2876 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2916 impl/ base: the compiler, status, memory, sorting, threads
+ *   3900 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4757 impl/ matrix: sparse matrices of the caller and of the library
+ *   5300 impl/ ordering: fill-reducing orderings of a graph
+ *   9662 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11608 impl/ factor: the numbers of L and D
+ *  14753 impl/ solve: full and local solves
+ *  16333 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18091 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18505 impl/ float: L and fronts in single precision
+ *  18958 impl/ inverse: entries of the inverse, regions
+ *  21894 impl/ change: a factor that follows changes of its matrix
+ *  28529 impl/ io: files that are replaced only when they are complete
+ *  28741 impl/ files: Matrix Market files, 64-bit indices
+ *  29337 impl/ save: factors in files
+ *  31263 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31928 impl/ batch: diagonals of many inverses
+ *  32068 impl/ complex: complex Hermitian systems over real factors
+ *  32600 impl/ complex: entries of the inverse
+ *  32652 impl/ packs: the tables through which the core calls packs
+ *  32684 impl/ last: undefine every internal macro
+ *  32996 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1535,7 +1535,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_defects(const sl_factor *F, double *Y,
  *
  *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
  *                       options.mass; L in double or float.
- *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from.
+ *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from
+ *                       as a whole, not by sl_factor_change and the like.
  *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
  *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest
@@ -17542,7 +17543,9 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
   }
   info->solves = SLI_INVERSE_STEPS;
   if (status == SL_OK) {
-    info->eta = lowest > 0.0 ? 3.05 * p.gamma * sli_magnitude_bound(&p, F) / lowest : HUGE_VAL;
+    const double e =
+      lowest > 0.0 ? 3.05 * p.gamma * sli_magnitude_bound(&p, F) / lowest : HUGE_VAL;
+    info->eta = e < 1.0 ? e / (1.0 - e) : HUGE_VAL;
     info->eigenvalue_min = lowest;
   }
   sl_factor_free(p.G);

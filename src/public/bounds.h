@@ -14,7 +14,8 @@
  *
  *  F          [in,out]  a factor of A, definite, or semidefinite with skipped null pivots and no
  *                       options.mass; L in double or float.
- *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from.
+ *  A          [in]      the matrix. Guaranteed: with exactly the values that F was computed from
+ *                       as a whole, not by sl_factor_change and the like.
  *  certainty  [in]      SL_ESTIMATED: 4 times the largest error that 12 solves show, whose
  *                       right-hand sides approach the worst ones.
  *                       SL_GUARANTEED: a proved bound, by rounding errors a priori and the smallest

@@ -16,8 +16,10 @@
  *    m >= the largest eigenvalue of H^-1/2 |L| D |L'| H^-1/2,
  *    a <= the smallest one of H^-1/2 A H^-1/2.
  *
- * Then |v' (E + G) w| <= 3 g m / a ||v|| ||w|| in the energy norm. m is the largest quotient of
- * entries of the product with a positive vector and of that vector (Collatz and Wielandt).
+ * Then |v' (E + G) w| <= e ||v|| ||w|| in the energy norm, e = 3 g m / a. A (z - x) = -(E + G) z
+ * gives ||z - x|| <= e ||z|| <= e / (1 - e) ||x||. 3.05 in place of 3 takes the terms of g^2. m is
+ * the largest quotient of entries of the product with a positive vector and of that vector (Collatz
+ * and Wielandt).
  *
  * a: if the factorization of A - s H has positive pivots only, then A - s H has no eigenvalue below
  * -g m H, with the m of that factor [Ru06]. So a = s - g m. */
@@ -263,7 +265,9 @@ static sl_status sli_guarantee(const sl_factor *F, const sl_csc *A, sl_work *W,
     }
     info->solves = SLI_INVERSE_STEPS;
     if (status == SL_OK) {
-        info->eta = lowest > 0.0 ? 3.05 * p.gamma * sli_magnitude_bound(&p, F) / lowest : HUGE_VAL;
+        const double e =
+            lowest > 0.0 ? 3.05 * p.gamma * sli_magnitude_bound(&p, F) / lowest : HUGE_VAL;
+        info->eta = e < 1.0 ? e / (1.0 - e) : HUGE_VAL;
         info->eigenvalue_min = lowest;
     }
     sl_factor_free(p.G);
