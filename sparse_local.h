@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 5a6901ee270c02bd
+ * FNV-1a of the lines after this comment, without the license: 83bb5d7beb58922d
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,22 +39,22 @@
  *   5300 impl/ ordering: fill-reducing orderings of a graph
  *   9662 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11608 impl/ factor: the numbers of L and D
- *  14753 impl/ solve: full and local solves
- *  16333 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18091 impl/ pivots: the order of the pivots by the values of a matrix
- *  18505 impl/ float: L and fronts in single precision
- *  18958 impl/ inverse: entries of the inverse, regions
- *  21894 impl/ change: a factor that follows changes of its matrix
- *  28529 impl/ io: files that are replaced only when they are complete
- *  28741 impl/ files: Matrix Market files, 64-bit indices
- *  29337 impl/ save: factors in files
- *  31263 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31928 impl/ batch: diagonals of many inverses
- *  32068 impl/ complex: complex Hermitian systems over real factors
- *  32600 impl/ complex: entries of the inverse
- *  32652 impl/ packs: the tables through which the core calls packs
- *  32684 impl/ last: undefine every internal macro
- *  32996 impl/ templates: the header includes them from itself, once for each instruction set
+ *  14758 impl/ solve: full and local solves
+ *  16338 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18096 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18510 impl/ float: L and fronts in single precision
+ *  18963 impl/ inverse: entries of the inverse, regions
+ *  21899 impl/ change: a factor that follows changes of its matrix
+ *  28534 impl/ io: files that are replaced only when they are complete
+ *  28746 impl/ files: Matrix Market files, 64-bit indices
+ *  29342 impl/ save: factors in files
+ *  31268 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31933 impl/ batch: diagonals of many inverses
+ *  32073 impl/ complex: complex Hermitian systems over real factors
+ *  32605 impl/ complex: entries of the inverse
+ *  32657 impl/ packs: the tables through which the core calls packs
+ *  32689 impl/ last: undefine every internal macro
+ *  33003 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -1025,7 +1025,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
                                                  sl_stats *stats);
 
 /** Factors a matrix of the same pattern with new values. Same bits as sl_factor_create. Allocates
- *  nothing, but 16 bytes a row where small pivots have to be judged (singular.md); without this
+ *  nothing, but 24 bytes a row where small pivots have to be judged (singular.md); without this
  *  memory they are null.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
@@ -13785,12 +13785,14 @@ static int sli_growth_check(sl_factor *F, sli_failure *failure) {
 
 #define SLI_JUDGE_RANDOM 6.0
 #define SLI_JUDGE_BIASED 0.1
+#define SLI_JUDGE_ALIKE 3.0
+#define SLI_JUDGE_FEW 4.0
 
 #define SLI_JUDGE_READS 64.0
 
 typedef struct sli_judge {
   sl_factor *F;
-  double *z, *t;
+  double *z, *t, *bias;
   double reads;
   double error;
 } sli_judge;
@@ -13832,6 +13834,8 @@ SLI_COLD static void sli_judge_weigh(const sli_judge *judge, sl_int first, sl_in
   }
   for (j = begin; j < end; j++) {
     judge->t[j] *= sqrt(judge->z[j]);
+    judge->bias[j] =
+      judge->t[j] * (1.0 + fmax(judge->z[j] - 1.0 - SLI_JUDGE_FEW, 0.0) / SLI_JUDGE_ALIKE);
   }
 }
 
@@ -13870,8 +13874,8 @@ SLI_COLD static int sli_judge_is_null(sli_judge *judge, sl_int k) {
     sli_judge_super(judge, s, k);
   }
   for (j = S->super_first[from]; j <= k; j++) {
-    const double t = judge->z[j] * judge->z[j] * (judge->t[j] / size);
-    sum += t;
+    const double square = judge->z[j] * judge->z[j], t = square * (judge->t[j] / size);
+    sum += square * (judge->bias[j] / size);
     squares += t * t;
   }
   judge->error =
@@ -13883,11 +13887,12 @@ SLI_COLD static sl_status sli_judge_begin(sli_judge *judge, sl_factor *F, sl_int
                       sli_failure *failure) {
   judge->F = F;
   judge->reads = SLI_JUDGE_READS * (double)F->S->panel_begin[F->S->n_supers];
-  judge->z = (double *)sli_judge_memory(F, F->S->n, 2 * sizeof(double));
+  judge->z = (double *)sli_judge_memory(F, F->S->n, 3 * sizeof(double));
   if (judge->z == NULL) {
     return sli_judge_not(F, k, failure);
   }
   judge->t = judge->z + F->S->n;
+  judge->bias = judge->t + F->S->n;
   return SL_OK;
 }
 
@@ -32823,6 +32828,8 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_NULL_PIVOT
 #undef SLI_JUDGE_RANDOM
 #undef SLI_JUDGE_BIASED
+#undef SLI_JUDGE_ALIKE
+#undef SLI_JUDGE_FEW
 #undef SLI_JUDGE_READS
 #undef SLI_NULL_MOST
 #undef SLI_SUSPECT_ROW

@@ -47,7 +47,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
                                                  sl_stats *stats);
 
 /** Factors a matrix of the same pattern with new values. Same bits as sl_factor_create. Allocates
- *  nothing, but 16 bytes a row where small pivots have to be judged (singular.md); without this
+ *  nothing, but 24 bytes a row where small pivots have to be judged (singular.md); without this
  *  memory they are null.
  *
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
