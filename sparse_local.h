@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 83bb5d7beb58922d
+ * FNV-1a of the lines after this comment, without the license: 8716deb7bb786f33
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -41,20 +41,20 @@
  *  11608 impl/ factor: the numbers of L and D
  *  14758 impl/ solve: full and local solves
  *  16338 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18096 impl/ pivots: the order of the pivots by the values of a matrix
- *  18510 impl/ float: L and fronts in single precision
- *  18963 impl/ inverse: entries of the inverse, regions
- *  21899 impl/ change: a factor that follows changes of its matrix
- *  28534 impl/ io: files that are replaced only when they are complete
- *  28746 impl/ files: Matrix Market files, 64-bit indices
- *  29342 impl/ save: factors in files
- *  31268 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31933 impl/ batch: diagonals of many inverses
- *  32073 impl/ complex: complex Hermitian systems over real factors
- *  32605 impl/ complex: entries of the inverse
- *  32657 impl/ packs: the tables through which the core calls packs
- *  32689 impl/ last: undefine every internal macro
- *  33003 impl/ templates: the header includes them from itself, once for each instruction set
+ *  18097 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18511 impl/ float: L and fronts in single precision
+ *  18964 impl/ inverse: entries of the inverse, regions
+ *  21900 impl/ change: a factor that follows changes of its matrix
+ *  28535 impl/ io: files that are replaced only when they are complete
+ *  28747 impl/ files: Matrix Market files, 64-bit indices
+ *  29343 impl/ save: factors in files
+ *  31269 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31934 impl/ batch: diagonals of many inverses
+ *  32074 impl/ complex: complex Hermitian systems over real factors
+ *  32606 impl/ complex: entries of the inverse
+ *  32658 impl/ packs: the tables through which the core calls packs
+ *  32690 impl/ last: undefine every internal macro
+ *  33004 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -17738,7 +17738,8 @@ static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
     sli_probes_multiply(p);
     sli_probes_measure(p, 0);
   }
-  p->eta = SLI_PROBE_SAFETY * fmax(p->eta, DBL_EPSILON / 2.0);
+  p->eta = SLI_PROBE_SAFETY *
+       fmax(p->eta, sli_is_float(p->F) ? (double)FLT_EPSILON / 8.0 : DBL_EPSILON);
   return SL_OK;
 }
 

@@ -22,7 +22,7 @@
  * to 1e4 rows: badly scaled ones, with conditions up to 1e10, L in double and in float. But where b
  * and x stay within a few rows of many, in small components or beside a heavy mass matrix, the
  * worst one of many small systems counts: 2.8 times in 1e3 components of 3 rows, 3.5 times in 3e4
- * of them. */
+ * of them. Errors are a few roundings of single rows there: eta is at least four of them. */
 #define SLI_PROBE_SAFETY 4.0
 
 /* Above, the terms of second order in eta matter, which bounds take four times. */
@@ -208,8 +208,8 @@ static sl_status sli_probes_run(sli_probes *p, sl_work *W) {
         sli_probes_multiply(p);
         sli_probes_measure(p, 0);
     }
-    /* a solve rounds its answer, even where the probes have met no error */
-    p->eta = SLI_PROBE_SAFETY * fmax(p->eta, DBL_EPSILON / 2.0);
+    p->eta = SLI_PROBE_SAFETY *
+             fmax(p->eta, sli_is_float(p->F) ? (double)FLT_EPSILON / 8.0 : DBL_EPSILON);
     return SL_OK;
 }
 
