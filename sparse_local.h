@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 8716deb7bb786f33
+ * FNV-1a of the lines after this comment, without the license: 847c65b1a80e24b7
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -39,22 +39,22 @@
  *   5300 impl/ ordering: fill-reducing orderings of a graph
  *   9662 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
  *  11608 impl/ factor: the numbers of L and D
- *  14758 impl/ solve: full and local solves
- *  16338 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18097 impl/ pivots: the order of the pivots by the values of a matrix
- *  18511 impl/ float: L and fronts in single precision
- *  18964 impl/ inverse: entries of the inverse, regions
- *  21900 impl/ change: a factor that follows changes of its matrix
- *  28535 impl/ io: files that are replaced only when they are complete
- *  28747 impl/ files: Matrix Market files, 64-bit indices
- *  29343 impl/ save: factors in files
- *  31269 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31934 impl/ batch: diagonals of many inverses
- *  32074 impl/ complex: complex Hermitian systems over real factors
- *  32606 impl/ complex: entries of the inverse
- *  32658 impl/ packs: the tables through which the core calls packs
- *  32690 impl/ last: undefine every internal macro
- *  33004 impl/ templates: the header includes them from itself, once for each instruction set
+ *  14756 impl/ solve: full and local solves
+ *  16336 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18095 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18509 impl/ float: L and fronts in single precision
+ *  18956 impl/ inverse: entries of the inverse, regions
+ *  21892 impl/ change: a factor that follows changes of its matrix
+ *  28527 impl/ io: files that are replaced only when they are complete
+ *  28739 impl/ files: Matrix Market files, 64-bit indices
+ *  29335 impl/ save: factors in files
+ *  31261 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31926 impl/ batch: diagonals of many inverses
+ *  32066 impl/ complex: complex Hermitian systems over real factors
+ *  32592 impl/ complex: entries of the inverse
+ *  32644 impl/ packs: the tables through which the core calls packs
+ *  32676 impl/ last: undefine every internal macro
+ *  32991 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -12962,19 +12962,17 @@ static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
   return &kernels->front;
 }
 
+#define SLI_DOUBLE_FRONTS \
+  sli_double_front, sli_double_factor, sli_double_shared, sli_double_front_clear, \
+    sli_double_front_load, sli_double_front_assemble, sli_double_front_finish
+
 static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
                           sizeof(double),
                           sizeof(double),
                           0,
                           DBL_EPSILON,
                           sli_double_sweeps,
-                          sli_double_front,
-                          sli_double_factor,
-                          sli_double_shared,
-                          sli_double_front_clear,
-                          sli_double_front_load,
-                          sli_double_front_assemble,
-                          sli_double_front_finish,
+                          SLI_DOUBLE_FRONTS,
                           NULL,
                           NULL,
                           NULL,
@@ -18922,13 +18920,7 @@ static const sli_storage_type sli_storage_float = {SL_STORAGE_FLOAT,
                            0,
                            DBL_EPSILON,
                            sli_float_sweeps,
-                           sli_double_front,
-                           sli_double_factor,
-                           sli_double_shared,
-                           sli_double_front_clear,
-                           sli_double_front_load,
-                           sli_double_front_assemble,
-                           sli_double_front_finish,
+                           SLI_DOUBLE_FRONTS,
                            sli_panel_round,
                            sli_float_entry,
                            sli_float_entry_clear,
@@ -32279,13 +32271,7 @@ static const sli_storage_type sli_storage_complex_in_double = {SL_STORAGE_DOUBLE
                                  0,
                                  DBL_EPSILON,
                                  sli_double_sweeps,
-                                 sli_double_front,
-                                 sli_double_factor,
-                                 sli_double_shared,
-                                 sli_double_front_clear,
-                                 sli_double_front_load,
-                                 sli_double_front_assemble,
-                                 sli_double_front_finish,
+                                 SLI_DOUBLE_FRONTS,
                                  NULL,
                                  NULL,
                                  NULL,
@@ -32988,6 +32974,7 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_OTHER_ROUNDINGS
 #undef SLI_JOINT_NULL
 #undef SLI_NORM_FLOOR
+#undef SLI_DOUBLE_FRONTS
 #undef SLI_SQUARE_LEAST
 #undef SLI_WRITE_VERSION_PLAIN
 #endif

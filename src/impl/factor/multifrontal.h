@@ -127,19 +127,18 @@ static const sli_front_kernels *sli_double_front(const sli_kernels *kernels) {
     return &kernels->front;
 }
 
+/* The members of a storage type whose fronts are in double, from `front` to `finish`. */
+#define SLI_DOUBLE_FRONTS \
+    sli_double_front, sli_double_factor, sli_double_shared, sli_double_front_clear, \
+        sli_double_front_load, sli_double_front_assemble, sli_double_front_finish
+
 static const sli_storage_type sli_storage_double = {SL_STORAGE_DOUBLE,
                                                     sizeof(double),
                                                     sizeof(double),
                                                     0,
                                                     DBL_EPSILON,
                                                     sli_double_sweeps,
-                                                    sli_double_front,
-                                                    sli_double_factor,
-                                                    sli_double_shared,
-                                                    sli_double_front_clear,
-                                                    sli_double_front_load,
-                                                    sli_double_front_assemble,
-                                                    sli_double_front_finish,
+                                                    SLI_DOUBLE_FRONTS,
                                                     NULL,
                                                     NULL,
                                                     NULL,
