@@ -161,6 +161,37 @@ static inline void judge_answer(judge_t *t, double error, double limit, int told
                 error, what);
 }
 
+/* A random local question: b on some rows, x wanted on some rows. */
+typedef struct judge_question_t {
+    sl_int nb, nx, *bset, *xset;
+    double *b, *full; /* nb; n: the same right-hand side on all rows */
+} judge_question_t;
+
+static inline judge_question_t judge_question(judge_t *t) {
+    const sl_int n = (sl_int)t->n;
+    judge_question_t q;
+    q.nb = 1 + gen_below(&t->state, n);
+    q.nx = 1 + gen_below(&t->state, n);
+    q.bset = test_ints(t->n);
+    q.xset = test_ints(t->n);
+    q.b = test_reals(t->n);
+    q.full = test_reals(t->n);
+    gen_set(q.bset, q.nb, n, gen_bits(&t->state));
+    gen_set(q.xset, q.nx, n, gen_bits(&t->state));
+    gen_reals(q.b, t->n, gen_bits(&t->state));
+    for (sl_int k = 0; k < q.nb; k++) {
+        q.full[q.bset[k]] = q.b[k];
+    }
+    return q;
+}
+
+static inline void judge_question_free(judge_question_t *q) {
+    free(q->bset);
+    free(q->xset);
+    free(q->b);
+    free(q->full);
+}
+
 /* A right-hand side: any one, a unit vector, or for semidefinite systems A z in long double. */
 static inline void judge_load(judge_t *t, double *b) {
     const size_t n = t->n;

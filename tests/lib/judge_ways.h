@@ -100,8 +100,8 @@ static inline void judge_region(judge_t *t, sl_int *set, sl_int count) {
                 spread = fmax(spread, fabs(sum - X[set[i]]) / most);
                 worst = fmax(worst, fabs(x[i] - X[set[i]]) / most);
             }
-            judge_answer(t, most <= 1e300 ? worst : -1.0,
-                         judge_forward(t, 1e-7, spread), 0, "region");
+            judge_answer(t, most <= 1e300 ? worst : -1.0, judge_forward(t, 1e-7, spread), 0,
+                         "region");
         }
         sl_plan_free(P);
     }
@@ -117,22 +117,14 @@ static inline void judge_region(judge_t *t, sl_int *set, sl_int count) {
 /* A local solve has the bits of the full one. */
 static inline void judge_way_local(judge_t *t) {
     const size_t n = t->n;
-    const sl_int nb = 1 + gen_below(&t->state, (sl_int)n), nx = 1 + gen_below(&t->state, (sl_int)n);
-    sl_int *bset = test_ints(n), *xset = test_ints(n);
-    double *b = test_reals(n), *x = test_reals(n), *full = test_reals(n), *X = test_reals(n);
-    double worst = 0.0;
+    judge_question_t q = judge_question(t);
+    double *x = test_reals(n), *X = test_reals(n), worst = 0.0;
     sl_plan *P = NULL;
-    gen_set(bset, nb, (sl_int)n, gen_bits(&t->state));
-    gen_set(xset, nx, (sl_int)n, gen_bits(&t->state));
-    gen_reals(b, n, gen_bits(&t->state));
-    for (sl_int k = 0; k < nb; k++) {
-        full[bset[k]] = b[k];
-    }
-    const sl_status status = sl_factor_solve(t->F, X, n, full, n, 1, NULL);
-    SL_CHECK(sl_plan_create(&P, t->S, bset, nb, xset, nx, NULL, NULL));
-    SL_EXPECT(status, sl_plan_solve(P, t->F, x, n, b, n, 1, NULL));
-    for (sl_int k = 0; k < nx && status == SL_OK; k++) {
-        const double d = X[xset[k]];
+    const sl_status status = sl_factor_solve(t->F, X, n, q.full, n, 1, NULL);
+    SL_CHECK(sl_plan_create(&P, t->S, q.bset, q.nb, q.xset, q.nx, NULL, NULL));
+    SL_EXPECT(status, sl_plan_solve(P, t->F, x, n, q.b, n, 1, NULL));
+    for (sl_int k = 0; k < q.nx && status == SL_OK; k++) {
+        const double d = X[q.xset[k]];
         worst = x[k] == d || (x[k] != x[k] && d != d) ? worst : 1.0;
     }
     sl_plan_free(P);
@@ -140,13 +132,10 @@ static inline void judge_way_local(judge_t *t) {
         judge_answer(t, worst, 0.0, 0, "local bits");
     }
     if (status == SL_OK) {
-        judge_region(t, xset, nx / 3 + 1);
+        judge_region(t, q.xset, q.nx / 3 + 1);
     }
-    free(bset);
-    free(xset);
-    free(b);
+    judge_question_free(&q);
     free(x);
-    free(full);
     free(X);
 }
 
