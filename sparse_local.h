@@ -1,60 +1,60 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 847c65b1a80e24b7
+ * FNV-1a of the lines after this comment, without the license: dc1336cb44698585
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     62 intro.h      what the library does, a quick start, which call for which question, references
  *    169 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    202 config.h     macros that a user may define before the include, the version, and the integer types
- *    280 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    458 options.h    options of all calls, threads, and the allocator
- *    598 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    812 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    910 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    984 factor.h     the numerical factorization P A P' = L D L'
- *   1108 solve.h      full solves, and the workspace of all solves
- *   1203 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1281 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1380 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1420 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1528 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1605 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1690 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1786 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1898 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1937 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2065 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2097 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2286 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2398 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2525 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2565 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2653 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2762 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2799 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2876 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2916 impl/ base: the compiler, status, memory, sorting, threads
- *   3900 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4757 impl/ matrix: sparse matrices of the caller and of the library
- *   5300 impl/ ordering: fill-reducing orderings of a graph
- *   9662 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11608 impl/ factor: the numbers of L and D
- *  14756 impl/ solve: full and local solves
- *  16336 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18095 impl/ pivots: the order of the pivots by the values of a matrix
- *  18509 impl/ float: L and fronts in single precision
- *  18956 impl/ inverse: entries of the inverse, regions
- *  21892 impl/ change: a factor that follows changes of its matrix
- *  28527 impl/ io: files that are replaced only when they are complete
- *  28739 impl/ files: Matrix Market files, 64-bit indices
- *  29335 impl/ save: factors in files
- *  31261 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31926 impl/ batch: diagonals of many inverses
- *  32066 impl/ complex: complex Hermitian systems over real factors
- *  32592 impl/ complex: entries of the inverse
- *  32644 impl/ packs: the tables through which the core calls packs
- *  32676 impl/ last: undefine every internal macro
- *  32991 impl/ templates: the header includes them from itself, once for each instruction set
+ *    210 config.h     macros that a user may define before the include, the version, and the integer types
+ *    288 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    466 options.h    options of all calls, threads, and the allocator
+ *    606 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    820 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    918 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    992 factor.h     the numerical factorization P A P' = L D L'
+ *   1116 solve.h      full solves, and the workspace of all solves
+ *   1211 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1289 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1388 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1428 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1536 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1613 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1698 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1794 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1906 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1945 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2073 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2105 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2294 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2406 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2533 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2573 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2661 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2770 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2807 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2884 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2924 impl/ base: the compiler, status, memory, sorting, threads
+ *   3908 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4765 impl/ matrix: sparse matrices of the caller and of the library
+ *   5308 impl/ ordering: fill-reducing orderings of a graph
+ *   9670 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11616 impl/ factor: the numbers of L and D
+ *  14764 impl/ solve: full and local solves
+ *  16344 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18103 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18517 impl/ float: L and fronts in single precision
+ *  18964 impl/ inverse: entries of the inverse, regions
+ *  21900 impl/ change: a factor that follows changes of its matrix
+ *  28535 impl/ io: files that are replaced only when they are complete
+ *  28747 impl/ files: Matrix Market files, 64-bit indices
+ *  29343 impl/ save: factors in files
+ *  31269 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31934 impl/ batch: diagonals of many inverses
+ *  32074 impl/ complex: complex Hermitian systems over real factors
+ *  32600 impl/ complex: entries of the inverse
+ *  32652 impl/ packs: the tables through which the core calls packs
+ *  32684 impl/ last: undefine every internal macro
+ *  32999 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -186,6 +186,14 @@
  * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CHANGE brings SL_WITH_INVERSE along, which
  * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
 #if defined(SL_WITH_ALL)
+#undef SL_WITH_CHANGE
+#undef SL_WITH_SAVE
+#undef SL_WITH_BATCH
+#undef SL_WITH_COMPLEX
+#undef SL_WITH_FLOAT
+#undef SL_WITH_ACCURACY
+#undef SL_WITH_FILES
+#undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH

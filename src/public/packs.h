@@ -20,6 +20,14 @@
  * needs such a pack gives SL_ERR_UNSUPPORTED. SL_WITH_CHANGE brings SL_WITH_INVERSE along, which
  * pins need, and so does SL_WITH_SAVE. Objects and structs are the same with any packs. */
 #if defined(SL_WITH_ALL)
+#undef SL_WITH_CHANGE
+#undef SL_WITH_SAVE
+#undef SL_WITH_BATCH
+#undef SL_WITH_COMPLEX
+#undef SL_WITH_FLOAT
+#undef SL_WITH_ACCURACY
+#undef SL_WITH_FILES
+#undef SL_WITH_PIVOTS
 #define SL_WITH_CHANGE
 #define SL_WITH_SAVE
 #define SL_WITH_BATCH

@@ -141,9 +141,13 @@ check 'that header solves a system; options of other packs are refused' \
 if [ "$pack" = core ]; then
     needed "$flag" >"$dir/needed"
     declared -DSL_WITH_ALL >"$dir/of_all"
+    every=$(sed -n 's/^#define \(SL_WITH_[A-Z]*\)$/-D\1/p' src/public/packs.h | sort -u)
     check 'the calls of all packs are those of the core and those that it names' \
         "[ -s $dir/needed ] && sort -m $dir/declared $dir/needed >$dir/of_core &&
          same $dir/of_core $dir/of_all"
+    echo '#include "sparse_local.h"' >"$dir/include.c"
+    check 'all packs may be asked for beside one by name' \
+        "$cc $c99 -DSL_WITH_ALL $(echo $every) -fsyntax-only $dir/include.c"
     check 'none of all packs is named as missing' '[ -z "$(needed -DSL_WITH_ALL)" ]'
     { echo '#include "sparse_local.h"'
       awk '{ print "int f" NR "(void);\nint f" NR "(void) { return (int)" $1 "(0); }" }' \
