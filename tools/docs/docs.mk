@@ -7,15 +7,14 @@ docs: ## build/manual/index.html: guide, API, algorithms, formats; fails if a li
 
 # ---- examples ----
 
-EXAMPLE_PROGRAMS = $(patsubst tools/examples/%.c,$(B)/examples/%,$(wildcard tools/examples/*.c))
+# Those of the manual, to be pasted: with example.h in them, and with the packs that they name alone. Here they are linked with
+# the bodies that the tests have.
+EXAMPLES = $(patsubst tools/examples/%.c,%,$(wildcard tools/examples/*.c))
 
-$(B)/examples/%: tools/examples/%.c tools/examples/example.h $(IMPL)
-	@mkdir -p $(@D)
-	$(call say,CC  )
-	$(Q)$(CC) $(C_FLAGS) -o $@ $< $(IMPL) $(LIBS)
-
-test-examples: deps sparse_local.h ## compiles and runs the programs of tools/examples
-	@$(MAKE) --no-print-directory $(EXAMPLE_PROGRAMS)
-	@cd $(B)/examples && for program in $(notdir $(EXAMPLE_PROGRAMS)); do \
-	./$$program >$$program.txt || { echo "$$program failed"; cat $$program.txt; exit 1; }; done
-	@echo '$(words $(EXAMPLE_PROGRAMS)) passed, 0 failed'
+test-examples: deps docs $(IMPL) ## compiles and runs the programs of tools/examples, as the manual shows them
+	@mkdir -p $(B)/examples
+	@cd $(B)/examples && for name in $(EXAMPLES); do \
+	sed '/define SPARSE_LOCAL_IMPLEMENTATION/d' $(CURDIR)/build/manual/examples/$$name.c >$$name.c && \
+	$(CC) $(filter-out $(PACK_FLAGS),$(C_FLAGS)) -I$(CURDIR) -o $$name $$name.c $(abspath $(IMPL)) $(LIBS) && \
+	./$$name >$$name.txt || { echo "$$name failed"; cat $$name.txt; exit 1; }; done
+	@echo '$(words $(EXAMPLES)) passed, 0 failed'

@@ -3,12 +3,14 @@
 
     tools/docs/manual.py OUTPUT
 
-Pages: index (the guide), api, the chapters of tools/docs, format, tests, platforms, changelog.
-Names of the API become links, and so do chapters that a comment names as tools/docs/NAME.md. Ends
-with 1 if a link leads nowhere, a public name has no comment, or a file that a comment gives as its
-example is missing.
+Pages: index (the guide), api (all names), api-NAME for each public file, the chapters of
+tools/docs, format, tests, platforms, changelog. The field at the top of each page leads to a name.
+Names of the API become links, and so do chapters that a comment names as tools/docs/NAME.md. The
+examples are written as whole programs too, examples/NAME.c. Ends with 1 if a link leads nowhere, a
+public name has no comment, or a file that a comment gives as its example is missing.
 """
 import html
+import json
 import os
 import re
 import shutil
@@ -26,6 +28,7 @@ th { text-align: left; background: #f4f4f2 } a { color: #0645ad; text-decoration
 img { max-width: 100% }
 a:hover { text-decoration: underline }
 nav { border-bottom: 1px solid #ccc; padding-bottom: .5em }
+nav input { font: inherit; width: 16em }
 h2 { margin-top: 2em } h3 { margin-top: 1.5em }
 """
 CHAPTERS = [("algorithms", "Algorithms"), ("ordering", "Orderings"),
@@ -100,39 +103,43 @@ def comment_text(comment):
     return "\n".join(re.sub(r"^ \*(  ?)?", "", line) for line in body.split("\n"))
 
 
-def api_page(manifest):
-    """The body of the API page, and the names that it defines."""
-    files = re.findall(r'#include "public/(\w+\.h)"', manifest)
-    parts, contents, names = [], [], []
-    for file in files:
-        text = read("src/public/" + file)
-        title = re.match(r"/\* (\w+\.h): (.*?) \*/", text).group(2)
-        parts.append('<h2 id="%s">%s: %s</h2>' % (file, file, html.escape(title)))
-        found = []
-        for entry in parse_header(text.split("\n", 1)[1]):
-            if entry.name and entry.name.startswith("SL_PUBLIC"):
-                continue
-            if entry.name:
-                names.append(entry.name)
-                found.append(entry.name)
-                parts.append('<h3 id="%s">%s</h3>' % (entry.name, entry.name))
-                # a view is described at the struct that it returns
-                if not (entry.comment or entry.name.endswith("_view") or
-                        entry.code.startswith("#")) and "SL_API" in entry.code:
-                    PROBLEMS.append("%s has no comment" % entry.name)
-            if entry.code:
-                parts.append("<pre>%s</pre>" % html.escape(entry.code))
-            if entry.comment:
-                text_of = comment_text(entry.comment)
-                for example in re.findall(r"Example +(.*)", text_of):
-                    for path in re.findall(r"[\w/]+\.c\b", example):
-                        path = path if "/" in path else "tests/core/" + path
-                        if not os.path.exists(os.path.join(ROOT, path)):
-                            PROBLEMS.append("%s gives the example %s" % (entry.name, path))
-                parts.append("<pre>%s</pre>" % html.escape(text_of))
-        contents.append('<li><a href="#%s">%s</a>: %s</li>' % (
-            file, file, ", ".join('<a href="#%s">%s</a>' % (n, n) for n in found)))
-    return "<h1>API</h1><ul>%s</ul>" % "".join(contents) + "\n".join(parts), names
+def api_entry(entry):
+    """The HTML of a declaration and its comment."""
+    parts = ['<h3 id="%s">%s</h3>' % (entry.name, entry.name)] if entry.name else []
+    # a view is described at the struct that it returns
+    if entry.name and "SL_API" in entry.code and not (
+            entry.comment or entry.name.endswith("_view") or entry.code.startswith("#")):
+        PROBLEMS.append("%s has no comment" % entry.name)
+    if entry.code:
+        parts.append("<pre>%s</pre>" % html.escape(entry.code))
+    if entry.comment:
+        text = comment_text(entry.comment)
+        for example in re.findall(r"Example +(.*)", text):
+            for path in re.findall(r"[\w/]+\.c\b", example):
+                path = path if "/" in path else "tests/core/" + path
+                if not os.path.exists(os.path.join(ROOT, path)):
+                    PROBLEMS.append("%s gives the example %s" % (entry.name, path))
+        parts.append("<pre>%s</pre>" % html.escape(text))
+    return "\n".join(parts)
+
+
+def api_pages(manifest):
+    """The bodies of the page of all names and of one page a public file; the page of each name."""
+    pages, contents, page_of_name = {}, [], {}
+    for file in re.findall(r'#include "public/(\w+)\.h"', manifest):
+        page = "api-" + file
+        text = read("src/public/%s.h" % file)
+        title = html.escape(re.match(r"/\* (\w+\.h): (.*?) \*/", text).group(2))
+        entries = [entry for entry in parse_header(text.split("\n", 1)[1])
+                   if not (entry.name or "").startswith("SL_PUBLIC")]
+        found = [entry.name for entry in entries if entry.name]
+        page_of_name.update((name, page) for name in found)
+        pages[page] = "<h1>%s.h: %s</h1>\n%s" % (file, title,
+                                                "\n".join(api_entry(e) for e in entries))
+        contents.append('<li><a href="%s.html">%s.h</a>: %s<br>%s</li>' % (
+            page, file, title, ", ".join(found)))
+    pages["api"] = "<h1>API</h1><ul>%s</ul>" % "\n".join(contents)
+    return pages, page_of_name
 
 
 # ---- Markdown, as far as the files use it ----
@@ -229,24 +236,32 @@ def examples():
     return sorted(name[:-2] for name in os.listdir(folder) if name.endswith(".c"))
 
 
+def whole_example(name):
+    """The program with example.h in it, to be pasted: it needs the header of the library alone."""
+    shared = read("tools/examples/example.h")
+    shared = shared[shared.index('#include "sparse_local.h"'):shared.rindex("#endif")].strip()
+    text = read("tools/examples/%s.c" % name)
+    return text.replace('#include "example.h"', "#define SPARSE_LOCAL_IMPLEMENTATION\n" + shared)
+
+
 def included(kind, name=None):
     """@file PATH, @example NAME, @examples: source code in the page."""
     if kind == "examples":
-        return "\n".join('<h3 id="example-%s">%s</h3>%s' % (e, e, included("example", e))
-                         for e in examples())
-    path = "tools/examples/%s.c" % name if kind == "example" else name
-    return "<pre>%s</pre>" % html.escape(read(path))
+        return "\n".join('<h3 id="example-%s"><a href="examples/%s.c">%s.c</a></h3>%s' % (
+            e, e, e, included("example", e)) for e in examples())
+    text = whole_example(name) if kind == "example" else read(name)
+    return "<pre>%s</pre>" % html.escape(text)
 
 
 # ---- pages ----
 
-def link_names(body, names):
+def link_names(body, page_of_name):
     """Names of the API as links, outside of tags, links and headings."""
-    known = set(names)
     pieces = re.split(r"(<a .*?</a>|<h[1-6].*?</h[1-6]>|<[^>]*>)", body, flags=re.S)
     for k in range(0, len(pieces), 2):
-        pieces[k] = re.sub(r"\b(?:sl|SL)_\w+", lambda m: '<a href="api.html#%s">%s</a>' % (
-            m.group(0), m.group(0)) if m.group(0) in known else m.group(0), pieces[k])
+        pieces[k] = re.sub(r"\b(?:sl|SL)_\w+", lambda m: '<a href="%s.html#%s">%s</a>' % (
+            page_of_name[m.group(0)], m.group(0), m.group(0))
+            if m.group(0) in page_of_name else m.group(0), pieces[k])
     return "".join(pieces)
 
 
@@ -265,7 +280,7 @@ def check_links(pages):
     ids = {name: set(re.findall(r'id="([^"]+)"', body)) for name, body in pages.items()}
     for name, body in pages.items():
         for target in re.findall(r'href="([^"]+)"', body):
-            if target.startswith("http"):
+            if target.startswith("http") or target.startswith("examples/"):
                 continue
             page, _, part = target.partition("#")
             page = page[:-5] if page.endswith(".html") else page or name
@@ -273,20 +288,26 @@ def check_links(pages):
                 PROBLEMS.append("%s.html has a link to %s" % (name, target))
 
 
-def main():
-    output = sys.argv[1]
-    os.makedirs(output, exist_ok=True)
-    api, names = api_page(read("src/sparse_local.in.h"))
-    pages = {"index": markdown(read("tools/docs/guide.md")), "api": api,
-             "format": markdown(read("src/FORMAT.md")), "tests": markdown(read("tests/README.md")),
-             "platforms": markdown(section(read("README.md"), "Platforms")),
-             "changelog": markdown(read("CHANGELOG.md"))}
-    for name, _ in CHAPTERS:
-        pages[name] = markdown(read("tools/docs/%s.md" % name))
-    for name in pages:
-        pages[name] = link_names(pages[name], names)
-    pages["api"] = link_chapters(pages["api"])
-    check_links(pages)
+def search_script(page_of_name):
+    """A script that fills the list of names and goes to the one that is entered."""
+    return """/* search.js: the field at the top of each page */
+var page_of_name = %s;
+var field = document.getElementById("name"), list = document.getElementById("names");
+for (var name in page_of_name) {
+    var option = document.createElement("option");
+    option.value = name;
+    list.appendChild(option);
+}
+field.addEventListener("input", function () {
+    if (page_of_name.hasOwnProperty(field.value)) {
+        location.href = page_of_name[field.value] + ".html#" + field.value;
+    }
+});
+""" % json.dumps(page_of_name, indent=0, sort_keys=True)
+
+
+def check_texts(page_of_name):
+    """Do the guide, the chapters and intro.h mention what exists, and all examples?"""
     guide = read("tools/docs/guide.md")
     for name in examples():
         if "@" + name not in guide:
@@ -294,22 +315,52 @@ def main():
     written = [("guide", guide), ("intro.h", read("src/public/intro.h"))]
     written += [(name, read("tools/docs/%s.md" % name)) for name, _ in CHAPTERS]
     for page, text in written:
-        for name in sorted(set(re.findall(r"\bsl_\w+\b", text)) - set(names)):
+        for name in sorted(set(re.findall(r"\bsl_\w+\b", text)) - set(page_of_name)):
             PROBLEMS.append("%s mentions %s, which is not public" % (page, name))
     rows = re.findall(r"^ \*  .*?\b(sl_\w+).*? (\w+\.h)", read("src/public/intro.h"), re.M)
     for name, file in rows:
-        if not re.search(r"\b%s\(" % name, read("src/public/" + file)):
+        if page_of_name.get(name) != "api-" + file[:-2]:
             PROBLEMS.append("intro.h: %s is not in %s" % (name, file))
-    nav = "<nav>sparse_local.h: %s</nav>" % " &middot; ".join(
-        '<a href="%s.html">%s</a>' % page for page in PAGES)
-    for name, title in PAGES:
-        with open(os.path.join(output, name + ".html"), "w", encoding="utf-8") as file:
-            file.write('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-                       "<title>sparse_local.h: %s</title>\n<style>%s</style></head>\n<body>%s\n%s\n"
-                       "</body></html>\n" % (title, STYLE, nav, pages[name]))
+
+
+def write(output, name, text):
+    with open(os.path.join(output, name), "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def main():
+    output = sys.argv[1]
+    os.makedirs(os.path.join(output, "examples"), exist_ok=True)
+    pages, page_of_name = api_pages(read("src/sparse_local.in.h"))
+    titles = dict(PAGES, **{page: page[4:] + ".h" for page in pages if page != "api"})
+    pages.update({"index": markdown(read("tools/docs/guide.md")),
+                  "format": markdown(read("src/FORMAT.md")),
+                  "tests": markdown(read("tests/README.md")),
+                  "platforms": markdown(section(read("README.md"), "Platforms")),
+                  "changelog": markdown(read("CHANGELOG.md"))})
+    for name, _ in CHAPTERS:
+        pages[name] = markdown(read("tools/docs/%s.md" % name))
+    for name in pages:
+        pages[name] = link_names(pages[name], page_of_name)
+        if name.startswith("api"):
+            pages[name] = link_chapters(pages[name])
+    check_links(pages)
+    check_texts(page_of_name)
+    nav = '<nav>sparse_local.h: %s &middot; <input id="name" list="names" placeholder="a name of ' \
+          'the API" autocomplete="off"><datalist id="names"></datalist></nav>' % " &middot; ".join(
+              '<a href="%s.html">%s</a>' % page for page in PAGES)
+    for name in pages:
+        write(output, name + ".html",
+              '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
+              "<title>sparse_local.h: %s</title>\n<style>%s</style></head>\n<body>%s\n%s\n"
+              '<script src="search.js"></script></body></html>\n' % (titles[name], STYLE, nav,
+                                                                     pages[name]))
+    write(output, "search.js", search_script(page_of_name))
+    for name in examples():
+        write(output, "examples/%s.c" % name, whole_example(name))
     for path in PICTURES:
         shutil.copy(os.path.join(ROOT, path), output)
-    print("%d pages, %d names of the API, %d examples in %s" % (len(pages), len(names),
+    print("%d pages, %d names of the API, %d examples in %s" % (len(pages), len(page_of_name),
                                                                len(examples()), output))
     for problem in PROBLEMS:
         print("manual.py: " + problem, file=sys.stderr)

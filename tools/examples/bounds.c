@@ -1,4 +1,5 @@
 /* bounds.c: a local solve that says how far each of its answers is from the exact one */
+#define SL_WITH_ACCURACY
 #include "example.h"
 
 enum { SOURCE = 20 * SIDE + 20, COUNT = 4 };

@@ -1,4 +1,5 @@
 /* change.c: edges of a graph become stiffer one after the other; the factor follows each change */
+#define SL_WITH_CHANGE
 #include "example.h"
 
 int main(void) {

@@ -1,4 +1,5 @@
 /* complex.c: a vector carried over a surface by a complex Hermitian system */
+#define SL_WITH_COMPLEX
 #include "example.h"
 
 /* The tangent plane of vertex v has an x-axis of its own, here rotated by frame(v). */

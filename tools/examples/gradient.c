@@ -1,4 +1,5 @@
 /* gradient.c: the derivative of a few answers by a source and by edge weights: two local solves */
+#define SL_WITH_CHANGE
 #include "example.h"
 
 enum { SOURCE = 10 * SIDE + 10, SENSORS = 2, EDGES = 3, ROWS = 2 * EDGES };

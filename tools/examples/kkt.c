@@ -1,4 +1,6 @@
 /* kkt.c: an indefinite system with zeros on its diagonal: 1x1 and 2x2 pivots, refinement */
+#define SL_WITH_ACCURACY
+#define SL_WITH_PIVOTS
 #include "example.h"
 
 int main(void) {

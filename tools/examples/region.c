@@ -1,4 +1,5 @@
 /* region.c: a region: local solves at a cost that does not depend on the rest of the matrix */
+#define SL_WITH_INVERSE
 #include "example.h"
 
 int main(void) {

@@ -1,4 +1,6 @@
 /* sample.c: samples with covariance A^-1 on a few rows alone, by half of a local solve */
+#define SL_WITH_ACCURACY
+#define SL_WITH_INVERSE
 #include "example.h"
 
 int main(void) {

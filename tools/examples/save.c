@@ -1,4 +1,5 @@
 /* save.c: a factor in a file, mapped by another process without reading or copying it */
+#define SL_WITH_SAVE
 #include "example.h"
 
 int main(void) {

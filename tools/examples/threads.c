@@ -2,6 +2,7 @@
 #include <pthread.h>
 #include <string.h>
 
+#define SL_WITH_BATCH
 #include "example.h"
 
 enum { WORKERS = 3, RHS = 32 }; /* WORKERS: besides the calling thread */

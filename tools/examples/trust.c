@@ -1,4 +1,5 @@
 /* trust.c: how far to trust a solution: growth, condition and backward error */
+#define SL_WITH_ACCURACY
 #include "example.h"
 
 int main(void) {

@@ -1,4 +1,5 @@
 /* variance.c: diagonal entries of the inverse: the variances of a few unknowns */
+#define SL_WITH_INVERSE
 #include "example.h"
 
 int main(void) {
