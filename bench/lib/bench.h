@@ -349,6 +349,15 @@ void bench_row_reach(bench_row *row, const sl_stats *stats);
 /** Sets the reach and entries of a row to those of a full solve. */
 void bench_row_full(bench_row *row, const bench_system *system);
 
+/* ---- the run in words (summary.c) ---- */
+
+/** Keeps a row of a question for bench_summary_print. */
+void bench_summary_keep(const char *question, const bench_system *system, const bench_row *row);
+
+/** Prints a sentence or two on each of the first questions that were answered. */
+void bench_summary_print(void);
+void bench_summary_free(void);
+
 /* ---- the variants of a local solve, timed (solve_variants.c) ---- */
 enum {
     BENCH_PLAN_SOLVE = 0,

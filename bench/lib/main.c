@@ -165,6 +165,7 @@ static int set_up(bench_run *run) {
 
 int main(int argc, char **argv) {
     bench_run run;
+    int selected = 0, answered = 0;
     output_begin_program("bench");
     for (int a = 1; a < argc; a++) {
         int known = 0;
@@ -190,8 +191,12 @@ int main(int argc, char **argv) {
     bench_bandwidth_measure();
     bench_peak_measure(&run);
     for (int k = 0; k < N_QUESTIONS; k++) {
+        selected += is_selected(&run, k, argc, argv);
+    }
+    for (int k = 0; k < N_QUESTIONS; k++) {
         if (is_selected(&run, k, argc, argv)) {
             double begin = bench_now();
+            bench_progress("[question %d of %d: %s]\n", ++answered, selected, questions[k].name);
             questions[k].answer(&run);
             bench_progress("[%s: %.0f s]\n", questions[k].name, bench_now() - begin);
         }
@@ -203,8 +208,10 @@ int main(int argc, char **argv) {
         }
         printf("\n");
     }
+    bench_summary_print();
     printf("\n%.0f s in total; CSV files and plots are in %s; %d checks failed\n",
            bench_now() - start, run.out_dir, run.failures);
+    bench_summary_free();
     bench_systems_free();
     bench_threads_free();
     return run.failures > 0;

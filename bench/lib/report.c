@@ -108,6 +108,7 @@ void bench_report_row(bench_report *report, const bench_system *system, const be
         report->system = system;
     }
     print_row(row, isa, seconds, limit);
+    bench_summary_keep(report->name, system, row);
     fprintf(report->csv,
             "%s,\"%s\",%d,%lld,%lld,%s,%d,\"%s\",\"%s\",%d,%d,%d,%lld,%lld,%.0f,%.0f,%d,%.9g,%.9g,%"
             ".9g,%.4g,%."
