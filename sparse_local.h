@@ -1,60 +1,60 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: dc1336cb44698585
+ * FNV-1a of the lines after this comment, without the license: 91759c6444b0983a
  * The comments of the implementation are in src/impl.
  *
  * Contents
  *     62 intro.h      what the library does, a quick start, which call for which question, references
- *    169 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    210 config.h     macros that a user may define before the include, the version, and the integer types
- *    288 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    466 options.h    options of all calls, threads, and the allocator
- *    606 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    820 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    918 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    992 factor.h     the numerical factorization P A P' = L D L'
- *   1116 solve.h      full solves, and the workspace of all solves
- *   1211 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1289 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1388 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1428 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1536 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1613 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1698 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1794 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1906 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1945 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2073 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2105 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2294 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2406 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2533 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2573 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2661 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2770 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2807 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2884 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2924 impl/ base: the compiler, status, memory, sorting, threads
- *   3908 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4765 impl/ matrix: sparse matrices of the caller and of the library
- *   5308 impl/ ordering: fill-reducing orderings of a graph
- *   9670 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11616 impl/ factor: the numbers of L and D
- *  14764 impl/ solve: full and local solves
- *  16344 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18103 impl/ pivots: the order of the pivots by the values of a matrix
- *  18517 impl/ float: L and fronts in single precision
- *  18964 impl/ inverse: entries of the inverse, regions
- *  21900 impl/ change: a factor that follows changes of its matrix
- *  28535 impl/ io: files that are replaced only when they are complete
- *  28747 impl/ files: Matrix Market files, 64-bit indices
- *  29343 impl/ save: factors in files
- *  31269 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31934 impl/ batch: diagonals of many inverses
- *  32074 impl/ complex: complex Hermitian systems over real factors
- *  32600 impl/ complex: entries of the inverse
- *  32652 impl/ packs: the tables through which the core calls packs
- *  32684 impl/ last: undefine every internal macro
- *  32999 impl/ templates: the header includes them from itself, once for each instruction set
+ *    175 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    216 config.h     macros that a user may define before the include, the version, and the integer types
+ *    294 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    472 options.h    options of all calls, threads, and the allocator
+ *    612 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    826 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    924 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    998 factor.h     the numerical factorization P A P' = L D L'
+ *   1122 solve.h      full solves, and the workspace of all solves
+ *   1217 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1295 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1394 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1434 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1542 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1619 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1704 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1800 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1912 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1951 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2079 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2111 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2300 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2412 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2539 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2579 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2667 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2776 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2813 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2890 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2930 impl/ base: the compiler, status, memory, sorting, threads
+ *   3914 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4771 impl/ matrix: sparse matrices of the caller and of the library
+ *   5314 impl/ ordering: fill-reducing orderings of a graph
+ *   9676 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11622 impl/ factor: the numbers of L and D
+ *  14770 impl/ solve: full and local solves
+ *  16350 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18109 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18523 impl/ float: L and fronts in single precision
+ *  18970 impl/ inverse: entries of the inverse, regions
+ *  21906 impl/ change: a factor that follows changes of its matrix
+ *  28541 impl/ io: files that are replaced only when they are complete
+ *  28753 impl/ files: Matrix Market files, 64-bit indices
+ *  29349 impl/ save: factors in files
+ *  31275 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  31940 impl/ batch: diagonals of many inverses
+ *  32080 impl/ complex: complex Hermitian systems over real factors
+ *  32606 impl/ complex: entries of the inverse
+ *  32658 impl/ packs: the tables through which the core calls packs
+ *  32690 impl/ last: undefine every internal macro
+ *  33005 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -86,30 +86,36 @@
  * calls are the core. Many others need the macro of their pack (packs.h).
  */
 
-/* Which call for which question
+/* Which call for which question. In the core:
  *
+ *  a matrix from triplets                         sl_matrix_from_triplets                  csc.h
  *  the same pattern with new values               sl_factor_refactor                     factor.h
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
- *  many such questions in one part of a mesh      sl_region_create                       region.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  several processors                             options.threads                        options.h
+ *  what failed, and where; counts and times       sl_stats                               stats.h
+ *
+ * In packs:
+ *
  *  an indefinite or KKT system                    sl_symbolic_create_pivoted             pivots.h
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
+ *  how far off is each answer?                    sl_factor_certify                      bounds.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
  *  rows held at given values                      sl_pins_create                         pins.h
  *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
+ *  local solves in one part of a mesh, often       sl_region_create                       region.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_batch_factor                        several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
- *  a matrix from triplets, from a file            sl_matrix_from_triplets, _read  csc.h, files.h
- *  several processors                             options.threads                        options.h
+ *  a matrix from a file                           sl_matrix_read                         files.h
  */
 
 /* Notation     A is n x n. perm[k] is the row of A that is pivot k; iperm is the inverse of perm.

@@ -27,30 +27,36 @@
  * calls are the core. Many others need the macro of their pack (packs.h).
  */
 
-/* Which call for which question
+/* Which call for which question. In the core:
  *
+ *  a matrix from triplets                         sl_matrix_from_triplets                  csc.h
  *  the same pattern with new values               sl_factor_refactor                     factor.h
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h
  *  the same once                                  sl_local_solve                         plan.h
- *  many such questions in one part of a mesh      sl_region_create                       region.h
  *  a singular Laplacian, an elastic body          options.null_pivots, mass, null_vector options.h
+ *  several processors                             options.threads                        options.h
+ *  what failed, and where; counts and times       sl_stats                               stats.h
+ *
+ * In packs:
+ *
  *  an indefinite or KKT system                    sl_symbolic_create_pivoted             pivots.h
  *  can the solution be trusted?                   sl_factor_refine, sl_factor_rcond      accuracy.h
+ *  how far off is each answer?                    sl_factor_certify                      bounds.h
  *  a few entries changed, A + V V'                sl_factor_change, sl_factor_update     change.h
  *  rows held at given values                      sl_pins_create                         pins.h
  *  a part of A, with zero values around it        sl_factor_restrict                     restrict.h
  *  a mesh that is cut or remeshed in places       sl_symbolic_edit, sl_factor_edit       edit.h
  *  variances, entries of the inverse              sl_inverse_diagonal, sl_inverse_pairs  inverse.h
  *  the inverse on the whole pattern of L          sl_selected_create                     selected.h
+ *  local solves in one part of a mesh, often       sl_region_create                       region.h
  *  L, D or L' alone, samples of covariance A^-1   sl_factor_solve_part                   parts.h
  *  the pseudo-inverse of a singular A             sl_factor_pseudo_inverse               pseudo.h
  *  many solves by one call                        sl_batch_solve                         batch.h
  *  M + t K for many t                             sl_batch_factor                        several.h
  *  a factor in a file, mapped without a copy      sl_map_file                            save.h
  *  a complex Hermitian system                     sl_matrix_from_hermitian               complex.h
- *  a matrix from triplets, from a file            sl_matrix_from_triplets, _read  csc.h, files.h
- *  several processors                             options.threads                        options.h
+ *  a matrix from a file                           sl_matrix_read                         files.h
  */
 
 /* Notation     A is n x n. perm[k] is the row of A that is pivot k; iperm is the inverse of perm.
