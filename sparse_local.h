@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 91759c6444b0983a
+ * FNV-1a of the lines after this comment, without the license: bdebefa12cdf303a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -88,7 +88,7 @@
 
 /* Which call for which question. In the core:
  *
- *  a matrix from triplets                         sl_matrix_from_triplets                  csc.h
+ *  a matrix from triplets                         sl_matrix_from_triplets                csc.h
  *  the same pattern with new values               sl_factor_refactor                     factor.h
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h

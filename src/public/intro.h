@@ -29,7 +29,7 @@
 
 /* Which call for which question. In the core:
  *
- *  a matrix from triplets                         sl_matrix_from_triplets                  csc.h
+ *  a matrix from triplets                         sl_matrix_from_triplets                csc.h
  *  the same pattern with new values               sl_factor_refactor                     factor.h
  *  x everywhere for b everywhere                  sl_factor_solve                        solve.h
  *  x in a few rows for b in a few rows, often     sl_plan_create, sl_plan_solve          plan.h

@@ -187,7 +187,7 @@ static void permissions_are_respected(void **state) {
     assert_int_equal(remove(in_locked), 0);
     assert_int_equal(rmdir(locked), 0);
     if (reached == NULL) {
-        skip(); /* the other user may not enter the folders above */
+        TEST_SKIP("the other user may not enter the folders above");
     }
 }
 

@@ -60,8 +60,7 @@ static char *path_or_skip(const char *name) {
     }
     dataset_free(&d);
     if (!copy) {
-        print_message("SL_DATA has no %s: skipped\n", name);
-        skip();
+        TEST_SKIP("SL_DATA has no %s", name);
     }
     return copy;
 }

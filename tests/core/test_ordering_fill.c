@@ -131,7 +131,7 @@ static void fill_is_near_that_of_metis(void **state) {
                       {"volume", {18, 20, 22}, 1.06, 1.06}};
     int failures = 0;
     if (!ordering_is_present(SL_ORDERING_METIS)) {
-        skip();
+        TEST_SKIP("built without METIS");
     }
     for (int kind = 0; kind < GRIDS; kind++) {
         order_quality ours = {0, 0}, metis = {0, 0};
@@ -164,7 +164,7 @@ static void meshes_are_near_metis(void **state) {
     static const sl_int sides[SIZES] = {130, 150, 170};
     int failures = 0;
     if (!ordering_is_present(SL_ORDERING_METIS)) {
-        skip();
+        TEST_SKIP("built without METIS");
     }
     for (int m = 1; m < MESHES; m++) {
         order_quality ours = {0, 0}, metis = {0, 0};
@@ -217,7 +217,7 @@ static void volumes_are_near_metis(void **state) {
                  {"plates", {60, 60, 50}, {2, 3, 8}, 1, 1, 1.06}};
     int failures = 0;
     if (!ordering_is_present(SL_ORDERING_METIS)) {
-        skip();
+        TEST_SKIP("built without METIS");
     }
     for (size_t k = 0; k < sizeof boxes / sizeof *boxes; k++) {
         order_quality ours = {0, 0}, metis = {0, 0};
@@ -240,7 +240,7 @@ static void rings_are_near_metis(void **state) {
     static const sl_int sides[SIZES] = {60, 80, 100};
     int failures = 0;
     if (!ordering_is_present(SL_ORDERING_METIS)) {
-        skip();
+        TEST_SKIP("built without METIS");
     }
     for (int m = 1; m < MESHES; m++) {
         for (int k = 2; k <= 3; k++) {

@@ -11,8 +11,7 @@
 static inline dataset data_or_skip(const char *name) {
     dataset d;
     if (!dataset_list(&d, NULL, name)) {
-        print_message("SL_DATA has no folder %s: skipped\n", name);
-        skip();
+        TEST_SKIP("SL_DATA has no folder %s", name);
     }
     return d;
 }

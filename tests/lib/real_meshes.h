@@ -13,8 +13,7 @@ static inline void each_mesh(const char *const *names, int count, sl_int most,
                              void (*try_one)(const char *name, mesh m)) {
     dataset data;
     if (!dataset_list(&data, NULL, "meshes")) {
-        print_message("SL_DATA has no folder meshes: skipped\n");
-        skip();
+        TEST_SKIP("SL_DATA has no folder meshes");
     }
     for (size_t k = 0; k < data.count; k++) {
         const char *name = dataset_basename(data.paths[k]);

@@ -43,7 +43,9 @@ run_one() {
     if [ "$failed" -eq 0 ]; then
         note=
         [ "$skipped" -eq 0 ] || note=" ($skipped skipped)"
-        printf '%-24s %4d passed%s, %d s\n' "$name" "$passed" "$note" "$seconds"
+        reasons=$(sed -n 's/^skipped:* */    skipped: /p' "$log" | sort -u)
+        printf '%-24s %4d passed%s, %d s%s\n' "$name" "$passed" "$note" "$seconds" "${reasons:+
+$reasons}"
     else
         # in one piece, so that programs at the same time do not mix their lines
         text=$(grep -v -e '^\[ RUN  ' -e '^\[       OK' "$log" | tail -n 60 | sed 's/^/    /')

@@ -31,6 +31,15 @@ static inline void test_status(sl_status got, sl_status wanted, const char *call
 #define SL_CHECK(call) test_status((call), SL_OK, #call, __FILE__, __LINE__)
 #define SL_EXPECT(status, call) test_status((call), (status), #call, __FILE__, __LINE__)
 
+/* Skips the test. run.sh prints the reason. */
+#define TEST_SKIP(...)              \
+    do {                            \
+        print_message("skipped: "); \
+        print_message(__VA_ARGS__); \
+        print_message("\n");        \
+        skip();                     \
+    } while (0)
+
 /* A file that may be written at any time. */
 #if defined(_WIN32)
 #define NOWHERE "NUL"

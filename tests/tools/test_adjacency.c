@@ -143,8 +143,7 @@ static void real_meshes_have_the_known_components(void **state) {
                  {"colin.cerebral.L.flat.164k_fs_LR.ply.gz", 1, 14840}};
     dataset d;
     if (!dataset_list(&d, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: no real components are counted\n");
-        skip();
+        TEST_SKIP("SL_DATA names no folder with meshes: no real components are counted");
     }
     for (size_t k = 0; k < d.count; k++) {
         for (size_t t = 0; t < sizeof known / sizeof known[0]; t++) {

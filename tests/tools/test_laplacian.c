@@ -214,8 +214,7 @@ static void real_laplacians_are_semidefinite(void **state) {
     (void)state;
     dataset d;
     if (!dataset_list(&d, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: no real Laplacians are made\n");
-        skip();
+        TEST_SKIP("SL_DATA names no folder with meshes: no real Laplacians are made");
     }
     for (size_t k = 0; k < d.count; k++) {
         check_mesh(d.paths[k]);

@@ -300,8 +300,7 @@ static void real_matrices_are_read(void **state) {
                  {"coordinate_hermitian_real_row_general_dup.mtx", 3, 5, SL_TRIANGLE_BOTH}};
     dataset d;
     if (!dataset_list(&d, NULL, "matrices")) {
-        print_message("SL_DATA names no folder with matrices: no real matrices are read\n");
-        skip();
+        TEST_SKIP("SL_DATA names no folder with matrices: no real matrices are read");
     }
     size_t checked = 0;
     for (size_t k = 0; k < d.count; k++) {
@@ -337,8 +336,7 @@ static void real_files_of_one_matrix_agree(void **state) {
     (void)snprintf(upper_path, sizeof upper_path, "%s/matrices/k01up_cholmod.txt",
                    root != NULL ? root : "");
     if (root == NULL || access(lower_path, R_OK) != 0 || access(upper_path, R_OK) != 0) {
-        print_message("SL_DATA lacks bcsstk01.rb or k01up_cholmod.txt: not compared\n");
-        skip();
+        TEST_SKIP("SL_DATA lacks bcsstk01.rb or k01up_cholmod.txt: not compared");
     }
     sl_matrix *lower = read_or_fail(lower_path);
     sl_matrix *upper = read_or_fail(upper_path);

@@ -171,8 +171,7 @@ static void real_meshes_are_read(void **state) {
                  {"hole_capsule.off", 89, 152}};
     dataset d;
     if (!dataset_list(&d, NULL, "meshes")) {
-        print_message("SL_DATA names no folder with meshes: no real meshes are read\n");
-        skip();
+        TEST_SKIP("SL_DATA names no folder with meshes: no real meshes are read");
     }
     size_t checked = 0;
     for (size_t k = 0; k < d.count; k++) {
