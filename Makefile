@@ -26,7 +26,9 @@ PACKS ?=
 V ?=
 
 Q := $(if $(V),,@)
-say = @echo '  $(1)  $@'
+# What is made, with a count; also of how many, if the tests are built in a new folder.
+say = $(eval SAID += x)@echo '  $(1)  [$(words $(SAID))$(EXPECTED)] $@'
+EXPECTED := $(if $(filter run-tests,$(MAKECMDGOALS)),$(if $(wildcard $(B)/obj),, of about $(words $(wildcard tests/*/*.c tests/*/*.c tools/*/*.c) sparse_local.o)))
 SL_DATA ?= $(wildcard $(DATA))
 export SL_DATA BENCH MESH
 
