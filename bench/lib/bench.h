@@ -56,6 +56,7 @@ void bench_peers_shifted(bench_run *run);
 void bench_peers_complex(bench_run *run);
 void bench_peers_kkt(bench_run *run);
 void bench_peers_kinds(bench_run *run);
+void bench_peers_multifrontal(bench_run *run);
 #endif
 
 /* ---- clock, repetitions, memory, pseudo-random numbers (harness.c) ---- */

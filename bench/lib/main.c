@@ -82,6 +82,8 @@ static const question questions[] = {
     {"peers_kkt", "KKT systems of quadratic programs against LDL with AMD", bench_peers_kkt},
     {"peers_kinds", "first factors on many kinds of small systems against CHOLMOD and Eigen",
      bench_peers_kinds},
+    {"peers_multifrontal", "MUMPS: factor, solves, entries of the inverse; Scotch: orders",
+     bench_peers_multifrontal},
 #endif
 };
 
