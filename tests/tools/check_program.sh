@@ -168,7 +168,7 @@ gives 2 'do not go with split' edit hills:9x9 --kinds pin,split
 gives 0 'v.html: 162 vertices, 320 faces, 5 fields' view sphere:2 "$dir/h1.csv" "$dir/a.csv" \
     "$dir/a.csv" --out "$dir/v.html"
 gives 2 'out FILE is missing' view sphere:2
-gives 2 'expected y, z or auto' view sphere:2 --up x --out "$dir/v.html"
+gives 2 'expected x, y, z or auto' view sphere:2 --up w --out "$dir/v.html"
 gives 1 'h1.csv:14: vertex 12 is not one of the 12 vertices' view sphere:0 "$dir/h1.csv" \
     --out "$dir/v.html"
 

@@ -42,7 +42,7 @@ shows() {
     record $? "$1: turning changes the picture"
     [ "$(number error)" = 0 ]
     record $? "$1: no error of WebGL"
-    vertex=$(echo "$report" | sed -n 's/.*vertex \([0-9]*\).*/\1/p')
+    vertex=$(echo "$report" | sed -n 's/.*error=[0-9]* vertex \([0-9]*\).*/\1/p')
     [ "${vertex:--1}" -ge 0 ] && [ "$vertex" -lt "$2" ]
     record $? "$1: a click finds a vertex"
 }
@@ -57,6 +57,34 @@ case $report in
 *"vertex $vertex: $value"*) record 0 ;;
 *) record 1 "the value of vertex $vertex is $value" ;;
 esac
+
+# Heat opens on the logarithm, distances open on a linear scale, both on the side of the source.
+# A long path stays in its box.
+long=$dir/a_name_of_a_mesh_that_is_longer_than_the_box_in_which_the_page_shows_it_without_a_blank
+opens() {
+    report=$(page "$1")
+    case $report in
+    *"scale=$2 shown=$3 over=0 "*) record 0 ;;
+    *) record 1 "$1 opens with scale=$2 shown=$3 over=0" ;;
+    esac
+}
+for v in 0 3 11; do
+    "$program" geodesic sphere:4 --from $v --csv "$dir/geodesic.csv" >"$dir/out" 2>&1
+    "$program" heat sphere:4 --from $v --csv "$long.csv" --out "$long.ply" >"$dir/out" 2>&1
+    "$program" view "$long.ply" "$long.csv" --out "$dir/heat.html" >"$dir/out" 2>&1
+    opens "$dir/heat.html" logarithm true
+    "$program" view sphere:4 "$dir/geodesic.csv" --out "$dir/distance.html" >"$dir/out" 2>&1
+    opens "$dir/distance.html" linear true
+done
+# A field with values of both signs, nearly all of them small, opens on quantiles.
+awk 'BEGIN {
+    print "vertex,u"
+    for (v = 0; v < 642; v++) print v "," (v / 642) ^ 50 * (v % 2 ? -1 : 1)
+}' >"$dir/signs.csv"
+"$program" view sphere:3 "$dir/signs.csv" --from 5 --out "$dir/signs.html" >"$dir/out" 2>&1
+opens "$dir/signs.html" quantiles true
+"$program" view sphere:3 --out "$dir/bare.html" >"$dir/out" 2>&1
+opens "$dir/bare.html" linear false
 
 # Tables of several commands are fields of one page.
 for command in adf hks geodesic; do

@@ -92,7 +92,9 @@ static void pages_hold_the_data(void **state) {
     assert_int_equal(m.n_vertices, 6);
     FILE *file = fopen(files_path("page.html"), "w");
     assert_non_null(file);
-    view_page_write(file, &m, "<b>&", 'z', &field, 1);
+    const sl_int marked[2] = {4, 1};
+    const view_page what = {&m, "<b>&", {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, marked, 2, &field, 1};
+    view_page_write(file, &what);
     assert_int_equal(fclose(file), 0);
     char *page = files_get(files_path("page.html"), &length);
     page[length] = '\0';
@@ -100,7 +102,8 @@ static void pages_hold_the_data(void **state) {
     assert_null(strstr(page, "http:")); /* nothing is loaded */
     assert_null(strstr(page, "https:"));
     assert_null(strstr(page, "src="));
-    assert_non_null(strstr(page, "title: \"\\u003cb\\u003e\\u0026\", up: \"z\""));
+    assert_non_null(strstr(page, "title: \"\\u003cb\\u003e\\u0026\",\n"
+                                 "axes: [1, 0, 0, 0, 0, 1, 0, -1, 0],\nmarked: [4, 1],\n"));
     assert_non_null(strstr(page, "{name: \"a\\u0022b\\u005c\\u003c/script\\u003e\\u000a\""));
     assert_int_equal(decode(page, "values: \"", bytes), sizeof values);
     for (int v = 0; v < 6; v++) {
@@ -119,9 +122,56 @@ static void pages_hold_the_data(void **state) {
     mesh_free(&m);
 }
 
+/* The camera is on the side of the source of the first field, or of the vertices of --from. */
+static void pages_open_at_the_source(void **state) {
+    (void)state;
+    static const struct {
+        const char *table, *words, *marked;
+        double side; /* of the z axis: the sign of the normal at the source; 0: the default */
+    } cases[] = {{"vertex,heat\n0,1\n4,7\n2,3\n", "", "marked: [4]", -1},
+                 {"vertex,distance\n0,1\n4,7\n5,0.5\n", "", "marked: [5]", 1},
+                 {"vertex,path,heat\n0,1,1\n4,0,1\n5,0.5,1\n", "", "marked: [4]", -1},
+                 {"vertex,adf\n0,1\n4,7\n", "", "marked: []", 0},
+                 {"vertex,heat\n0,nan\n", "", "marked: []", 0},
+                 {"vertex,heat\n0,1\n4,7\n", " --from 5,0,5", "marked: [5, 0]", 1},
+                 {"vertex,heat\n4,7\n", " --view 30,20", "marked: [4]", 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char words[2000];
+        int status;
+        size_t length;
+        double axes[9];
+        table_file(cases[k].table);
+        /* an octahedron: vertices 4 and 5 are at -z and +z */
+        files_put_text("o.off", "OFF\n6 8 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n0 0 -1\n0 0 1\n"
+                                "3 0 1 5\n3 1 2 5\n3 2 3 5\n3 3 0 5\n"
+                                "3 1 0 4\n3 2 1 4\n3 3 2 4\n3 0 3 4\n");
+        char mesh_path[640], table[640];
+        (void)snprintf(mesh_path, sizeof mesh_path, "%s", files_path("o.off"));
+        (void)snprintf(table, sizeof table, "%s", files_path("table.csv"));
+        (void)snprintf(words, sizeof words, "view %s %s --up y%s --out %s", mesh_path, table,
+                       cases[k].words, files_path("page.html"));
+        free(run_command(command_view, words, &status));
+        assert_int_equal(status, 0);
+        char *page = files_get(files_path("page.html"), &length);
+        page[length] = '\0';
+        assert_non_null(strstr(page, cases[k].marked));
+        const char *at = strstr(page, "axes: [") + strlen("axes: [");
+        for (int d = 0; d < 9; d++) {
+            axes[d] = strtod(at, (char **)&at);
+            at++;
+        }
+        if (cases[k].side == 0) {
+            assert_true(fabs(axes[7] - sin(20 * acos(-1) / 180)) < 1e-6);
+        } else {
+            assert_true(axes[8] * cases[k].side > 0.5);
+        }
+        free(page);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_are_read),
-                                       cmocka_unit_test(malformed_tables_are_refused),
-                                       cmocka_unit_test(pages_hold_the_data)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_are_read), cmocka_unit_test(malformed_tables_are_refused),
+        cmocka_unit_test(pages_hold_the_data), cmocka_unit_test(pages_open_at_the_source)};
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

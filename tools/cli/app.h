@@ -104,9 +104,12 @@ typedef struct app_output {
         {OPTION_TEXT, "scale", &(o)->scale, "N", \
          "draw N pixels for each pixel of --size, 1 to 4: text and lines keep their size and are " \
          "sharper (1)"}, \
-        {OPTION_TEXT, "view", &(o)->view, "A,E", \
-         "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
-         "the patch are, else 30,20; a flat mesh is seen from above)"}, \
+        APP_CAMERA_OPTIONS(o)
+
+#define APP_CAMERA_OPTIONS(o) \
+    {OPTION_TEXT, "view", &(o)->view, "A,E", \
+     "azimuth and elevation of the camera in degrees (default: the side where the sources or " \
+     "the patch are, else 30,20; a flat mesh is seen from above)"}, \
     { \
         OPTION_TEXT, "up", &(o)->up, "AXIS", \
             "axis that points upward in the picture, or auto: z if the extent of the mesh says " \

@@ -17,8 +17,9 @@ static const options_usage usage = {
 
 static const options_manual manual = {
     "The tables are those that heat, adf, hks and geodesic write with --csv. Each column is a "
-    "field that the page can show, as colors with a legend, on a linear or a logarithmic scale, "
-    "with or without isolines. Vertices without a value are gray. The page is one file: it "
+    "field that the page can show, as colors with a legend, on a linear or a logarithmic scale or "
+    "on quantiles, with or without isolines; it opens on the first of these scales on which "
+    "most values differ in color. Vertices without a value are gray. The page is one file: it "
     "loads nothing from the network and can be sent to others. It needs a browser with WebGL 2.",
     "The page, and a line on what it holds.",
     "bunny.obj --out bunny.html\nbunny.obj heat.csv adf.csv --out bunny.html"};
@@ -32,12 +33,12 @@ typedef struct view_fields {
     size_t n_fields;
 } view_fields;
 
-/* "heat.csv: heat" */
+/* "heat (heat.csv)" */
 static char *field_name(const char *path, const char *column) {
     const char *slash = strrchr(path, '/'), *file = slash != NULL ? slash + 1 : path;
-    const size_t size = strlen(file) + strlen(column) + 3;
+    const size_t size = strlen(file) + strlen(column) + 4;
     char *name = app_alloc(size, 1);
-    (void)snprintf(name, size, "%s: %s", file, column);
+    (void)snprintf(name, size, "%s (%s)", column, file);
     return name;
 }
 
@@ -74,22 +75,67 @@ static void free_tables(view_fields *f) {
     free(f->names);
 }
 
+/* Where the first field begins: heat at its largest value, distances and paths at their smallest.
+ * -1: it is another field, or has no value. */
+static sl_int source_of(const view_fields *f, sl_int n) {
+    const char *name = f->n_fields > 0 ? f->tables[0].names[0] : "";
+    const bool is_heat = strcmp(name, "heat") == 0;
+    sl_int source = -1;
+    if (!is_heat && strcmp(name, "distance") != 0 && strcmp(name, "path") != 0) {
+        return -1;
+    }
+    const double *value = f->fields[0].value;
+    for (sl_int v = 0; v < n; v++) {
+        if (isfinite(value[v]) &&
+            (source < 0 || (is_heat ? value[v] > value[source] : value[v] < value[source]))) {
+            source = v;
+        }
+    }
+    return source;
+}
+
+/* The vertices of --from, or the source of the first field. Returns their number. */
+static sl_int marked_vertices(sl_int **marked, const char *from, const view_fields *f, sl_int n) {
+    sl_int count = 0;
+    if (from != NULL) {
+        *marked = app_vertices("from", from, n, 1, &count);
+        return app_distinct(*marked, count, n);
+    }
+    *marked = app_alloc(1, sizeof **marked);
+    **marked = source_of(f, n);
+    return **marked >= 0;
+}
+
+/* The camera of pictures: on the side of the marked vertices. */
+static void aim(double axes[3][3], app_output *camera, const mesh *m, const sl_int *marked,
+                sl_int n_marked) {
+    render_view view;
+    app_set_up(camera, m, true);
+    if (n_marked > 0) {
+        app_aim_camera(camera, m, marked, n_marked, false);
+    }
+    app_view(&view, camera);
+    render_axes(axes, &view, m);
+}
+
 int command_view(int argc, char **argv) {
-    const char *operands[1 + MOST_TABLES + 1] = {NULL}, *out = NULL, *up = "auto";
+    const char *operands[1 + MOST_TABLES + 1] = {NULL}, *out = NULL, *from = NULL;
+    app_output camera;
+    memset(&camera, 0, sizeof camera);
     const option options[] = {
         {OPTION_OUTPUT, "out", &out, "FILE", "the page to write: required"},
-        {OPTION_TEXT, "up", &up, "AXIS",
-         "axis that points upward at first: y, z, or auto: z if the extent of the mesh says so, "
-         "else y (auto)"},
+        {OPTION_TEXT, "from", &from, "VERTICES",
+         "vertices to mark, on whose side the camera is at first: 3,17,100-200 (where the first "
+         "field is heat or a distance: its source)"},
+        APP_CAMERA_OPTIONS(&camera),
         APP_WELD_OPTION,
         {OPTION_END, NULL, NULL, NULL, NULL}};
     options_read(&usage, &manual, options, argc, argv, operands);
-    if (strcmp(up, "y") != 0 && strcmp(up, "z") != 0 && strcmp(up, "auto") != 0) {
-        app_die_usage("--up %s: expected y, z or auto", up);
-    }
+    app_check_output(&camera, NULL);
     mesh given, m;
     view_fields f;
-    sl_int removed = 0;
+    view_page page;
+    sl_int removed = 0, *marked;
     app_mesh(&given, operands[0], true);
     if (out == NULL) {
         app_die_usage("view: --out FILE is missing");
@@ -99,10 +145,17 @@ int command_view(int argc, char **argv) {
     }
     mesh_free(&given);
     read_tables(&f, operands + 1, m.n_vertices);
+    memset(&page, 0, sizeof page);
+    page.m = &m;
+    page.title = operands[0];
+    page.fields = f.fields;
+    page.n_fields = f.n_fields;
+    page.n_marked = marked_vertices(&marked, from, &f, m.n_vertices);
+    page.marked = marked;
+    aim(page.axes, &camera, &m, marked, page.n_marked);
     app_stage("writing the page");
     FILE *file = app_create(out);
-    up = app_guess_up(up, &m, true);
-    view_page_write(file, &m, operands[0], up[0], f.fields, f.n_fields);
+    view_page_write(file, &page);
     app_close(file);
     app_progress_end();
     printf("%s: %d vertices, %d faces, %d fields\n", out, (int)m.n_vertices, (int)m.n_faces,
@@ -110,6 +163,7 @@ int command_view(int argc, char **argv) {
     if (removed > 0) {
         printf("%d faces with the vertices of others are left out\n", (int)removed);
     }
+    free(marked);
     free_tables(&f);
     mesh_free(&m);
     return 0;

@@ -72,8 +72,7 @@ static int flat_axis(const mesh *m) {
     return -1;
 }
 
-/* The camera's axes: right, up, toward the camera. */
-static void eye_axes(double axes[3][3], const render_view *view, const mesh *m) {
+void render_axes(double axes[3][3], const render_view *view, const mesh *m) {
     int flat = view->automatic ? flat_axis(m) : -1;
     if (flat == 0) { /* seen from +x: y to the right, z up */
         camera_axes(axes, CAMERA_UP_Z, 90, 0);
@@ -158,7 +157,7 @@ static double enlargement(double distance, double toward) {
  * picture. */
 static void project(scene *s, const render_view *view) {
     double axes[3][3];
-    eye_axes(axes, view, s->m);
+    render_axes(axes, view, s->m);
     double radius = center_eye(s, axes);
     double distance = view->perspective > 1 ? view->perspective * radius : 0;
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};

@@ -32,6 +32,12 @@ render_view render_view_default(void);
  *  mesh. */
 void render_look_from(render_view *view, const double direction[3]);
 
+/** The axes of the camera that render_mesh uses.
+ *
+ *  axes  [out]  rows: right, up, toward the camera, in coordinates of the mesh.
+ */
+void render_axes(double axes[3][3], const render_view *view, const mesh *m);
+
 /** A disk drawn over the surface at a vertex. */
 typedef struct render_mark {
     sl_int vertex;

@@ -105,32 +105,37 @@ static void put_values(FILE *out, const double *value, sl_int count) {
     end(&b);
 }
 
-static void put_data(FILE *out, const mesh *m, const char *title, char up, const view_field *fields,
-                     size_t n_fields) {
+static void put_data(FILE *out, const view_page *page) {
     (void)fprintf(out, "const data = {title: ");
-    put_text(out, title);
-    (void)fprintf(out, ", up: \"%c\",\npositions: ", up);
-    put_coordinates(out, m);
+    put_text(out, page->title);
+    for (int k = 0; k < 9; k++) {
+        (void)fprintf(out, "%s%.9g", k == 0 ? ",\naxes: [" : ", ", page->axes[k / 3][k % 3]);
+    }
+    (void)fprintf(out, "],\nmarked: [");
+    for (sl_int k = 0; k < page->n_marked; k++) {
+        (void)fprintf(out, "%s%d", k > 0 ? ", " : "", (int)page->marked[k]);
+    }
+    (void)fprintf(out, "],\npositions: ");
+    put_coordinates(out, page->m);
     (void)fprintf(out, ",\nfaces: ");
-    put_faces(out, m);
+    put_faces(out, page->m);
     (void)fprintf(out, ",\ncolors: ");
     put_colors(out);
     (void)fprintf(out, ",\nfields: [");
-    for (size_t k = 0; k < n_fields; k++) {
+    for (size_t k = 0; k < page->n_fields; k++) {
         (void)fprintf(out, "%s\n{name: ", k > 0 ? "," : "");
-        put_text(out, fields[k].name);
+        put_text(out, page->fields[k].name);
         (void)fprintf(out, ", values: ");
-        put_values(out, fields[k].value, m->n_vertices);
+        put_values(out, page->fields[k].value, page->m->n_vertices);
         (void)putc('}', out);
     }
     (void)fprintf(out, "]};\n");
 }
 
-void view_page_write(FILE *out, const mesh *m, const char *title, char up, const view_field *fields,
-                     size_t n_fields) {
+void view_page_write(FILE *out, const view_page *page) {
     for (const char *const *line = view_page_text; *line != NULL; line++) {
         if (strcmp(*line, VIEW_PAGE_DATA) == 0) {
-            put_data(out, m, title, up, fields, n_fields);
+            put_data(out, page);
         } else {
             (void)fprintf(out, "%s\n", *line);
         }

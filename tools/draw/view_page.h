@@ -17,14 +17,18 @@ typedef struct view_field {
 extern const char *const view_page_text[];
 #define VIEW_PAGE_DATA "/*DATA*/"
 
+typedef struct view_page {
+    const mesh *m;
+    const char *title; /* any text; of a path the page shows the name and, as a hint, the rest */
+    double axes[3][3]; /* of the camera at first: right, up, toward it (render_axes) */
+    const sl_int *marked;
+    sl_int n_marked; /* vertices with a dot */
+    const view_field *fields;
+    size_t n_fields;
+} view_page;
+
 /** Writes the page. It loads nothing from anywhere: scripts and data are in the file, coordinates
- *  in single precision, values in double.
- *
- *  title  [in]  any text.
- *  up     [in]  'y' or 'z': the axis that points upward at first.
- *  Errors of writing are those of the stream.
- */
-void view_page_write(FILE *out, const mesh *m, const char *title, char up, const view_field *fields,
-                     size_t n_fields);
+ *  in single precision, values in double. Errors of writing are those of the stream. */
+void view_page_write(FILE *out, const view_page *page);
 
 #endif
