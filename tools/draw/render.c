@@ -10,7 +10,7 @@
 #include "render_shade.h"
 #include "thin_view.h"
 
-enum { SUPERSAMPLE = 2 };
+enum { SUPERSAMPLE = 2, CELLS = 1 << 15 /* of a band: they stay in the cache */ };
 
 static const double margin = 0.04; /* fraction of the picture, on each side */
 static const double largest_coordinate = 1e150;
@@ -252,7 +252,7 @@ static void draw_band(scene *s, render_cell *cells, int top, int bottom) {
 /* Draws the surface in bands of rows, so that the layers of few cells are in memory at a time. */
 static bool draw_surface(scene *s) {
     const int width = s->pixels.width, height = s->pixels.height, fewest = height / 64 + 1;
-    int rows = (1 << 18) / width < fewest ? fewest : (1 << 18) / width;
+    int rows = CELLS / width < fewest ? fewest : CELLS / width;
     rows = rows < height ? rows : height;
     render_cell *cells = (render_cell *)malloc((size_t)rows * (size_t)width * sizeof *cells);
     for (int top = 0; cells != NULL && top < height; top += rows) {

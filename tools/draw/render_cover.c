@@ -100,11 +100,14 @@ static double depth_of(const triangle *t, const polygon *p, const cover_part *pa
 }
 
 /* The samples are off the middle of their squares, so that edges along the cells meet none. */
-static uint16_t mask_of(const triangle *t, int x, int y) {
+static uint16_t mask_of(const triangle *t, int x, int y, const bool cuts[3]) {
     static const double offset = 0.5 + 0.0618;
     unsigned outside = 0;
     for (int e = 0; e < 3; e++) {
         const double *edge = t->edge[e];
+        if (!cuts[e]) {
+            continue;
+        }
         double first = edge[0] * (x + offset / SAMPLES) + edge[1] * (y + (1 - offset) / SAMPLES);
         for (int k = 0; k < SAMPLES * SAMPLES; k++) {
             double at = first + (edge[0] * (k % SAMPLES) + edge[1] * (k / SAMPLES)) / SAMPLES;
@@ -114,16 +117,14 @@ static uint16_t mask_of(const triangle *t, int x, int y) {
     return (uint16_t)~outside;
 }
 
-/* Whether all of a cell is in the triangle. */
-static bool is_full(const triangle *t, int x, int y) {
+/* Which edges have a part of the cell outside. Returns whether there is none. */
+static bool is_full(bool cuts[3], const triangle *t, int x, int y) {
     for (int e = 0; e < 3; e++) {
         const double *edge = t->edge[e];
         double least = edge[0] * (edge[0] < 0 ? x + 1 : x) + edge[1] * (edge[1] < 0 ? y + 1 : y);
-        if (least + edge[2] < 0) {
-            return false;
-        }
+        cuts[e] = least + edge[2] < 0;
     }
-    return true;
+    return !(cuts[0] || cuts[1] || cuts[2]);
 }
 
 static bool prepare(triangle *t, const double *const corner[3]) {
@@ -150,29 +151,41 @@ static bool prepare(triangle *t, const double *const corner[3]) {
     return true;
 }
 
-/* The cells low..high-1 that hold the numbers low..high, within first..end-1. */
-static void cells_between(int *from, int *to, double low, double high, int first, int end) {
-    *from = !(low > first) ? first : low >= end ? end : (int)floor(low);
-    *to = !(high > first) ? first : high >= end ? end : (int)ceil(high);
+/* The cells from..to-1 that hold the numbers ends[0]..ends[1], within first..end-1. */
+static void cells_between(int *from, int *to, const double ends[2], int first, int end) {
+    *from = !(ends[0] > first) ? first : ends[0] >= end ? end : (int)floor(ends[0]);
+    *to = !(ends[1] > first) ? first : ends[1] >= end ? end : (int)ceil(ends[1]);
 }
 
-static void range(double *low, double *high, const polygon *p, int axis) {
-    *low = HUGE_VAL;
-    *high = -HUGE_VAL;
+/* The lowest and the highest coordinate. */
+static void range(double ends[2], const polygon *p, int axis) {
+    ends[0] = HUGE_VAL;
+    ends[1] = -HUGE_VAL;
     for (int k = 0; k < p->n; k++) {
         const double at = p->c[k].at[axis];
-        *low = at < *low ? at : *low;
-        *high = at > *high ? at : *high;
+        ends[0] = at < ends[0] ? at : ends[0];
+        ends[1] = at > ends[1] ? at : ends[1];
     }
 }
 
-/* The part of the cell (part->x, part->y), from the part of its row. */
-static void cover_cell(cover_part *part, const triangle *t, const polygon *row) {
-    polygon right = clip(row, 0, part->x, 1), cell = clip(&right, 0, part->x + 1, -1);
-    part->area = fmin(1, measure(part->w, &cell));
+/* The part of the cell (part->x, part->y), from the part of its row, which runs from ends[0] to
+ * ends[1]. */
+static void cover_cell(cover_part *part, const triangle *t, const polygon *row,
+                       const double ends[2], const bool cuts[3]) {
+    polygon right, cell;
+    const polygon *rest = row;
+    if (ends[0] < part->x) {
+        right = clip(rest, 0, part->x, 1);
+        rest = &right;
+    }
+    if (ends[1] > part->x + 1) {
+        cell = clip(rest, 0, part->x + 1, -1);
+        rest = &cell;
+    }
+    part->area = fmin(1, measure(part->w, rest));
     if (part->area > 0) {
-        part->depth = depth_of(t, &cell, part);
-        part->mask = mask_of(t, part->x, part->y);
+        part->depth = depth_of(t, rest, part);
+        part->mask = mask_of(t, part->x, part->y, cuts);
     }
 }
 
@@ -194,7 +207,7 @@ void cover_triangle(const double *const corner[3], int left, int right, int top,
                     cover_visitor *visit, void *context) {
     triangle t;
     polygon whole;
-    double low, high;
+    double ends[2];
     int first_row, end_row;
     if (!prepare(&t, corner)) {
         return;
@@ -205,21 +218,22 @@ void cover_triangle(const double *const corner[3], int left, int right, int top,
         memcpy(whole.c[k].at, corner[k], sizeof whole.c[k].at);
         whole.c[k].w[k] = 1;
     }
-    range(&low, &high, &whole, 1);
-    cells_between(&first_row, &end_row, low, high, top, bottom);
+    range(ends, &whole, 1);
+    cells_between(&first_row, &end_row, ends, top, bottom);
     for (int y = first_row; y < end_row; y++) {
         polygon below = clip(&whole, 1, y, 1), row = clip(&below, 1, y + 1, -1);
         cover_part part;
         int end;
         memset(&part, 0, sizeof part);
         part.y = y;
-        range(&low, &high, &row, 0);
-        cells_between(&part.x, &end, low, high, left, right);
+        range(ends, &row, 0);
+        cells_between(&part.x, &end, ends, left, right);
         for (; part.x < end; part.x++) {
-            if (is_full(&t, part.x, part.y)) {
+            bool cuts[3];
+            if (is_full(cuts, &t, part.x, part.y)) {
                 cover_full_cell(&part, &t);
             } else {
-                cover_cell(&part, &t, &row);
+                cover_cell(&part, &t, &row, ends, cuts);
             }
             if (part.area > 0) {
                 visit(context, &part);

@@ -108,6 +108,9 @@ rgb render_cell_color(const render_cell *cell, rgb background, double *depth) {
     unsigned mask = 0;
     rgb out;
     *depth = -HUGE_VAL;
+    if (cell->count == 0) {
+        return background;
+    }
     for (int k = 0; k < cell->count && covered < 1; k++) {
         const render_layer *l = &cell->layer[k];
         float seen = fminf(1 - covered, area_beside(l, mask));

@@ -21,8 +21,8 @@ typedef struct render_layer {
 
 /** The layers of one cell, nearest first; all zero: none. */
 typedef struct render_cell {
+    int count;                             /* beside the first layer, which is often the only one */
     render_layer layer[RENDER_LAYERS + 1]; /* the last one only while a face is added */
-    int count;
 } render_cell;
 
 /** Whether a nearer layer covers all of the cell, so that a face at this depth is not seen. */

@@ -23,7 +23,9 @@ static double dot(const double *a, const double *b) {
 }
 
 static void normalize(double x[3]) {
-    double length = hypot(hypot(x[0], x[1]), x[2]);
+    const double square = dot(x, x);
+    double length =
+        square > 1e-200 && square < 1e200 ? sqrt(square) : hypot(hypot(x[0], x[1]), x[2]);
     for (int d = 0; d < 3; d++) {
         x[d] = length > 0 && isfinite(length) ? x[d] / length : 0;
     }
