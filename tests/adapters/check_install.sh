@@ -95,6 +95,9 @@ installed_by_make() {
     test -f "$dir/prefix/include/sparse_local_eigen.hpp"
     test -f "$dir/prefix/include/sparse_local_geometry_central.hpp"
     test -f "$dir/prefix/share/man/man1/sparse-local.1"
+    if echo '#include <png.h>' | "${CC:-cc}" -E -x c - >/dev/null 2>&1; then
+        "$dir/prefix/bin/sparse-local" --version | grep -F "$VERSION"
+    fi
 }
 
 # With DESTDIR the files name PREFIX only; uninstall removes every file.

@@ -46,6 +46,9 @@ gives 0 'usage: sparse-local heat ' help heat
 gives 0 '^sparse-local [0-9]*[.][0-9]*[.][0-9]*$' --version
 gives 2 'unknown option --radis; did you mean --radius?' geodesic sphere:1 --radis 3
 gives 2 'pictures are PNG files; end the name in .png' adf sphere:1 --png "$dir/x.jpg"
+gives 2 'pictures are PNG files; end the name in .png' reach sphere:1 --pattern "$dir/x.svg"
+gives 2 'pictures are SVG files; end the name in .svg' reach sphere:1 --tree "$dir/x.png"
+gives 2 'pictures are SVG files; end the name in .svg' edit hills:9x9 --svg "$dir/x.pdf"
 # all commands but query, which takes no mesh
 commands=$("$program" --help | sed -n '/^  query /d; s/^  \([a-z]*\) .*/\1/p')
 for command in $commands; do

@@ -41,6 +41,46 @@ static void bars_show_the_color_map(void **state) {
     assert_true(legend_width(319, 600) == 0 && legend_width(800, 199) == 0);
 }
 
+static size_t of_color(const picture *p, rgb color) {
+    size_t count = 0;
+    for (int k = 0; k < p->width * p->height; k++) {
+        count += equal(p->at[k], color);
+    }
+    return count;
+}
+
+/* Each key is a box of its color with its text, in the order of the keys, as long as there is room;
+ * nothing is drawn beside the legend. */
+static void keys_show_their_colors(void **state) {
+    (void)state;
+    legend_key keys[30];
+    for (int k = 0; k < 30; k++) {
+        keys[k].color = color_map(k / 29.0);
+        (void)snprintf(keys[k].text, sizeof keys->text, "a key\n%d", k);
+    }
+    for (int scale = 1; scale <= 4; scale *= 2) {
+        picture p, bare;
+        const int left = scale * (400 - legend_width(400, 300));
+        assert_true(picture_create(&p, 400 * scale, 300 * scale, white));
+        assert_true(picture_create(&bare, 400 * scale, 300 * scale, white));
+        legend_draw_keys(&bare, scale, "vertices\nheld", keys, 0);
+        legend_draw_keys(&p, scale, "vertices\nheld", keys, 30);
+        assert_true(drawn(&p, 0, left) == 0 && drawn(&bare, 0, left) == 0);
+        assert_true(drawn(&bare, left, p.width) > 0);
+        int shown = 0;
+        while (shown < 30 && of_color(&p, keys[shown].color) > 0) {
+            assert_int_equal(of_color(&p, keys[shown].color), 42 * scale * scale);
+            shown++;
+        }
+        assert_true(shown == 10); /* of 25 rows each, below the title */
+        for (int k = shown; k < 30; k++) {
+            assert_int_equal(of_color(&p, keys[k].color), 0);
+        }
+        picture_free(&bare);
+        picture_free(&p);
+    }
+}
+
 /* All characters differ, unknown ones are blank, and text at the edges is clipped. */
 static void text_is_drawn(void **state) {
     (void)state;
@@ -93,11 +133,20 @@ static void legends_keep_their_proportions(void **state) {
 /* Pictures of numbers have the size that was asked for, times the scale. */
 static void pictures_keep_their_size(void **state) {
     (void)state;
-    static const char *const commands[] = {"adf sphere:2", "heat sphere:2 --from 3,4",
-                                           "hks sphere:2 --times 2", "geodesic sphere:2"};
-    int (*const run[])(int, char **) = {command_adf, command_heat, command_hks, command_geodesic};
-    for (int k = 0; k < 4; k++) {
-        char words[900];
+    char reach[700], deform[700];
+    files_put_text("bend.txt", "grab 0\ngrab 9\nmove 1 1 0 0\nframe\n");
+    (void)snprintf(deform, sizeof deform, "deform sphere:2 --script %s", files_path("bend.txt"));
+    (void)snprintf(reach, sizeof reach, "reach sphere:2 --separators %s", files_path("b.png"));
+    const char *const commands[] = {"adf sphere:2",
+                                    "heat sphere:2 --from 3,4",
+                                    "hks sphere:2 --times 2",
+                                    "geodesic sphere:2",
+                                    reach,
+                                    deform};
+    int (*const run[])(int, char **) = {command_adf,      command_heat,  command_hks,
+                                        command_geodesic, command_reach, command_deform};
+    for (int k = 0; k < 6; k++) {
+        char words[1600];
         int width = 0, height = 0, status;
         size_t length;
         for (int scale = 1; scale <= 4; scale++) {
@@ -116,6 +165,7 @@ static void pictures_keep_their_size(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bars_show_the_color_map),
+        cmocka_unit_test(keys_show_their_colors),
         cmocka_unit_test(text_is_drawn),
         cmocka_unit_test(legends_keep_their_proportions),
         cmocka_unit_test(pictures_keep_their_size),

@@ -41,14 +41,13 @@ static const char *read_pixels(int *out, const char *text, int most, char end) {
 void app_view(render_view *view, const app_output *o) {
     *view = render_view_default();
     char rest = 0;
-    if (o->size != NULL &&
-        read_pixels(&view->height, read_pixels(&view->width, o->size, 8000, 'x'), 8000, '\0') ==
-            NULL) {
+    if (o->size != NULL && read_pixels(&view->height, read_pixels(&view->width, o->size, 8000, 'x'),
+                                       8000, '\0') == NULL) {
         app_die_usage("--size %s: expected WxH such as 800x600, each from 1 to 8000", o->size);
     }
     if (o->scale != NULL &&
-        (read_pixels(&view->scale, o->scale, 4, '\0') == NULL ||
-         view->width > 8000 / view->scale || view->height > 8000 / view->scale)) {
+        (read_pixels(&view->scale, o->scale, 4, '\0') == NULL || view->width > 8000 / view->scale ||
+         view->height > 8000 / view->scale)) {
         app_die_usage("--scale %s: expected 1 to 4, and at most 8000 pixels along each side",
                       o->scale);
     }
@@ -160,10 +159,12 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
     render_style style = *given;
     picture drawn;
     int width = given->legend != NULL ? legend_width(view.width, view.height) : 0;
-    if (width == 0 || style.scalar == NULL) {
+    if (width == 0) {
         return render_mesh(p, m, &view, &style);
     }
-    find_range(&style, m->n_vertices);
+    if (style.scalar != NULL) {
+        find_range(&style, m->n_vertices);
+    }
     view.width -= width;
     if (!picture_create(p, view.scale * whole->width, view.scale * whole->height, white)) {
         return false;
@@ -174,7 +175,11 @@ static bool render_with_legend(picture *p, const mesh *m, const render_view *who
     }
     picture_paste(p, &drawn, 0, 0);
     picture_free(&drawn);
-    legend_draw(p, view.scale, style.legend, style.low, style.high, style.isolines);
+    if (style.scalar != NULL) {
+        legend_draw(p, view.scale, style.legend, style.low, style.high, style.isolines);
+    } else {
+        legend_draw_keys(p, view.scale, style.legend, style.keys, style.n_keys);
+    }
     return true;
 }
 

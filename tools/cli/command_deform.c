@@ -88,15 +88,26 @@ static void write_shape(const deform_command *cmd, const app_output *output) {
             displacement[v] = hypot(displacement[v], m.xyz[3 * v + c] - cmd->m.xyz[3 * v + c]);
         }
     }
+    int n_moved = 0;
     for (size_t k = 0; k < n_marks; k++) {
         const sl_int v = cmd->d.held[k];
+        const bool has_moved = displacement[v] > 1e-6 * cmd->d.diameter;
         marks[k].vertex = v;
         marks[k].radius = 3;
-        marks[k].color = displacement[v] > 1e-6 * cmd->d.diameter ? moved : still;
+        marks[k].color = has_moved ? moved : still;
+        n_moved += has_moved;
     }
+    legend_key keys[2] = {{moved, ""}, {still, ""}};
+    (void)snprintf(keys[0].text, sizeof keys->text, "moved\n%d", n_moved);
+    (void)snprintf(keys[1].text, sizeof keys->text, "at rest\n%d", (int)n_marks - n_moved);
     const mesh_field field = {"displacement", displacement};
     const mesh_extra extra = {.fields = &field, .n_fields = 1};
-    const render_style style = {.box = cmd->box, .marks = marks, .n_marks = (int)n_marks};
+    const render_style style = {.box = cmd->box,
+                                .marks = marks,
+                                .n_marks = (int)n_marks,
+                                .legend = "vertices\nthat handles\nhold",
+                                .keys = keys,
+                                .n_keys = 2};
     app_write(output, &m, &extra, &style);
     free(displacement);
     free(marks);

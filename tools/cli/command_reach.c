@@ -86,9 +86,53 @@ static sl_int walk_paths(int *kind, const sl_symbolic_arrays *view, const sl_int
     return visited;
 }
 
+enum { MOST_KEYS = 20 };
+
+static const rgb plain = {0xe6, 0xe3, 0xde};
+
+/* The colors of a picture: the number of vertices of each kind, then those of none. Returns the
+ * number of keys. name: of the kinds from 0 on; NULL: they are levels. */
+static int keys_of(legend_key keys[MOST_KEYS], const int *kind, sl_int n, const char *const *name) {
+    int count = 0, rest = 0;
+    for (int k = 0; k < MOST_KEYS - 1; k++) {
+        int of_kind = 0;
+        for (sl_int i = 0; i < n; i++) {
+            of_kind += kind[i] == k;
+        }
+        if (of_kind > 0) {
+            keys[count].color = color_of_kind(k);
+            if (name != NULL) {
+                (void)snprintf(keys[count].text, sizeof keys->text, "%s\n%d", name[k], of_kind);
+            } else {
+                (void)snprintf(keys[count].text, sizeof keys->text, "level %d\n%d", k, of_kind);
+            }
+            count++;
+        }
+    }
+    for (sl_int i = 0; i < n; i++) {
+        rest += kind[i] < 0;
+    }
+    if (rest > 0) {
+        keys[count].color = plain;
+        (void)snprintf(keys[count].text, sizeof keys->text, "others\n%d", rest);
+        count++;
+    }
+    return count;
+}
+
+/* What a picture of vertices shows: by pivot, a kind or -1, and the title and names of the
+ * legend. */
+typedef struct shown_kinds {
+    const int *kind;
+    const char *title;
+    const char *const *name; /* of the kinds; NULL: they are levels */
+} shown_kinds;
+
 static void draw_vertices(const char *path, const app_output *output, const mesh *m,
-                          const sl_symbolic_arrays *view, const int *kind) {
-    const rgb plain = {0xe6, 0xe3, 0xde};
+                          const sl_symbolic_arrays *view, const shown_kinds *shown) {
+    const int *kind = shown->kind;
+    legend_key keys[MOST_KEYS];
+    const int n_keys = keys_of(keys, kind, view->n, shown->name);
     rgb *color = app_alloc((size_t)m->n_vertices, sizeof *color);
     for (sl_int v = 0; v < m->n_vertices; v++) {
         int k = kind[view->iperm[v]];
@@ -101,7 +145,10 @@ static void draw_vertices(const char *path, const app_output *output, const mesh
     const render_style style = {.vertex_color = color,
                                 .nearest = true,
                                 .edges = m->n_faces <= 2000 ? 1 : 0,
-                                .edge_color = thin};
+                                .edge_color = thin,
+                                .legend = shown->title,
+                                .keys = keys,
+                                .n_keys = n_keys};
     app_write(&drawn, m, &extra, &style);
     free(color);
 }
@@ -122,7 +169,9 @@ static void draw(const reach_options *o, const app_output *output, const mesh *m
                  const sl_symbolic_arrays *view, const int *kind, const sl_int *level) {
     char message[512];
     if (output->png != NULL || output->out != NULL) {
-        draw_vertices(output->png, output, m, view, kind);
+        static const char *const names[] = {"patch", "visited"};
+        const shown_kinds shown = {kind, "vertices\nthat a local\nsolve on a\npatch visits", names};
+        draw_vertices(output->png, output, m, view, &shown);
     }
     if (o->separators != NULL) {
         int *by_level = app_alloc((size_t)view->n, sizeof *by_level);
@@ -131,7 +180,8 @@ static void draw(const reach_options *o, const app_output *output, const mesh *m
         for (sl_int k = 0; k < view->n; k++) {
             by_level[k] = (int)level[k];
         }
-        draw_vertices(o->separators, &only_png, m, view, by_level);
+        const shown_kinds shown = {by_level, "separators\nof nested\ndissection", NULL};
+        draw_vertices(o->separators, &only_png, m, view, &shown);
         free(by_level);
     }
     if (o->graph != NULL) {

@@ -200,15 +200,30 @@ static const char *output_of(const option *o) {
     return o->kind == OPTION_OUTPUT ? *(const char *const *)o->value : NULL;
 }
 
-/* Does the name end as that of a picture that is not PNG? */
-static bool is_other_picture(const char *path) {
-    static const char *const endings[] = {".jpg",  ".jpeg", ".gif", ".bmp", ".tif",
-                                          ".tiff", ".webp", ".svg", ".pdf"};
-    bool found = false;
-    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
-        found = found || input_path_ends(path, endings[k]);
+/* Dies if an option of a picture has the name of a picture of another kind. */
+static void check_kind_of_picture(const char *name, const char *path) {
+    static const char *const of_option[][2] = {
+        {"png", "PNG"}, {"layout", "PNG"}, {"separators", "PNG"}, {"pattern", "PNG"},
+        {"svg", "SVG"}, {"tree", "SVG"},   {"graph", "SVG"}};
+    static const char *const endings[] = {".png", ".svg", ".jpg",  ".jpeg", ".gif",
+                                          ".bmp", ".tif", ".tiff", ".webp", ".pdf"};
+    const char *kind = NULL, *found = "";
+    for (size_t k = 0; k < sizeof of_option / sizeof *of_option; k++) {
+        kind = strcmp(name, of_option[k][0]) == 0 ? of_option[k][1] : kind;
     }
-    return found;
+    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
+        found = input_path_ends(path, endings[k]) ? endings[k] : found;
+    }
+    if (kind == NULL || *found == '\0') {
+        return;
+    }
+    const char *ending = strcmp(kind, "PNG") == 0 ? ".png" : ".svg";
+    if (strcmp(found, ending) != 0) {
+        (void)fprintf(stderr,
+                      "sparse-local: --%s %s: such pictures are %s files; end the name in %s\n",
+                      name, path, kind, ending);
+        exit(2);
+    }
 }
 
 /* Finds out before the work, and not after it, that its result cannot be written, or that another
@@ -217,11 +232,8 @@ static void check_outputs(const option *options) {
     char message[512];
     for (const option *o = options; o->kind != OPTION_END; o++) {
         const char *path = output_of(o);
-        if (path != NULL && strcmp(o->name, "png") == 0 && is_other_picture(path)) {
-            (void)fprintf(stderr,
-                          "sparse-local: --png %s: pictures are PNG files; end the name in .png\n",
-                          path);
-            exit(2);
+        if (path != NULL) {
+            check_kind_of_picture(o->name, path);
         }
         if (path != NULL && !output_is_possible(path, message, sizeof message)) {
             (void)fprintf(stderr, "sparse-local: %s\n", message);

@@ -1,4 +1,4 @@
-/* legend.c: the legend of a picture of numbers: color bar with ticks, a title, in its own font */
+/* legend.c: legends of pictures: a color bar with ticks, or keys; a title; in its own font */
 #include "legend.h"
 
 #include <ctype.h>
@@ -90,22 +90,51 @@ int legend_width(int width, int height) {
     return width < 320 || height < 200 ? 0 : LINE_CHARACTERS * ADVANCE * font_scale(width, height);
 }
 
+/* Where a legend is in its picture. */
+typedef struct place {
+    int left, scale; /* pixels; pixels of a dot of the font */
+} place;
+
+static place place_of(const picture *p, int of_size) {
+    const int width = p->width / of_size, height = p->height / of_size;
+    const place at = {p->width - of_size * legend_width(width, height),
+                      of_size * font_scale(width, height)};
+    return at;
+}
+
+/* Draws lines of at most `most` characters; returns the y below them. */
+static int draw_lines(picture *p, int x, int y, int scale, const char *text, size_t most) {
+    while (*text != '\0') {
+        char line[LINE_CHARACTERS + 1];
+        size_t length = strcspn(text, "\n"), shown = length < most ? length : most;
+        memcpy(line, text, shown);
+        line[shown] = '\0';
+        legend_text(p, x, y, scale, line);
+        y += LINE * scale;
+        text += length + (text[length] == '\n');
+    }
+    return y;
+}
+
+void legend_draw_keys(picture *p, int of_size, const char *title, const legend_key *keys,
+                      int n_keys) {
+    const place at = place_of(p, of_size);
+    const int scale = at.scale;
+    int y = draw_lines(p, at.left, LINE * scale, scale, title, LINE_CHARACTERS - 1) + LINE * scale;
+    for (int k = 0; k < n_keys && y + 3 * LINE * scale <= p->height; k++) {
+        fill(p, at.left, y - scale / 2, 9 * scale, 8 * scale, ink);
+        fill(p, at.left + scale, y + scale / 2, 7 * scale, 6 * scale, keys[k].color);
+        y = draw_lines(p, at.left + 2 * ADVANCE * scale, y, scale, keys[k].text,
+                       LINE_CHARACTERS - 3);
+        y += LINE / 2 * scale;
+    }
+}
+
 void legend_draw(picture *p, int of_size, const char *title, double low, double high,
                  int isolines) {
-    const int width = p->width / of_size, height = p->height / of_size;
-    const int left = p->width - of_size * legend_width(width, height);
-    const int scale = of_size * font_scale(width, height);
-    int y = LINE * scale;
-    while (*title != '\0') {
-        char line[LINE_CHARACTERS + 1];
-        size_t length = strcspn(title, "\n");
-        size_t shown = length < LINE_CHARACTERS - 1 ? length : LINE_CHARACTERS - 1;
-        memcpy(line, title, shown);
-        line[shown] = '\0';
-        legend_text(p, left, y, scale, line);
-        y += LINE * scale;
-        title += length + (title[length] == '\n');
-    }
+    const place at_right = place_of(p, of_size);
+    const int left = at_right.left, scale = at_right.scale;
+    const int y = draw_lines(p, left, LINE * scale, scale, title, LINE_CHARACTERS - 1);
     const int top = y + LINE * scale, bottom = p->height - 2 * LINE * scale, bar = 10 * scale;
     for (int j = top; j < bottom; j++) {
         double t = (double)(bottom - 1 - j) / (double)(bottom - 1 - top);

@@ -1,4 +1,4 @@
-/* legend.h: the legend of a picture of numbers: color bar with ticks, a title, in its own font */
+/* legend.h: legends of pictures: a color bar with ticks, or keys; a title; in its own font */
 #ifndef TOOLS_LEGEND_H
 #define TOOLS_LEGEND_H
 
@@ -17,6 +17,16 @@ int legend_width(int width, int height);
  *  isolines   [in]  number of levels of isolines, marked in the bar; 0: none.
  */
 void legend_draw(picture *p, int of_size, const char *title, double low, double high, int isolines);
+
+/** A color and what it means. */
+typedef struct legend_key {
+    rgb color;
+    char text[32]; /* lines separated by '\n' */
+} legend_key;
+
+/** The same with keys in place of the bar: as many as there is room for. */
+void legend_draw_keys(picture *p, int of_size, const char *title, const legend_key *keys,
+                      int n_keys);
 
 /** Draws a line of text with its upper left corner at (x, y); a character is 6 x 8 times `scale`
  *  pixels, with round strokes. Letters are lower case. */

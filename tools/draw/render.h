@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "camera.h"
+#include "legend.h"
 #include "picture.h"
 #include "tools/mesh/mesh.h"
 
@@ -67,6 +68,8 @@ typedef struct render_style {
     double low, high;        /* ends of the color map; both 0: smallest and largest finite value */
     const char *legend;      /* title of the legend, lines separated by newlines; NULL: no legend.
                                 Drawn by app_write, not by render_mesh */
+    const legend_key *keys;  /* what the legend has if there is no scalar */
+    int n_keys;
     int isolines;            /* number of levels strictly between low and high; 0: none. Omitted
                                 where they would be closer than twice their width */
     const rgb *vertex_color; /* n_vertices */

@@ -93,8 +93,10 @@ test-shared: shared ## does the shared library export what the header declares, 
 
 # ---- installation ----
 
-# The program is installed if `make programs` built it.
-install: shared ## header, adapters, libraries, pkg-config and CMake files, man page to DESTDIR/PREFIX
+# The program needs libpng.
+install: shared ## header, adapters, libraries, pkg-config and CMake files, program, man page to DESTDIR/PREFIX
+	@if echo '#include <png.h>' | $(CC) $(CPPFLAGS) -E -x c - >/dev/null 2>&1; then $(MAKE) --no-print-directory programs; \
+	else echo 'sparse-local is not built: png.h is missing (libpng-dev)'; fi
 	@VERSION=$(VERSION) SOVERSION=$(SOVERSION) PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' INCLUDEDIR='$(INCLUDEDIR)' \
 	DESTDIR='$(DESTDIR)' PRIVATE_LIBS='$(SHARED_LIBS)' PROGRAM='$(B)/sparse-local' tools/packaging/install.sh install
 
