@@ -5,8 +5,9 @@ import threading
 import numpy as np
 
 from . import _arrays as arrays
-from ._errors import ArgumentError
 from ._library import Handle, Stats, as_dict, check, lib, new_options
+from ._errors import StateError
+from ._options import choice
 
 _PARTS = {"P": 1, "L": 2, "D": 4, "sqrtD": 8, "LT": 16, "PT": 32}
 
@@ -16,13 +17,19 @@ class Region:
 
     After factor.refactor call update(); until then plans in the region raise StateError. Use it by
     factor.plan(bset, xset, region=R), with both sets inside the region.
+
+    bytes  upper bound on the memory of a region with a boundary; 0: none.
+    InaccurateError: solves would lose digits, as pivots have both signs; UnsupportedError: a factor
+    with mass or with 2x2 pivots. Cost: forward sweeps from its boundary.
     """
 
-    def __init__(self, factor, rows):
-        keep, address, count = arrays.rows(rows)
-        pointer, stats = ctypes.c_void_p(), Stats()
-        check(lib.sl_region_create(ctypes.byref(pointer), factor._factor.pointer, address, count,
-                                   None, None, ctypes.byref(stats)), stats)
+    def __init__(self, factor, rows, bytes=0):
+        keep, address, count = factor._kind.set(rows)
+        options, pointer, stats = new_options(), ctypes.c_void_p(), Stats()
+        options.region_bytes = bytes
+        check(lib.sl_region_create(ctypes.byref(pointer), factor._pointer, address, count, None,
+                                   ctypes.byref(options), ctypes.byref(stats)), stats,
+              factor._kind.width)
         self._own(factor, pointer.value)
 
     def _own(self, factor, pointer):
@@ -31,7 +38,7 @@ class Region:
 
     def update(self):
         """Computes the region again from the present numbers of the factor."""
-        check(lib.sl_region_refactor(self._region.pointer, self._factor._factor.pointer, None,
+        check(lib.sl_region_refactor(self._region.pointer, self._factor._pointer, None,
                                      self._factor._work()))
 
     @property
@@ -43,47 +50,71 @@ class Region:
 
 
 class Plan:
-    """A prepared local solve: b on bset, x wanted on xset. Made by Factor.plan."""
+    """A prepared local solve: b on bset, x wanted on xset. Made by Factor.plan.
+
+    Immutable; any number of threads may solve with it. A plan belongs to the analysis: on(factor)
+    is the same plan for another factor of it.
+    """
 
     def __init__(self, factor, bset, xset, region=None):
-        keep_b, b_rows, nb = arrays.rows(bset)
-        keep_x, x_rows, nx = arrays.rows(xset)
-        options = new_options()
+        keep_b, b_rows, nb = factor._kind.set(bset)
+        keep_x, x_rows, nx = factor._kind.set(xset)
+        options, width = new_options(), factor._kind.width
         if region is not None:
             options.region = region._region.pointer
         pointer, stats = ctypes.c_void_p(), Stats()
         check(lib.sl_plan_create(ctypes.byref(pointer), factor._symbolic.pointer, b_rows, nb,
-                                 x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats)
+                                 x_rows, nx, ctypes.byref(options), ctypes.byref(stats)), stats,
+              width)
         self._factor = factor
-        self._bset = keep_b  # None: all rows
-        self._plan = Handle("plan", pointer.value, factor._symbolic, region)
+        self._bset = keep_b  # rows of the library; None: all
+        self._plan = Handle("plan", pointer.value, factor._symbolic,
+                            region._region if region is not None else None)
         self._scales = threading.local()
-        self.nb = factor.n if bset is None else nb
-        self.nx = factor.n if xset is None else nx
+        self.nb = factor.n if bset is None else nb // width
+        self.nx = factor.n if xset is None else nx // width
+
+    def on(self, factor):
+        """This plan for another factor of the same analysis; nothing is computed."""
+        if factor._symbolic is not self._factor._symbolic:
+            raise StateError("a factor of another analysis than the plan's")
+        other = Plan.__new__(Plan)
+        other.__dict__.update(self.__dict__)
+        other._factor, other._scales = factor, threading.local()
+        return other
+
+    def _dense(self, B):
+        kind = self._factor._kind
+        return kind.dense(B, self.nb, self.nx, None if self._bset is None else
+                          self._bset[::kind.width] // kind.width)
 
     def solve(self, B):
         """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""
-        dense = arrays.Dense(B, self.nb, self.nx)
+        dense = self._dense(B)
         factor = self._factor
-        status = lib.sl_plan_solve(self._plan.pointer, factor._factor.pointer,
-                                   *dense.arguments(), factor._work())
-        factor._check_consistent(status, dense.B, self._bset)
-        check(status)
+        status = lib.sl_plan_solve(self._plan.pointer, factor._pointer, *dense.arguments(),
+                                   factor._work())
+        if status:
+            factor._check_consistent(status, dense, self._bset)
+            check(status)
         return dense.X
 
     def solve_bounded(self, B):
         """x as solve returns it, and a bound for the error of each number.
 
-        The factor has been certified: Factor.certify. The first call computes what the bounds need
+        The factor has been certified: Factor.certify. Of complex numbers the bounds are those of
+        their real and imaginary parts. The first call computes what the bounds need
         of the plan and the factor; it is kept for each thread.
         """
-        dense = arrays.Dense(B, self.nb, self.nx)
+        if np.iscomplexobj(B) and self._factor._kind is arrays.REAL:
+            raise TypeError("bounds of complex right-hand sides of a real matrix are not computed")
+        dense = self._dense(B)
         bounds = np.empty_like(dense.X)
         if not hasattr(self._scales, "numbers"):
-            self._scales.numbers = np.zeros(4 * self.nx + 2)
+            self._scales.numbers = np.zeros(4 * self.nx * self._factor._kind.width + 2)
         factor, stats = self._factor, Stats()
         x, ldx, b, ldb, count = dense.arguments()
-        check(lib.sl_plan_solve_bounded(self._plan.pointer, factor._factor.pointer, x, ldx,
+        check(lib.sl_plan_solve_bounded(self._plan.pointer, factor._pointer, x, ldx,
                                         arrays.address(bounds), b, ldb, count,
                                         arrays.address(self._scales.numbers), factor._work(),
                                         ctypes.byref(stats)), stats)
@@ -98,10 +129,11 @@ class Plan:
         bits = part_bits(parts)
         is_forward = bits & _PARTS["P"]
         info = self.stats
-        dense = arrays.Dense(B, self.nb if is_forward else info["x_columns"],
-                             info["b_columns"] if is_forward else self.nx)
         factor = self._factor
-        check(lib.sl_plan_solve_part(self._plan.pointer, factor._factor.pointer, bits,
+        width = factor._kind.width
+        dense = factor._kind.dense(B, self.nb if is_forward else info["x_columns"] // width,
+                                   info["b_columns"] // width if is_forward else self.nx)
+        check(lib.sl_plan_solve_part(self._plan.pointer, factor._pointer, bits,
                                      *dense.arguments(), factor._work()))
         return dense.X
 
@@ -112,7 +144,8 @@ class Plan:
         count = ctypes.c_int32()
         check(lib.sl_plan_columns(self._plan.pointer, choice(_PARTS, part, "part"),
                                   arrays.address(out), out.size, ctypes.byref(count)))
-        return out
+        width = self._factor._kind.width
+        return out[::width] // width
 
     @property
     def stats(self):
@@ -129,8 +162,3 @@ def part_bits(parts):
         bits |= choice(_PARTS, name, "a part")
     return bits
 
-
-def choice(names, name, what):
-    if name not in names:
-        raise ArgumentError("%s is one of %s, not %r" % (what, ", ".join(names), name))
-    return names[name]

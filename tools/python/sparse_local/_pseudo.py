@@ -15,12 +15,12 @@ class NullSpace:
         self.component = np.empty(factor.n, dtype=np.int32)
         found = PseudoInverse()
         call = lib.sl_factor_pseudo_inverse
-        check(call(factor._factor.pointer, ctypes.byref(found), None))
+        check(call(factor._pointer, ctypes.byref(found), None))
         self.Q = np.empty((factor.n, max(found.columns, 1)), order="F")
         self.K = np.empty_like(self.Q)
         for name in ("component", "Q", "K"):
             setattr(found, name, arrays.address(getattr(self, name)))
-        check(call(factor._factor.pointer, ctypes.byref(found), factor._work()))
+        check(call(factor._pointer, ctypes.byref(found), factor._work()))
         self.log_det = found.log_det
 
     def pairs(self, out, rows, columns):

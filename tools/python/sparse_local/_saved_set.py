@@ -6,9 +6,13 @@ import numpy as np
 
 from . import _arrays as arrays
 from ._errors import ArgumentError
-from ._factor import CHECKS, Factor, encoded
-from ._library import Handle, SavedSet, Stats, as_dict, check, lib
-from ._plan import Region, choice
+from ._factor import Factor
+from ._files import CHECKS, encoded
+from ._library import Handle, SavedSet, Stats, as_dict, check, lib, new_options
+from ._matrix import check_triangle
+from ._options import choice
+from ._plan import Region
+from ._threads import set_threads
 
 
 class Selected:
@@ -17,13 +21,18 @@ class Selected:
     They are those of the numbers that the factor had; update() computes them again. Reading an
     entry takes less than a microsecond, whatever the size of the matrix. Of a singular matrix they
     are those of the pseudo-inverse, unless pseudo=False is passed where they are read.
+
+    threads  None: those of the factor. UnsupportedError: 2x2 pivots. Cost: about twice the flops of
+    the factorization of the same part.
     """
 
-    def __init__(self, factor, rows=None):
-        keep, address, count = arrays.rows(rows)
-        pointer, stats = ctypes.c_void_p(), Stats()
-        check(lib.sl_selected_create(ctypes.byref(pointer), factor._factor.pointer, address, count,
-                                     None, ctypes.byref(stats)), stats)
+    def __init__(self, factor, rows=None, *, threads=None):
+        keep, address, count = factor._kind.set(rows)
+        options, pointer, stats = new_options(), ctypes.c_void_p(), Stats()
+        set_threads(options, threads)
+        check(lib.sl_selected_create(ctypes.byref(pointer), factor._pointer, address, count,
+                                     ctypes.byref(options), ctypes.byref(stats)), stats,
+              factor._kind.width)
         self._own(factor, pointer.value)
 
     def _own(self, factor, pointer):
@@ -33,16 +42,19 @@ class Selected:
 
     def update(self):
         """Computes the entries from the present numbers of the factor; StateError: mapped."""
-        check(lib.sl_selected_refactor(self._selected.pointer, self._factor._factor.pointer,
+        check(lib.sl_selected_refactor(self._selected.pointer, self._factor._pointer,
                                        self._factor._work()))
         self._nulls = self._factor._null_space()
 
     def diagonal(self, rows=None, *, pseudo=True):
         """(A^-1)[r, r] for r in rows; None: all. PatternError: a row that is not kept."""
         keep, address, count = arrays.rows(rows)
+        if self._factor._kind is arrays.COMPLEX:
+            keep = 2 * (np.arange(self._factor.n, dtype=np.int32) if rows is None else keep)
+            address, count = arrays.address(keep), keep.size
         out, stats = np.empty(self._factor.n if rows is None else count), Stats()
         check(lib.sl_selected_entries(self._selected.pointer, arrays.address(out), address, None,
-                                      count, ctypes.byref(stats)), stats)
+                                      count, ctypes.byref(stats)), stats, self._factor._kind.width)
         chosen = slice(None) if rows is None else keep
         return self._nulls.pairs(out, chosen, chosen) if pseudo and self._nulls else out
 
@@ -52,9 +64,15 @@ class Selected:
         keep_c, c_rows, n_columns = arrays.rows(columns)
         if r_rows is None or c_rows is None or count != n_columns:
             raise ArgumentError("entries need as many rows as columns")
+        if self._factor._kind is arrays.COMPLEX:
+            keep_r, r_rows, count = self._factor._kind.set(keep_r)
+            keep_c = np.repeat(2 * keep_c, 2)
+            c_rows = arrays.address(keep_c)
         out, stats = np.empty(count), Stats()
         check(lib.sl_selected_entries(self._selected.pointer, arrays.address(out), r_rows, c_rows,
-                                      count, ctypes.byref(stats)), stats)
+                                      count, ctypes.byref(stats)), stats, self._factor._kind.width)
+        if self._factor._kind is arrays.COMPLEX:
+            return out.view(np.complex128)
         return self._nulls.pairs(out, keep_r, keep_c) if pseudo and self._nulls else out
 
     @property
@@ -76,26 +94,29 @@ def save_set(path, factor, selected=None, regions=()):
     """
     regions = list(regions)
     pointers = (ctypes.c_void_p * max(len(regions), 1))(*(R._region.pointer for R in regions))
-    stored = SavedSet(factor._symbolic.pointer, factor._factor.pointer,
+    stored = SavedSet(factor._symbolic.pointer, factor._pointer,
                       selected._selected.pointer if selected is not None else None, pointers,
                       len(regions))
-    check(lib.sl_save_file(encoded(path), ctypes.byref(stored), None))
+    check(lib.sl_save_file(encoded(path), ctypes.byref(stored), None), path=path)
 
 
-def load_set(path, *, map=False, checks="checked", triangle=None):
+def load_set(path, *, map=False, checks="checked", triangle=None, threads=None, is_complex=False,
+             definite=False):
     """(factor, selected, regions) of a file; selected is None if it has none, regions is a list.
 
     The arguments are those of Factor.load. Plans in the regions solve with the factor at once.
     With map=True all of them are immutable, and processes share one copy in memory.
     """
-    arrays.check_triangle(triangle)
+    check_triangle(triangle)
     call = lib.sl_map_file if map else lib.sl_load_file
-    loaded = SavedSet()
-    check(call(ctypes.byref(loaded), encoded(path), choice(CHECKS, checks, "checks"), None))
+    loaded, options = SavedSet(), new_options()
+    set_threads(options, threads)
+    check(call(ctypes.byref(loaded), encoded(path), choice(CHECKS, checks, "checks"),
+               ctypes.byref(options)), path=path)
     if not loaded.factor:
         lib.sl_saved_set_free(ctypes.byref(loaded))
         raise ArgumentError("the file has no factor")
-    factor = Factor._of(loaded.symbolic, loaded.factor, triangle)
+    factor = Factor._taken(loaded, triangle, threads, is_complex, definite)
     selected, regions = None, []
     if loaded.selected:
         selected = Selected.__new__(Selected)

@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from sparse_local import _library
+from sparse_local import _structs
 
 
 HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
@@ -14,13 +14,14 @@ HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
 
 @pytest.mark.skipif(not os.path.exists(HEADER), reason="no header beside the package")
 @pytest.mark.parametrize("name", ["Options", "Stats", "Csc", "Csc64", "SavedSet", "SymbolicArrays",
-                                  "PseudoInverse"])
+                                  "PseudoInverse", "FactorArrays", "Hermitian", "Request"])
 def test_structs_are_those_of_the_header(tmp_path, name):
     """Every member of the C struct, in order, at the same offset, and nothing after the last."""
     struct = {"Options": "sl_options", "Stats": "sl_stats", "Csc": "sl_csc", "Csc64": "sl_csc64",
               "SavedSet": "sl_saved_set", "SymbolicArrays": "sl_symbolic_arrays",
-              "PseudoInverse": "sl_pseudo_inverse"}[name]
-    ours = dict(leaves(getattr(_library, name)))
+              "PseudoInverse": "sl_pseudo_inverse", "FactorArrays": "sl_factor_arrays",
+              "Hermitian": "sl_hermitian", "Request": "sl_request"}[name]
+    ours = dict(leaves(getattr(_structs, name)))
     with open(os.path.join(HEADER, "sparse_local.h")) as file:
         theirs = c_members(file.read(), struct)
     paths = ["size_of_all"] + theirs
@@ -33,7 +34,7 @@ def test_structs_are_those_of_the_header(tmp_path, name):
     subprocess.check_call(["cc", "-DSL_WITH_ALL", "-I", HEADER, "-o", str(tmp_path / "offsets"),
                            str(source)])
     numbers = subprocess.check_output([str(tmp_path / "offsets")], text=True).split()
-    assert int(numbers[0]) == ctypes.sizeof(getattr(_library, name))
+    assert int(numbers[0]) == ctypes.sizeof(getattr(_structs, name))
     assert [int(text) for text in numbers[1:]] == list(ours.values())
 
 

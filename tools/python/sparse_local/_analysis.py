@@ -1,0 +1,106 @@
+"""Analysis: the order and the structure of L for one pattern, without numbers."""
+import ctypes
+
+import numpy as np
+
+from . import _arrays as arrays
+from ._errors import ArgumentError
+from ._library import Handle, Stats, as_dict, check, lib
+from ._matrix import CscArrays, Matrix
+from ._options import Chosen, split
+
+
+class Analysis:
+    """The analysis of a symmetric pattern, for any number of factors with that pattern.
+
+    A           n x n, as for Factor. Values are read only with pivoted=True.
+    triangle    'lower' or 'upper': reads this triangle only; None: both triangles are the same
+                matrix, or one is stored.
+    ordering, perm, block_size, purpose, threads, pivoted  as for Factor.
+
+    Errors    PatternError: not square, malformed, or both triangles with different patterns;
+              ArgumentError: an option, or a perm that is no permutation (row: its first wrong
+              place).
+    Cost      the ordering, and nearly O(entries of A and of the structure of L).
+    Threads   immutable; may be shared.
+    """
+
+    def __init__(self, A, **options):
+        chosen, numbers = split(options)
+        if numbers.keys() - {"threads"}:
+            raise TypeError("%s are options of factor" % ", ".join(numbers.keys() - {"threads"}))
+        self._analyze(Matrix(A), **chosen)
+
+    def _analyze(self, matrix, triangle=None, pivoted=False, **options):
+        width = matrix.kind().width
+        chosen = Chosen(matrix.n, matrix.is_complex).analysis(**options)
+        chosen.options.triangle = matrix.triangle(triangle)
+        stats, symbolic = Stats(), ctypes.c_void_p()
+        analyze = lib.sl_symbolic_create_pivoted if pivoted else lib.sl_symbolic_create
+        check(analyze(ctypes.byref(symbolic), matrix.reference(), ctypes.byref(chosen.options),
+                      ctypes.byref(stats)), stats, width)
+        self._own(symbolic.value, triangle, matrix.kind())
+
+    def _own(self, symbolic, triangle, kind):
+        self._symbolic = Handle("symbolic", symbolic)
+        self._triangle = triangle
+        self._kind = kind
+        self.n = lib.sl_symbolic_view(symbolic).n // kind.width
+        return self
+
+    @classmethod
+    def _of(cls, symbolic, triangle, kind):
+        return cls.__new__(cls)._own(symbolic, triangle, kind)
+
+    def factor(self, A, **numbers):
+        """A Factor of a matrix with this pattern, stored alike; numbers: the options of Factor that
+        the factorization reads. PatternError: another pattern."""
+        from ._factor import Factor
+        return Factor._create(self, self._matrix(A), numbers)
+
+    def _matrix(self, A):
+        """The view of a matrix as the analyzed one was viewed, checked for symmetry."""
+        matrix = Matrix(A)
+        if self._kind is arrays.COMPLEX and not matrix.is_complex:
+            A = A.astype(complex) if hasattr(A, "astype") else CscArrays(
+                A.shape, A.indptr, A.indices, np.asarray(A.data).astype(complex))
+            matrix = Matrix(A)
+        elif matrix.is_complex and self._kind is arrays.REAL:
+            raise TypeError("a real matrix was analyzed, and this one is complex")
+        if self._triangle is None:
+            matrix.check_symmetric()
+            return matrix
+        read = self.stats["triangle"]
+        if read in (1, 2) and matrix.triangle(self._triangle) != read:
+            # stored by rows where the analyzed matrix was stored by columns, or the reverse
+            if not hasattr(A, "tocsr"):
+                raise ArgumentError("the analyzed matrix was stored by rows")
+            matrix = Matrix(A.tocsc() if matrix.is_turned else A.tocsr())
+        return matrix
+
+    @property
+    def perm(self):
+        """perm[k] is the row of A that is pivot k; n numbers, a copy."""
+        view = lib.sl_symbolic_view(self._symbolic.pointer)
+        if not self.n:
+            return np.zeros(0, dtype=np.int32)
+        width = self._kind.width
+        perm = np.ctypeslib.as_array(ctypes.cast(view.perm, ctypes.POINTER(ctypes.c_int32)),
+                                     (self.n * width,))
+        return perm[::width] // width
+
+    @property
+    def stats(self):
+        """Counts, times and sizes of the analysis, by their C names."""
+        stats = Stats()
+        lib.sl_symbolic_stats(self._symbolic.pointer, ctypes.byref(stats))
+        return as_dict(stats.symbolic)
+
+    def __repr__(self):
+        return "<sparse_local.Analysis of %d rows, %d entries in L>" % (self.n,
+                                                                       self.stats["nnz_l"])
+
+
+def analyze(A, **options):
+    """Analysis(A, **options): the order and the structure of L, without numbers."""
+    return Analysis(A, **options)

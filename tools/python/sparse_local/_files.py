@@ -1,0 +1,94 @@
+"""Factors in files, in memory that processes share, and in pickles."""
+import ctypes
+import os
+
+import numpy as np
+
+from . import _arrays as arrays
+from ._analysis import Analysis
+from ._errors import ArgumentError
+from ._library import SavedSet, check, lib, new_options
+from ._matrix import check_triangle
+from ._options import choice
+from ._threads import set_threads
+
+_SAVED_FACTOR = 1  # SL_SAVED_FACTOR: without what else the file has
+CHECKS = {"checked": 0, "trusted": 1, "verified": 2}
+
+
+class Files:
+    """What Factor inherits: saving and loading."""
+
+    def save(self, path):
+        """Writes the analysis and the factor to a file, which load reads. An existing file is
+        replaced when the new one is complete. Error: the path cannot be written."""
+        check(lib.sl_save_file(encoded(path), self._set(), None), path=path)
+
+    @classmethod
+    def load(cls, path, *, map=False, checks="checked", triangle=None, threads=None,
+             is_complex=False, definite=False):
+        """A factor from a file that save has written; its solves have the same bits.
+
+        map         True: maps the file, which processes then share; refactor raises StateError.
+        checks      'checked': any bytes are safe; 'verified': checksums too; 'trusted': none.
+        triangle, threads, definite  as for Factor, for later refactors.
+        is_complex  True: a factor of a complex matrix.
+        """
+        call = lib.sl_map_file if map else lib.sl_load_file
+        return cls._loaded(call, (encoded(path),), checks, triangle, threads, is_complex,
+                           definite, path)
+
+    def to_bytes(self):
+        """The analysis and the factor as bytes, as save writes them; pickle uses this."""
+        size = ctypes.c_size_t()
+        check(lib.sl_save_bytes(ctypes.byref(size), self._set()))
+        memory = np.empty(size.value, dtype=np.uint8)
+        check(lib.sl_save_memory(arrays.address(memory), memory.size, self._set()))
+        return memory.tobytes()
+
+    def _set(self):
+        return ctypes.byref(SavedSet(self._symbolic.pointer, self._pointer))
+
+    @classmethod
+    def from_bytes(cls, data, *, checks="checked", triangle=None, threads=None, is_complex=False,
+                   definite=False):
+        """A factor from the bytes of to_bytes, as a copy."""
+        memory = np.frombuffer(data, dtype=np.uint8)
+        return cls._loaded(lib.sl_load_memory, (arrays.address(memory), memory.size), checks,
+                           triangle, threads, is_complex, definite)
+
+    def __reduce__(self):
+        return _unpickle, (self.to_bytes(), self.analysis._triangle, self._threads,
+                           self._kind is arrays.COMPLEX, self._definite)
+
+    @classmethod
+    def _loaded(cls, call, source, checks, triangle, threads, is_complex, definite, path=None):
+        check_triangle(triangle)
+        loaded, options = SavedSet(wanted=_SAVED_FACTOR), new_options()
+        set_threads(options, threads)
+        check(call(ctypes.byref(loaded), *source, choice(CHECKS, checks, "checks"),
+                   ctypes.byref(options)), path=path)
+        return cls._taken(loaded, triangle, threads, is_complex, definite)
+
+    @classmethod
+    def _taken(cls, loaded, triangle, threads=None, is_complex=False, definite=False):
+        """The owner of an analysis and a factor that were loaded."""
+        kind = arrays.COMPLEX if is_complex else arrays.REAL
+        analysis = Analysis._of(loaded.symbolic, triangle, kind)
+        self = cls._of(analysis, loaded.factor, threads, definite)
+        self._check_definite()
+        return self
+
+
+def encoded(path):
+    """A path as the bytes that the library opens."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ArgumentError("a path without zero bytes is needed")
+    return name
+
+
+def _unpickle(data, triangle, threads=None, is_complex=False, definite=False):
+    from ._factor import Factor
+    return Factor.from_bytes(data, triangle=triangle, threads=threads, is_complex=is_complex,
+                             definite=definite)

@@ -1,0 +1,191 @@
+"""Sparse matrices: those of SciPy, or anything with their arrays, as views of the library."""
+import ctypes
+from collections import namedtuple
+
+import numpy as np
+
+from . import _arrays as arrays
+from ._arrays import address
+from ._errors import ArgumentError, NotFiniteError, PatternError, TooLargeError
+from ._library import Csc, Csc64, Handle, Hermitian, Stats, check, lib, new_options
+
+_AS_SYMMETRIC, _AS_STORED = 0, 1
+TRIANGLES = {None: 0, "lower": 1, "upper": 2, "both": 3}
+
+CscArrays = namedtuple("CscArrays", "shape indptr indices data")
+CscArrays.__doc__ = """A sparse matrix in compressed columns, where SciPy is not installed."""
+
+
+class Matrix:
+    """View of a sparse matrix: scipy.sparse, or anything with shape, indptr, indices and data.
+
+    CSC with 32-bit indices and float64 values is used in place; p, i, x are its arrays. 64-bit
+    indices are converted by the library. CSR is used in place as its transpose, so that its
+    triangles change places (is_turned). A complex matrix becomes the real one of twice the size.
+    """
+
+    def __init__(self, A):
+        form = getattr(A, "format", "csc")
+        if form not in ("csc", "csr"):
+            A = A.tocsc()
+            form = "csc"
+        elif not all(hasattr(A, name) for name in ("shape", "indptr", "indices", "data")):
+            raise TypeError("a sparse matrix in compressed columns is needed (scipy.sparse.csc)")
+        self.is_turned = form == "csr"
+        rows, columns = A.shape
+        if self.is_turned:
+            rows, columns = columns, rows
+        if max(rows, columns) > arrays.LIMIT:
+            raise TooLargeError("a matrix of %d x %d" % (rows, columns))
+        is_wide = np.asarray(A.indptr).dtype == np.asarray(A.indices).dtype == np.int64
+        self.p = _positions(A.indptr, "positions", is_wide)
+        self.i = _positions(A.indices, "row indices", is_wide)
+        self.x = np.ascontiguousarray(arrays.number_array(A.data, "values"))
+        if self.p.ndim != 1 or self.p.size != columns + 1:
+            raise PatternError("indptr needs one entry for each column and one more")
+        if self.p[0] != 0 or not self.p[-1] <= min(self.i.size, self.x.size):
+            raise PatternError("positions do not fit the arrays of indices and values")
+        self.n = rows
+        self.is_complex = self.x.dtype.kind == "c"
+        if is_wide:
+            self.csc = self._convert(rows, columns)
+        else:
+            self.csc = Csc(rows, columns, address(self.p), address(self.i), address(self.x))
+        if self.is_complex:
+            self.csc = self._as_real(rows, columns)
+
+    def _convert(self, rows, columns):
+        """The view with 32-bit indices of a matrix with 64-bit ones; values stay in place."""
+        wide = Csc64(rows, columns, address(self.p), address(self.i), 0)
+        pointer, stats = ctypes.c_void_p(), Stats()
+        check(lib.sl_matrix_from_csc64(ctypes.byref(pointer), ctypes.byref(wide), None,
+                                       ctypes.byref(stats)), stats)
+        self._converted = Handle("matrix", pointer.value)
+        csc = lib.sl_matrix_view(self._converted.pointer)
+        csc.x = address(self.x)
+        return csc
+
+    def _as_real(self, rows, columns):
+        """The real matrix of a Hermitian one. The transpose, which CSR is, is its conjugate."""
+        if rows != columns:
+            raise ArgumentError("a square matrix is needed, not %d x %d" % (rows, columns))
+        values = self.x.conj() if self.is_turned else self.x
+        view = Hermitian(rows, self.csc.p, self.csc.i, address(values), None)
+        pointer, stats = ctypes.c_void_p(), Stats()
+        check(lib.sl_matrix_from_hermitian(ctypes.byref(pointer), ctypes.byref(view), None,
+                                           ctypes.byref(stats)), stats)
+        self._doubled = Handle("matrix", pointer.value)
+        csc = lib.sl_matrix_view(self._doubled.pointer)
+        self.p, self.i, self.x = csc_arrays(csc)
+        return csc
+
+    def reference(self):
+        return ctypes.byref(self.csc)
+
+    def triangle(self, name):
+        """The value of options.triangle for 'lower', 'upper' or None."""
+        check_triangle(name)
+        value = TRIANGLES[name]
+        return 3 - value if value and self.is_turned else value
+
+    def kind(self):
+        """arrays.REAL or arrays.COMPLEX."""
+        return arrays.COMPLEX if self.is_complex else arrays.REAL
+
+    def check_symmetric(self):
+        """Raises PatternError if both triangles are stored and differ, NotFiniteError for a NaN.
+
+        Compares two products with one vector: as stored, and as the lower triangle defines them.
+        """
+        stats, found = Stats(), ctypes.c_int()
+        options = new_options()
+        check(lib.sl_csc_triangle(self.reference(), ctypes.byref(found), ctypes.byref(options),
+                                  ctypes.byref(stats)), stats)
+        if found.value != TRIANGLES["both"]:
+            return
+        width, n = self.kind().width, self.csc.n_rows
+        bad = np.flatnonzero(~np.isfinite(self.x[:self.p[-1]]))
+        if bad.size:
+            column = int(np.searchsorted(self.p, bad[0], side="right")) - 1
+            raise NotFiniteError("NaN or infinity", int(self.i[bad[0]]) // width, column // width,
+                                 float(self.x[bad[0]]))
+        x = np.random.default_rng(0).uniform(0.5, 1.5, n)
+        stored, mirrored, scale = np.empty(n), np.empty(n), np.empty(n)
+        magnitude = Csc(n, n, self.csc.p, self.csc.i, 0)
+        values = np.abs(self.x)
+        magnitude.x = address(values)
+        for csc, reading, y in ((self.csc, _AS_STORED, stored), (self.csc, _AS_SYMMETRIC, mirrored),
+                                (magnitude, _AS_STORED, scale)):
+            check(lib.sl_csc_multiply(ctypes.byref(csc), reading, address(y), max(n, 1),
+                                      address(x), max(n, 1), 1))
+        differs = ~(np.abs(stored - mirrored) <= 1e-9 * scale)
+        if differs.any():
+            row = int(np.argmax(differs)) // width
+            raise PatternError("the two triangles differ; pass triangle='lower' or 'upper' to read "
+                               "one of them", row)
+
+
+def _positions(array, what, is_wide):
+    return np.ascontiguousarray(array) if is_wide else arrays.index_array(array, what)
+
+
+def check_triangle(name):
+    if name not in TRIANGLES or name == "both":
+        raise ArgumentError("triangle is 'lower', 'upper' or None, not %r" % (name,))
+
+
+def csc_arrays(csc):
+    """Copies of the positions, rows and values of a view."""
+    def copy(pointer, kind, count):
+        if not count:
+            return np.zeros(0, dtype=kind)
+        return np.ctypeslib.as_array(ctypes.cast(pointer, ctypes.POINTER(kind)), (count,)).copy()
+
+    p = copy(csc.p, ctypes.c_int32, csc.n_cols + 1)
+    count = int(p[-1])
+    x = copy(csc.x, ctypes.c_double, count) if csc.x else np.zeros(count)
+    return p, copy(csc.i, ctypes.c_int32, count), x
+
+
+def from_arrays(shape, p, i, x):
+    """scipy.sparse.csc_matrix, or CscArrays if SciPy is not installed."""
+    try:
+        import scipy.sparse
+    except ImportError:
+        return CscArrays(tuple(shape), p, i, x)
+    return scipy.sparse.csc_matrix((x, i, p), shape=shape)
+
+
+def from_triplets(rows, columns, values, n):
+    """The n x n matrix with values[k] at (rows[k], columns[k]); equal positions are summed.
+
+    Of a symmetric matrix one triangle is enough. Without SciPy the result is a tuple with the
+    fields shape, indptr, indices and data, which every call of this package takes.
+    ArgumentError: an index out of range. O(n + entries).
+    """
+    i, j = arrays.index_array(rows, "rows"), arrays.index_array(columns, "columns")
+    if i.ndim != 1 or i.shape != j.shape:
+        raise ArgumentError("triplets need as many rows as columns")
+    x = arrays.vector(values, i.size, "values")
+    pointer, stats = ctypes.c_void_p(), Stats()
+    check(lib.sl_matrix_from_triplets(ctypes.byref(pointer), n, n, i.size, address(i), address(j),
+                                      address(x), None, ctypes.byref(stats)), stats)
+    matrix = Handle("matrix", pointer.value)
+    return from_arrays((n, n), *csc_arrays(lib.sl_matrix_view(matrix.pointer)))
+
+
+def columns_of(B):
+    """A sparse right-hand side by columns: (rows that have an entry, dense block of these rows)."""
+    B = B.tocsc() if hasattr(B, "tocsc") else B
+    p, i = np.asarray(B.indptr), np.asarray(B.indices)
+    data = arrays.number_array(B.data, "right-hand sides")
+    columns = np.repeat(np.arange(B.shape[1]), np.diff(p))
+    i, data = i[:columns.size], data[:columns.size]
+    rows, places = np.unique(i, return_inverse=True)
+    block = np.zeros((rows.size, B.shape[1]), data.dtype)
+    np.add.at(block, (places, columns), data)
+    return rows, block
+
+
+def is_sparse(B):
+    return hasattr(B, "indptr") or hasattr(B, "tocsc")

@@ -1,0 +1,127 @@
+"""Pins: rows of a system that solves hold at given values, on top of a factor."""
+import ctypes
+
+import numpy as np
+
+from . import _arrays as arrays
+from ._errors import ArgumentError
+from ._library import Handle, Stats, as_dict, check, lib
+
+
+class Pins:
+    """Rows, or linear combinations of rows, that solves hold at given values. The factor stays.
+
+    For a definite A this minimizes x' A x / 2 - b' x under these equalities. A singular Laplacian
+    (null_pivots='skip') becomes regular with one pin in each component. Made by Factor.pins.
+
+    Errors    UnsupportedError: pivots of both signs, 2x2 pivots; StateError: the factor has changed
+              since (update); PivotError: a row is held already.
+    Cost      a forward sweep for each pin, a full solve for each solution; many pins are cheaper by
+              update(A), with the matrix.
+    Threads   add, release and update need the pins for themselves; solve does not.
+    """
+
+    def __init__(self, factor, rows=()):
+        pointer = ctypes.c_void_p()
+        check(lib.sl_pins_create(ctypes.byref(pointer), factor._pointer, None))
+        self._factor = factor
+        self._pins = Handle("pins", pointer.value, factor._factor, factor._symbolic)
+        self._count = 0
+        self.stats = {}
+        if len(np.asarray(rows)):
+            self.add(rows)
+
+    def __len__(self):
+        return self._count
+
+    def _done(self, status, stats, count):
+        check(status, stats, self._factor._kind.width)
+        self._count = count
+        self.stats = as_dict(stats.pins)
+        return self
+
+    def add(self, rows):
+        """Adds pins, all or none; they become the last ones, in the order of rows."""
+        keep, address, count = self._factor._kind.set(rows)
+        if address is None:
+            raise ArgumentError("a set of rows is needed")
+        stats, width = Stats(), self._factor._kind.width
+        self._factor._pointer
+        return self._done(lib.sl_pins_add(self._pins.pointer, address, count, ctypes.byref(stats)),
+                          stats, self._count + count // width)
+
+    def add_equality(self, rows, coefficients):
+        """Adds an equality: the sum of coefficients[k] x[rows[k]] is held. Of real matrices."""
+        if self._factor._kind is arrays.COMPLEX:
+            raise ArgumentError("equalities are those of real matrices")
+        keep, address, count = arrays.rows(rows)
+        if not count:
+            raise ArgumentError("an equality needs rows")
+        values, stats = arrays.vector(coefficients, count, "coefficients"), Stats()
+        self._factor._pointer
+        return self._done(lib.sl_pins_add_equality(
+            self._pins.pointer, address, arrays.address(values), count, ctypes.byref(stats)),
+            stats, self._count + 1)
+
+    def release(self, numbers):
+        """Releases pins by their numbers, 0-based; the others move together."""
+        numbers = np.asarray(numbers)
+        if numbers.size and ((numbers < 0).any() or (numbers >= self._count).any()):
+            raise ArgumentError("pins have numbers from 0 to %d" % (self._count - 1))
+        keep, address, count = self._factor._kind.set(numbers)
+        stats, width = Stats(), self._factor._kind.width
+        self._factor._pointer  # refuses a failed or closed factor
+        if not count:
+            return self
+        return self._done(lib.sl_pins_release(self._pins.pointer, address, count,
+                                              ctypes.byref(stats)),
+                          stats, self._count - count // width)
+
+    def update(self, A=None):
+        """Takes the present numbers of the factor, after it has changed.
+
+        A  its matrix: pins are then held by the cheaper way, elimination or a small dense matrix.
+           ArgumentError: not the matrix of the factor.
+        """
+        matrix = None if A is None else self._factor.analysis._matrix(A)
+        self._factor._pointer
+        stats = Stats()
+        return self._done(lib.sl_pins_refactor(
+            self._pins.pointer, None if matrix is None else matrix.reference(),
+            ctypes.byref(stats)), stats, self._count)
+
+    def solve(self, B, values, plan=None):
+        """x with A x = B in all other rows and x = values in the pinned ones.
+
+        B       (n,) or (n, count); None: zeros. With a plan its rows are those of the plan's bset.
+        values  (len(self),) or (len(self), count), in the order of the pins.
+        plan    Factor.plan without a region: x is computed in its xset only.
+        Returns an array of the shape of B; if B is None, (n,) or (n, count) as values.
+        InaccurateError: rounding lost the equalities; InconsistentError: B is out of balance with a
+        motion that the pins leave.
+        """
+        factor = self._factor
+        kind, width = factor._kind, factor._kind.width
+        n_b, n_x = (factor.n, factor.n) if plan is None else (plan.nb, plan.nx)
+        held = arrays.number_array(values, "values")
+        if B is None:
+            B = np.zeros((n_b,) + held.shape[1:])
+        B, held = np.asarray(B), np.asarray(held)
+        if held.ndim not in (1, 2) or held.shape[0] != self._count or held.shape[1:] != B.shape[1:]:
+            raise ArgumentError("%d pins need values of the shape %s, not %s" % (
+                self._count, (self._count,) + B.shape[1:], held.shape))
+        if kind is arrays.REAL and "c" in (B.dtype.kind, held.dtype.kind):
+            raise TypeError("pins of a real matrix have real values")
+        # column-major: pins take no rows of right-hand sides
+        dense = kind.dense(np.asfortranarray(B), n_b, n_x)
+        right = kind.dense(np.asfortranarray(held), self._count, self._count)
+        out = np.empty((max(n_x * width, 1), dense.count), order="F")
+        check(lib.sl_pins_solve(self._pins.pointer, None if plan is None else plan._plan.pointer,
+                                arrays.address(out), out.shape[0], arrays.address(dense.B),
+                                dense.ldb, arrays.address(right.B), right.ldb, dense.count,
+                                self._solving()))
+        return dense.shaped(out[:n_x * width])
+
+    def _solving(self):
+        self._factor._pointer  # refuses a failed or closed factor
+        return self._factor._work()

@@ -1,0 +1,177 @@
+"""Pins, changes of entries, submatrices and edited meshes, against new factors and dense algebra."""
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+import sparse_local as sl
+from systems import grid, right_hand_sides
+
+
+def held(A, rows, b, values):
+    """The dense solution with x = values in rows."""
+    free = np.setdiff1d(np.arange(A.shape[0]), rows)
+    dense, x = A.toarray(), np.zeros(b.shape)
+    x[rows] = values
+    x[free] = np.linalg.solve(dense[np.ix_(free, free)], b[free] - dense[np.ix_(free, rows)] @ values)
+    return x
+
+
+@pytest.mark.parametrize("count", [None, 3])
+@pytest.mark.parametrize("with_matrix", [False, True])
+def test_pins_hold_rows(A, F, count, with_matrix):
+    rows = [5, 0, 399]
+    b, values = right_hand_sides(400, count), right_hand_sides(3, count)
+    P = F.pins(rows)
+    if with_matrix:
+        assert P.update(A) is P
+    assert len(P) == 3 and P.stats["count"] == 3
+    assert np.allclose(P.solve(b, values), held(A, rows, b, values), atol=1e-12)
+    assert np.allclose(P.solve(None, values), held(A, rows, 0 * b, values), atol=1e-12)
+    plan = F.plan([7], [6, 8])
+    few = np.zeros(b.shape)
+    few[7] = 1.0
+    x = P.solve(few[[7]], values, plan=plan)
+    assert np.allclose(x, held(A, rows, few, values)[[6, 8]], atol=1e-12)
+    P.release([1])
+    assert np.allclose(P.solve(b, values[[0, 2]]), held(A, [5, 399], b, values[[0, 2]]))
+    P.add([17])
+    new = right_hand_sides(3, count)
+    assert np.allclose(P.solve(b, new), held(A, [5, 399, 17], b, new), atol=1e-12)
+
+
+def test_equalities_and_singular_systems():
+    A = grid(8, 0.0)
+    F = sl.Factor(A, null_pivots="skip")
+    P = F.pins().add_equality([0, 1, 2], [1.0, 1.0, -1.0]).add([60])
+    x = P.solve(None, [2.0, 1.0])
+    assert x[0] + x[1] - x[2] == pytest.approx(2) and x[60] == pytest.approx(1)
+    r = A @ x
+    assert np.allclose(np.delete(r, [0, 1, 2, 60]), 0, atol=1e-12) and r[0] == pytest.approx(-r[2])
+
+
+def test_pins_refuse_what_is_wrong(A, F):
+    P = F.pins([3, 4])
+    with pytest.raises(sl.PivotError):
+        P.add([3])
+    for rows in ([400], [-1], [[1]]):
+        with pytest.raises(sl.ArgumentError):
+            P.add(rows)
+    for numbers in ([2], [-1]):
+        with pytest.raises(sl.ArgumentError):
+            P.release(numbers)
+    b = np.zeros(400)
+    for values in ([1.0], [1.0, 2.0, 3.0], [[1.0], [2.0]], 1.0):
+        with pytest.raises(sl.ArgumentError):
+            P.solve(b, values)
+    with pytest.raises(sl.NotFiniteError):
+        P.solve(b, [np.nan, 1.0])
+    with pytest.raises(sl.ArgumentError):
+        P.solve(b[:-1], [1.0, 2.0])
+    with pytest.raises(TypeError):
+        P.solve(b, [1j, 2.0])
+    with pytest.raises(sl.ArgumentError):
+        P.update(2 * A)
+    assert len(P) == 2
+    F.refactor(2 * A)
+    with pytest.raises(sl.StateError):
+        P.solve(b, [1.0, 2.0])
+    P.update()
+    assert P.solve(b, [1.0, 2.0])[3] == pytest.approx(1)
+    with pytest.raises(sl.UnsupportedError):
+        sl.Factor(grid(6, -2.9)).pins([1])
+
+
+def stiffer(A, i, j, w):
+    """A with an edge between i and j that is heavier by w."""
+    B = A.tolil()
+    B[i, j] -= w
+    B[j, i] -= w
+    B[i, i] += w
+    B[j, j] += w
+    return B.tocsc()
+
+
+@pytest.mark.parametrize("turn", ["tocsc", "tocsr", "lower", "upper"])
+def test_changes_follow_entries(A, turn):
+    def form(B):
+        return {"lower": sp.tril, "upper": sp.triu}[turn](B, format="csc") if len(turn) == 5 and \
+            turn in ("lower", "upper") else getattr(B, turn)()
+    B, b = stiffer(A, 17, 18, 2.5), right_hand_sides(400)
+    F = sl.Factor(form(A))
+    assert F.change(form(B), form(A)) in ("update", "reach", "refactor")
+    wanted = np.linalg.solve(B.toarray(), b)
+    assert np.allclose(F.solve(b), wanted)
+    assert F.change(form(B), form(B)) == "none"
+    G = sl.Factor(form(A))
+    entries = dict(rows=[17, 17, 18], columns=[18, 17, 18], deltas=[-2.5, 2.5, 2.5])
+    G.change(form(B), **entries)
+    assert np.allclose(G.solve(b), wanted)
+    assert np.allclose(sl.Factor(form(A)).update_entries(**entries).solve(b), wanted)
+    V = sp.csc_matrix(([1.0, -1.0], ([17, 18], [0, 0])), shape=(400, 1))
+    H = sl.Factor(form(A)).rank_update(V, [2.5])
+    assert np.allclose(H.solve(b), wanted) and H.changed["ranks"] == 1
+    assert np.allclose(H.rank_update(V, [-2.5]).solve(b), np.linalg.solve(A.toarray(), b))
+
+
+def test_refused_changes_leave_the_factor(A, F):
+    b = right_hand_sides(400)
+    x = F.solve(b)
+    far = sp.csc_matrix(([1.0, -1.0], ([0, 399], [0, 0])), shape=(400, 1))
+    with pytest.raises(sl.PatternError):
+        F.rank_update(far)
+    unit = sp.csc_matrix(([1.0], ([5], [0])), shape=(400, 1))
+    with pytest.raises(sl.PivotError):
+        F.rank_update(unit, [-100.0])
+    with pytest.raises(sl.NotFiniteError):
+        F.rank_update(unit, [np.nan])
+    with pytest.raises(sl.NotFiniteError):
+        F.update_entries([5], [5], [np.inf])
+    for wrong in (([5], [400], [1.0]), ([5], [-1], [1.0]), ([5, 6], [5], [1.0, 1.0]),
+                  ([5], [5], [1.0, 2.0])):
+        with pytest.raises(sl.ArgumentError):
+            F.update_entries(*wrong)
+    with pytest.raises(sl.ArgumentError):
+        F.rank_update(unit, [1.0, 2.0])
+    with pytest.raises(sl.ArgumentError):
+        F.change(A)
+    with pytest.raises(sl.ArgumentError):
+        F.change(A, grid(19))
+    assert np.array_equal(F.solve(b), x)
+
+
+def test_restrict_is_the_factor_of_a_submatrix(A, F):
+    rows = np.random.default_rng(0).permutation(400)[:150]
+    G, b = F.restrict(A, rows), right_hand_sides(150)
+    assert G.n == 150
+    assert np.allclose(G.solve(b), np.linalg.solve(A.toarray()[np.ix_(rows, rows)], b))
+    with pytest.raises(sl.StateError):
+        G.save("none")
+    with pytest.raises((sl.StateError, sl.PatternError)):
+        G.refactor(A[rows][:, rows])
+    for wrong in ([1, 1], [400], None):
+        with pytest.raises(sl.ArgumentError):
+            F.restrict(A, wrong)
+
+
+def test_edits_follow_a_mesh():
+    A = grid(20)
+    gone = 45
+    new_of = np.arange(400)
+    new_of[gone], new_of[gone + 1:] = -1, np.arange(gone, 399)
+    kept = np.delete(np.arange(400), gone)
+    B = stiffer(sp.block_diag([A[kept][:, kept], [[1.0]]], format="csc"), 10, 399, 1.0)  # a new row
+    F = sl.Factor(A)
+    G, b = F.edit(A, B, new_of), right_hand_sides(400)
+    assert np.allclose(G.solve(b), np.linalg.solve(B.toarray(), b))
+    assert "changed" in G.analysis.edited and "kept" in G.reused
+    again = sl.Factor.from_bytes(G.to_bytes())
+    assert np.array_equal(again.solve(b), G.solve(b))
+    for wrong in (new_of[:-1], np.where(new_of == 7, 8, new_of), np.where(new_of == 7, 400, new_of)):
+        with pytest.raises(sl.ArgumentError):
+            F.edit(A, B, wrong)
+    with pytest.raises(sl.PatternError):
+        F.edit(grid(19), B, new_of)
+    with pytest.raises(sl.PatternError):
+        bad = B.tolil()
+        bad[3, 2] += 1
+        F.edit(A, bad.tocsc(), new_of)
