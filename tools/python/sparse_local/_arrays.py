@@ -1,8 +1,9 @@
-"""Arrays of NumPy as the library wants them: sets of rows, and dense blocks, in place where they fit.
+"""Arrays of NumPy as the library wants them: sets of rows, and dense blocks, in place if they fit.
 
 REAL and COMPLEX say how rows of the user are rows of the library: a complex Hermitian matrix of n
 rows is a real one of 2n, with real and imaginary parts in turn.
 """
+import cmath
 import ctypes
 
 import numpy as np
@@ -65,25 +66,25 @@ def option_array(array, n, dtype, what):
     return array
 
 
-def check_finite(array, what, rows=None):
-    """Raises NotFiniteError with the first row, of rows if it is given, that has a NaN or infinity.
+def check_finite(array, what, rows=None, width=1):
+    """Raises NotFiniteError with the first row, of rows // width if given, with a NaN or infinity.
 
     A sum of squares first, which is quicker than a test of each number; squares may overflow.
     """
-    flat = array.ravel("K")
-    with np.errstate(over="ignore", invalid="ignore"):
-        if np.isfinite(np.vdot(flat, flat)):
-            return
+    flat = array if array.ndim == 1 else array.ravel("K")
+    if cmath.isfinite(flat.dot(flat)):
+        return
     bad = np.argwhere(~np.isfinite(array))
     if bad.size:
         row = int(bad[0][0])
         raise NotFiniteError("NaN or infinity in %s" % what,
-                             row if rows is None else int(rows[row]),
+                             row if rows is None else int(rows[row * width]) // width,
                              int(bad[0][1]) if array.ndim == 2 else None,
                              float(np.real(array[tuple(bad[0])])))
 
 
 # SL_ROW_MAJOR: the highest bit of a size_t
+_DOUBLE, _COMPLEX = np.dtype(np.float64), np.dtype(np.complex128)
 _ROW_MAJOR = 1 << (8 * ctypes.sizeof(ctypes.c_size_t) - 1)
 
 
@@ -96,22 +97,27 @@ class Dense:
     """
 
     def __init__(self, B, n_b, n_x, width=1, rows=None):
-        B = number_array(B, "right-hand sides")
-        if B.ndim not in (1, 2) or B.shape[0] != n_b:
+        if type(B) is not np.ndarray or B.dtype is not _DOUBLE:
+            B = number_array(B, "right-hand sides")
+        shape = B.shape
+        if not 1 <= len(shape) <= 2 or shape[0] != n_b:
             raise ArgumentError("the right-hand side needs %d rows, and has the shape %s" %
-                                (n_b, B.shape))
-        check_finite(B, "the right-hand side", rows)
-        columns = B.shape[1] if B.ndim == 2 else 1
+                                (n_b, shape))
+        check_finite(B, "the right-hand side", rows, width)
+        columns = shape[1] if len(shape) == 2 else 1
         is_doubled = width == 1 and B.dtype.kind == "c"  # each column is two real ones
         self.count = 2 * columns if is_doubled else columns
         if self.count > LIMIT:
             raise TooLargeError("%d right-hand sides" % columns)
-        by_rows = is_doubled or (width == 1 and B.ndim == 2 and self.count > 1 and
-                                 not B.flags.f_contiguous)
+        flags = B.flags
+        by_rows = is_doubled or (width == 1 and self.count > 1 and not flags.f_contiguous)
         order = "C" if by_rows else "F"
-        dtype = np.complex128 if width == 2 or is_doubled else np.float64
-        self.B = np.require(B, dtype, [order, "A"])
-        self.X = np.empty((n_x,) if B.ndim == 1 else (n_x, columns), dtype, order)
+        dtype = _COMPLEX if width == 2 or is_doubled else _DOUBLE
+        if B.dtype is not dtype or not flags.aligned or not (
+                flags.c_contiguous if by_rows else flags.f_contiguous):
+            B = np.require(B, dtype, [order, "A"])
+        self.B = B
+        self.X = np.empty((n_x,) if len(shape) == 1 else (n_x, columns), dtype, order)
         self.ldb = self.count | _ROW_MAJOR if by_rows else max(n_b * width, 1)
         self.ldx = self.count | _ROW_MAJOR if by_rows else max(n_x * width, 1)
 
@@ -159,6 +165,7 @@ class _Real:
 
     @staticmethod
     def dense(B, n_b, n_x, rows=None):
+        """A right-hand side with n_b rows of the user; rows of the library name them in errors."""
         return Dense(B, n_b, n_x, 1, rows)
 
 

@@ -84,9 +84,7 @@ class Plan:
         return other
 
     def _dense(self, B):
-        kind = self._factor._kind
-        return kind.dense(B, self.nb, self.nx, None if self._bset is None else
-                          self._bset[::kind.width] // kind.width)
+        return self._factor._kind.dense(B, self.nb, self.nx, self._bset)
 
     def solve(self, B):
         """x on xset; B has the shape (nb,) or (nb, count), the result (nx,) or (nx, count)."""

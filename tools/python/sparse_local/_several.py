@@ -114,7 +114,8 @@ class Sum:
         many = [factors] if isinstance(factors, Factor) else list(factors)
         c, _ = self._coefficients(coefficients)
         if len(c) != len(many):
-            raise ArgumentError("%d factors need as many coefficients, not %d" % (len(many), len(c)))
+            raise ArgumentError("%d factors need as many coefficients, not %d" %
+                                (len(many), len(c)))
         options, failed, stats = new_options(), ctypes.c_int32(), Stats()
         set_threads(options, self._numbers.get("threads"))
         handles = (ctypes.c_void_p * max(len(many), 1))(*(F._factor.pointer for F in many))

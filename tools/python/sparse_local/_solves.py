@@ -27,7 +27,7 @@ class Solves:
         factor; InconsistentError: A is singular and B has no solution (null_pivots='skip' without
         mass). Cost: two passes over L for up to 8 columns of B.
         """
-        if is_sparse(B):
+        if type(B) is not np.ndarray and is_sparse(B):
             if tuple(B.shape[:1]) != (self.n,) or len(B.shape) != 2:
                 raise ArgumentError("the right-hand side needs %d rows, and has the shape %s" %
                                     (self.n, B.shape))
@@ -35,8 +35,9 @@ class Solves:
             return self.local(rows, block, None)
         dense = self._kind.dense(B, self.n, self.n)
         status = lib.sl_factor_solve(self._pointer, *dense.arguments(), self._work())
-        self._check_consistent(status, dense)
-        check(status)
+        if status:
+            self._check_consistent(status, dense)
+            check(status)
         return dense.X
 
     __call__ = solve
@@ -70,13 +71,13 @@ class Solves:
         keep_x, x_rows, nx = self._kind.set(xset)
         width = self._kind.width
         dense = self._kind.dense(B, self.n if bset is None else nb // width,
-                                 self.n if xset is None else nx // width,
-                                 None if bset is None else keep_b[::width] // width)
+                                 self.n if xset is None else nx // width, keep_b)
         stats = Stats()
         status = lib.sl_local_solve(self._pointer, b_rows, nb, x_rows, nx, *dense.arguments(),
-                                    self._work(), ctypes.byref(stats))
-        self._check_consistent(status, dense, keep_b)
-        check(status, stats, width)
+                                    self._work(), stats)
+        if status:
+            self._check_consistent(status, dense, keep_b)
+            check(status, stats, width)
         return dense.X
 
     def plan(self, bset, xset, region=None):

@@ -99,7 +99,7 @@ def test_refusals():
     with pytest.raises(sl.PatternError):
         sl.Factor(bad)
     with pytest.raises(sl.PatternError):
-        sl.Factor(sp.csc_matrix(H.T + 2j * sp.csc_matrix(([1, 1], ([0, 1], [1, 0])), shape=H.shape)))
+        sl.Factor(H + 2j * sp.csc_matrix(([1, 1], ([0, 1], [1, 0])), shape=H.shape))
     diagonal = sp.tril(H, format="csc")
     diagonal.data[0] += 1j
     with pytest.raises(sl.ArgumentError):
