@@ -162,6 +162,7 @@ class Changes:
         edited = type(self)._of(analysis, factor.value, numbers["threads"], definite)
         edited.reused = as_dict(stats.reuse)
         edited._consistency = numbers.get("consistency_tolerance") or 1e-6
+        edited._has_mass = numbers.get("mass") is not None
         edited._check_definite()
         return edited
 

@@ -85,6 +85,7 @@ class Factor(Solves, Entries, Changes, Files):
                                    ctypes.byref(stats)), stats, analysis._kind.width)
         self._own(analysis, factor.value, numbers.get("threads"), definite)
         self._consistency = numbers.get("consistency_tolerance") or 1e-6
+        self._has_mass = numbers.get("mass") is not None
         self._check_definite()
 
     def _own(self, analysis, factor, threads=None, definite=False):
@@ -97,6 +98,7 @@ class Factor(Solves, Entries, Changes, Files):
         self._definite = definite
         self._refused = None  # why the numbers are not to be used
         self._consistency = None  # that of a file
+        self._has_mass = False
         self._works = threading.local()
         self._nulls = None
         return self

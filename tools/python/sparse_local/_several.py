@@ -102,6 +102,7 @@ class Sum:
         _checked(status, stats, failed.value)
         for k, factor in enumerate(factors):
             factor._consistency = numbers.get("consistency_tolerance") or 1e-6
+            factor._has_mass = numbers.get("mass") is not None
             _named(factor._check_definite, k)
         return factors[0] if is_one else factors
 
