@@ -6,11 +6,11 @@
 
 sparse_local.stand_in("sksparse") lets `from sksparse.cholmod import cholesky` find this module.
 
-As there, only the lower triangle of A is read. Otherwise than there, these give a signal: a matrix
-that stores only its upper triangle (CholmodInvalidError), triangles that differ (CholmodWarning),
-negative pivots (CholmodWarning, or CholmodNotPositiveDefiniteError where D^(1/2) is needed),
-another pattern than the analyzed one, NaN and infinity. mode chooses no algorithm; 'supernodal' refuses
-matrices that are not positive definite at once. use_long has no meaning.
+As there, only the lower triangle of A is read. Unlike there, these give a signal: a matrix that
+stores only its upper triangle (CholmodInvalidError), triangles that differ (CholmodWarning),
+negative pivots (CholmodWarning, or CholmodNotPositiveDefiniteError where D^(1/2) is needed), a
+pattern that is not the analyzed one, NaN and infinity. mode chooses no algorithm; 'supernodal'
+refuses matrices that are not positive definite at once. use_long has no meaning.
 """
 import warnings
 
