@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: bdebefa12cdf303a
+ * FNV-1a of the lines after this comment, without the license: 278776c7adbcff3a
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -7,54 +7,54 @@
  *    175 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
  *    216 config.h     macros that a user may define before the include, the version, and the integer types
  *    294 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    472 options.h    options of all calls, threads, and the allocator
- *    612 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    826 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    924 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    998 factor.h     the numerical factorization P A P' = L D L'
- *   1122 solve.h      full solves, and the workspace of all solves
- *   1217 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1295 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1394 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1434 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1542 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1619 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1704 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1800 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1912 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1951 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2079 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2111 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2300 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2412 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2539 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2579 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2667 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2776 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2813 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2890 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2930 impl/ base: the compiler, status, memory, sorting, threads
- *   3914 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4771 impl/ matrix: sparse matrices of the caller and of the library
- *   5314 impl/ ordering: fill-reducing orderings of a graph
- *   9676 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11622 impl/ factor: the numbers of L and D
- *  14770 impl/ solve: full and local solves
- *  16350 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18109 impl/ pivots: the order of the pivots by the values of a matrix
- *  18523 impl/ float: L and fronts in single precision
- *  18970 impl/ inverse: entries of the inverse, regions
- *  21906 impl/ change: a factor that follows changes of its matrix
- *  28541 impl/ io: files that are replaced only when they are complete
- *  28753 impl/ files: Matrix Market files, 64-bit indices
- *  29349 impl/ save: factors in files
- *  31275 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  31940 impl/ batch: diagonals of many inverses
- *  32080 impl/ complex: complex Hermitian systems over real factors
- *  32606 impl/ complex: entries of the inverse
- *  32658 impl/ packs: the tables through which the core calls packs
- *  32690 impl/ last: undefine every internal macro
- *  33005 impl/ templates: the header includes them from itself, once for each instruction set
+ *    473 options.h    options of all calls, threads, and the allocator
+ *    613 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    827 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    925 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *    999 factor.h     the numerical factorization P A P' = L D L'
+ *   1124 solve.h      full solves, and the workspace of all solves
+ *   1219 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1297 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1396 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1436 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1544 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1621 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1706 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1802 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   1914 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   1953 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2081 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2113 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2302 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2414 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2541 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2581 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2669 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2778 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2815 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   2892 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   2932 impl/ base: the compiler, status, memory, sorting, threads
+ *   3916 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4773 impl/ matrix: sparse matrices of the caller and of the library
+ *   5316 impl/ ordering: fill-reducing orderings of a graph
+ *   9678 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11624 impl/ factor: the numbers of L and D
+ *  14848 impl/ solve: full and local solves
+ *  16428 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18187 impl/ pivots: the order of the pivots by the values of a matrix
+ *  18601 impl/ float: L and fronts in single precision
+ *  19048 impl/ inverse: entries of the inverse, regions
+ *  21984 impl/ change: a factor that follows changes of its matrix
+ *  28619 impl/ io: files that are replaced only when they are complete
+ *  28831 impl/ files: Matrix Market files, 64-bit indices
+ *  29427 impl/ save: factors in files
+ *  31353 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  32018 impl/ batch: diagonals of many inverses
+ *  32158 impl/ complex: complex Hermitian systems over real factors
+ *  32684 impl/ complex: entries of the inverse
+ *  32736 impl/ packs: the tables through which the core calls packs
+ *  32768 impl/ last: undefine every internal macro
+ *  33084 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -336,8 +336,9 @@ SL_API const char *sl_status_string(sl_status status);
  *  The caller owns the arrays; no call keeps a pointer to them. The rows of a column may be in any
  *  order. Duplicates are summed. Explicit zeros are entries like any other. A symmetric matrix may
  *  store its lower triangle, its upper triangle or both; the pattern decides which. If it stores
- *  both, the pattern must be symmetric and the values of the lower triangle are read
- *  (options.triangle changes that).
+ *  both, the pattern must be symmetric and the values of the lower triangle are read; if the others
+ *  differ, sl_factor_create refuses the matrix. options.triangle chooses one triangle, and the
+ *  other one may then hold anything.
  */
 typedef struct sl_csc {
     sl_int n_rows;   /* 0 .. 2^31 - 8; a larger matrix is refused with SL_ERR_TOO_LARGE */
@@ -1013,7 +1014,8 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *                growth_limit, error_limit, storage; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
- *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one;
+ *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one, or
+ *           two triangles with different values, by more than 1e-6 of the row;
  *           SL_ERR_PIVOT: a null pivot at error.row, or the row that shows that A is indefinite;
  *           error.what says what helps, such as sl_symbolic_create_pivoted, and null_bound up to
  *           which size the pivot error.value is null;
@@ -1045,7 +1047,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
  *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve
  *                   refuses it until a refactor succeeds.
- *  A      [in]      the analyzed pattern, new values.
+ *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_STATE: a mapped factor (sl_map_file). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),
@@ -14370,6 +14372,80 @@ static sl_status sli_factor_new(sl_factor **out, const sl_symbolic *S, const sl_
   return sli_factor_new_with(out, S, opt, NULL, stats);
 }
 
+/* src/impl/factor/symmetry.h: are the values of both triangles the same? */
+
+#define SLI_ASYMMETRY_MOST 1e-6
+
+SLI_INLINE double sli_symmetry_weight(sl_int i) {
+  return 1.0 + (double)((uint32_t)i * 2654435769u) / 4294967296.0;
+}
+
+static double sli_symmetry_entry(const sl_csc *A, sl_int i, sl_int j) {
+  double sum = 0.0;
+  sl_int q;
+  for (q = A->p[j]; q < A->p[j + 1]; q++) {
+    sum += A->i[q] == i ? A->x[q] : 0.0;
+  }
+  return sum;
+}
+
+SLI_COLD static sl_status sli_symmetry_report(const sl_csc *A, sl_int r, sl_stats *stats) {
+  double most = 0.0, value = 0.0;
+  sl_int q, column = r;
+  for (q = A->p[r]; q < A->p[r + 1]; q++) {
+    const double mirror = sli_symmetry_entry(A, A->i[q], r);
+    const double entry = sli_symmetry_entry(A, r, A->i[q]);
+    if (fabs(entry - mirror) > most) {
+      most = fabs(entry - mirror);
+      value = entry;
+      column = A->i[q];
+    }
+  }
+  if (stats != NULL) {
+    stats->error.what = "the values of the two triangles differ; options.triangle chooses one";
+  }
+  return sli_fail_at(stats, SL_ERR_PATTERN, r, column, value);
+}
+
+static sl_status sli_symmetry_check(const sl_symbolic *S, const sl_csc *A, const sl_allocator *a,
+                  sl_stats *stats) {
+  sl_status status = SL_OK;
+  double *difference = NULL, *magnitude = NULL;
+  sli_block b = {NULL, 0, 0};
+  sl_int j, q;
+  if (S->stats.symbolic.triangle != SL_TRIANGLE_BOTH) {
+    return SL_OK;
+  }
+  SLI_LAYOUT(&b, a, status) {
+    difference = SLI_TAKE(&b, double, S->n);
+    magnitude = SLI_TAKE(&b, double, S->n);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(difference, 0, (size_t)S->n * sizeof(double));
+  for (j = 0; j < S->n; j++) {
+    const double x = sli_symmetry_weight(j);
+    double sum = 0.0, size = 0.0;
+    for (q = A->p[j]; q < A->p[j + 1]; q++) {
+      const double term = A->x[q] * sli_symmetry_weight(A->i[q]);
+      sum += term;
+      size += fabs(term);
+      difference[A->i[q]] += A->x[q] * x;
+    }
+    difference[j] -= sum;
+    magnitude[j] = size;
+  }
+  for (j = 0; j < S->n && status == SL_OK; j++) {
+    if (sli_is_finite(difference[j]) &&
+      fabs(difference[j]) > SLI_ASYMMETRY_MOST * magnitude[j]) {
+      status = sli_symmetry_report(A, j, stats);
+    }
+  }
+  sli_free(a, b.base);
+  return status;
+}
+
 /* src/impl/factor/factor.h: creates a factor, and refactors it with new values of the same pattern */
 
 static sl_status sli_factor_check_size(const sl_symbolic *S, const sl_csc *A) {
@@ -14634,6 +14710,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
                   const sl_options *opt, sl_stats *stats) {
   const sli_source from = sli_source_matrix(A);
+  const sl_allocator a = sli_allocator(opt);
   sl_status status;
   sli_stats_clear_error(stats);
   if (out == NULL) {
@@ -14644,6 +14721,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
     return SL_ERR_ARGUMENT;
   }
   status = sli_factor_check(S, A);
+  status = status == SL_OK ? sli_symmetry_check(S, A, &a, stats) : status;
   return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
 }
 
@@ -32723,6 +32801,7 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_SEPTREE_NODES
 #undef SLI_SOLVE_ENTRIES
 #undef SLI_SOLVE_TASKS
+#undef SLI_ASYMMETRY_MOST
 #undef SLI_ASSERT
 #undef SLI_HASH_STRIPE
 #undef SLI_HASH_1

@@ -140,6 +140,7 @@ extern "C" {
 #include "impl/factor/growth.h"
 #include "impl/factor/null_judge.h"
 #include "impl/factor/factor_setup.h"
+#include "impl/factor/symmetry.h"
 #include "impl/factor/factor.h"
 #include "impl/factor/factor_query.h"
 /* solve: full and local solves */

@@ -21,7 +21,8 @@
  *                growth_limit, error_limit, storage; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
- *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one;
+ *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one, or
+ *           two triangles with different values, by more than 1e-6 of the row;
  *           SL_ERR_PIVOT: a null pivot at error.row, or the row that shows that A is indefinite;
  *           error.what says what helps, such as sl_symbolic_create_pivoted, and null_bound up to
  *           which size the pivot error.value is null;
@@ -53,7 +54,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_create(sl_factor **out, const sl_symbo
  *  F      [in,out]  unchanged after SL_ERR_ARGUMENT and SL_ERR_PATTERN. After SL_ERR_PIVOT,
  *                   _NOT_FINITE, _INACCURATE and _UNSUPPORTED it has no numbers, and every solve
  *                   refuses it until a refactor succeeds.
- *  A      [in]      the analyzed pattern, new values.
+ *  A      [in]      the analyzed pattern, new values. Two triangles are not compared.
  *  stats  [out]     factor; may be NULL.
  *  Returns  as sl_factor_create; SL_ERR_STATE: a mapped factor (sl_map_file). SL_ERR_MEMORY and
  *           SL_ERR_TOO_LARGE only with the first refactorization of a loaded factor (sl_load_file),

@@ -47,8 +47,9 @@ SL_API const char *sl_status_string(sl_status status);
  *  The caller owns the arrays; no call keeps a pointer to them. The rows of a column may be in any
  *  order. Duplicates are summed. Explicit zeros are entries like any other. A symmetric matrix may
  *  store its lower triangle, its upper triangle or both; the pattern decides which. If it stores
- *  both, the pattern must be symmetric and the values of the lower triangle are read
- *  (options.triangle changes that).
+ *  both, the pattern must be symmetric and the values of the lower triangle are read; if the others
+ *  differ, sl_factor_create refuses the matrix. options.triangle chooses one triangle, and the
+ *  other one may then hold anything.
  */
 typedef struct sl_csc {
     sl_int n_rows;   /* 0 .. 2^31 - 8; a larger matrix is refused with SL_ERR_TOO_LARGE */

@@ -8,6 +8,7 @@
 #include "front_tasks.h"
 #include "null_judge.h"
 #include "pivot_check.h"
+#include "symmetry.h"
 #include "uplooking.h"
 
 /* Checks that A has the size of the matrix that S was made from. */
@@ -291,6 +292,7 @@ static sl_status sli_factor_create_from(sl_factor **out, const sl_symbolic *S,
 SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const sl_csc *A,
                                   const sl_options *opt, sl_stats *stats) {
     const sli_source from = sli_source_matrix(A);
+    const sl_allocator a = sli_allocator(opt);
     sl_status status;
     sli_stats_clear_error(stats);
     if (out == NULL) {
@@ -301,6 +303,7 @@ SL_API sl_status sl_factor_create(sl_factor **out, const sl_symbolic *S, const s
         return SL_ERR_ARGUMENT;
     }
     status = sli_factor_check(S, A);
+    status = status == SL_OK ? sli_symmetry_check(S, A, &a, stats) : status;
     return status == SL_OK ? sli_factor_create_from(out, S, &from, opt, stats) : status;
 }
 
