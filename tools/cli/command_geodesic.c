@@ -29,10 +29,12 @@ static const options_manual manual = {
     "are "
     "therefore compared with paths over the faces through 3 and through 1 points of each edge, and "
     "moved where they exceed the shorter one, or fall short of it by more than 0.03 mean edges "
-    "and half the difference of both, or are shorter than the straight line (not with --raw). "
-    "Several sources are all held at 0, by a factor of the Laplacian of the ball. With 1, the "
-    "usual "
-    "value, an error of "
+    "and half the difference of both, or are shorter than the straight line (not with --raw); "
+    "where the surface is flat up to the source, to within 0.03 mean edges of the distance in the "
+    "plane. "
+    "Several sources are all equally warm and held at 0, by a factor of the Laplacian of the ball, "
+    "and the gradient is taken from the distance three times more. From one source, with "
+    "--scaled-time 1, the usual value, an error of "
     "about 1 % remains on regular grids however fine they are; larger values smooth the distance "
     "where shortest paths meet. In a short time heat can become negative behind obtuse faces, and "
     "distances there are wrong; unless a time is given, it is increased until no heat is negative. "
@@ -148,7 +150,9 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     app_set_up(&cmd->output, &cmd->m, cmd->output.png != NULL);
     cmd->sources = sources_of(cmd->from, &cmd->m, &cmd->n_sources);
     double edge = app_mean_edge_length(&cmd->m);
-    double t = time > 0 ? time : (scaled > 0 ? scaled : HEAT_FACTORS_FIRST) * edge * edge;
+    const bool at_once = cmd->n_sources > 1 && !cmd->each && !cmd->voronoi && !cmd->cut;
+    const double first = at_once ? HEAT_FACTORS_SEVERAL : HEAT_FACTORS_FIRST;
+    double t = time > 0 ? time : (scaled > 0 ? scaled : first) * edge * edge;
     bool is_saved = cmd->heat_file != NULL;
     if (!(t > 0)) {
         app_die("%s: all edges have no length", operand);
@@ -171,7 +175,8 @@ static void open_command(geodesic_command *cmd, const char *operand) {
     accuracy_warn_poisson(cmd->s.m, cmd->s.inc.lengths,
                           cmd->surface.lengths != NULL ? cmd->surface.share : 1);
     if (!is_saved && !(time > 0) && !(scaled > 0)) {
-        heat_factors_find_time(&cmd->s, edge * edge, cmd->sources, cmd->n_sources, &cmd->heat);
+        heat_factors_find_time(&cmd->s, first, edge * edge, cmd->sources, cmd->n_sources,
+                               &cmd->heat);
     }
     if (cmd->n_sources == 1 && cmd->heat.radius > 0) {
         app_aim_camera(&cmd->output, &cmd->m, cmd->sources, 1, true);
@@ -223,8 +228,8 @@ int command_geodesic(int argc, char **argv) {
          "one solve, with the right-hand side truncated at the rim of the ball"},
         {OPTION_ABOVE_0, "time", &cmd.time, "T", "diffuse heat for the time T"},
         {OPTION_ABOVE_0, "scaled-time", &cmd.scaled_time, "S",
-         "diffuse heat for S times the squared mean edge length (4, or more if heat would be "
-         "negative)"},
+         "diffuse heat for S times the squared mean edge length (4, from several sources at once "
+         "1, or more if heat would be negative)"},
         {OPTION_TEXT, "heat", &cmd.heat_file, "FILE",
          "take the factor of heat, and with it the time, from this file; with --poisson"},
         {OPTION_TEXT, "poisson", &cmd.poisson_file, "FILE",

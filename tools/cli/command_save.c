@@ -61,7 +61,7 @@ static void make_pair(heat_solver *s, intrinsic *surface, const mesh *m, const h
     accuracy_warn_poisson(s->m, s->inc.lengths, surface->lengths != NULL ? surface->share : 1);
     if (!is_given) {
         const sl_int source = app_default_vertex(m);
-        heat_factors_find_time(s, edge * edge, &source, 1, NULL);
+        heat_factors_find_time(s, HEAT_FACTORS_FIRST, edge * edge, &source, 1, NULL);
     }
 }
 

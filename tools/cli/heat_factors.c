@@ -14,10 +14,10 @@ void heat_factors_create(heat_solver *s, intrinsic *surface, const mesh *m, cons
     app_progress_end();
 }
 
-void heat_factors_find_time(heat_solver *s, double squared_edge, const sl_int *sources,
-                            sl_int count, const heat_options *heat) {
+void heat_factors_find_time(heat_solver *s, double first, double squared_edge,
+                            const sl_int *sources, sl_int count, const heat_options *heat) {
     sl_int before = 0;
-    double scaled = HEAT_FACTORS_FIRST;
+    double scaled = first;
     for (;; scaled *= 2) {
         heat_field f;
         app_must(heat_distance(&f, s, sources, count, heat), "distances", NULL);

@@ -5,8 +5,9 @@
 #include "app.h"
 #include "tools/geometry/heat_distance.h"
 
-/* Range of times tried, in units of the squared mean edge length. */
-enum { HEAT_FACTORS_FIRST = 4, HEAT_FACTORS_LAST = 256 };
+/* Range of times tried, in units of the squared mean edge length. From several sources fronts meet,
+ * where a large time does harm. */
+enum { HEAT_FACTORS_FIRST = 4, HEAT_FACTORS_SEVERAL = 1, HEAT_FACTORS_LAST = 256 };
 
 /** Factors with the Laplacian that an option chooses. Like all functions of this folder, those
  *  below end the program with a message on errors.
@@ -21,14 +22,14 @@ enum { HEAT_FACTORS_FIRST = 4, HEAT_FACTORS_LAST = 256 };
 void heat_factors_create(heat_solver *s, intrinsic *surface, const mesh *m, const char *laplacian,
                          double t, const sl_options *opt);
 
-/** Doubles the time, from HEAT_FACTORS_FIRST squared mean edge lengths, until no heat of the
+/** Doubles the time, from `first` squared mean edge lengths, until no heat of the
  *  sources is negative in the ball of `heat`, and prints a line if that took a larger time. Each
  *  step is a numerical refactorization with the same analysis.
  *
- *  s  [in,out]  with the time HEAT_FACTORS_FIRST squared_edge.
+ *  s  [in,out]  with the time first squared_edge.
  */
-void heat_factors_find_time(heat_solver *s, double squared_edge, const sl_int *sources,
-                            sl_int count, const heat_options *heat);
+void heat_factors_find_time(heat_solver *s, double first, double squared_edge,
+                            const sl_int *sources, sl_int count, const heat_options *heat);
 
 /** The factors of two files that heat_factors_create's were saved in: mapped, and checked against
  *  the mesh.

@@ -2,6 +2,7 @@
 #include "path_check.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "tools/geometry/laplacian.h"
@@ -47,20 +48,21 @@ static void keep_near(heat_field *f, const double *path, double radius, bool eit
     f->n = radius > 0 ? kept : f->n;
 }
 
-void path_check_distances(path_check *check, heat_field *f, const sl_int *sources, sl_int count,
-                          double radius, double limit) {
-    const double began = app_now();
-    if (!surface_search_run(check->one, sources, count, 2 * limit) ||
-        !surface_search_run(check->three, sources, count, limit)) {
-        app_die("out of memory for paths over the faces");
+/* Moves distances as far as lengths of paths and of straight lines ask for. */
+static void move_distances(path_check *check, heat_field *f, const surface_lengths *u,
+                           const sl_int *sources, sl_int count) {
+    surface_correction c =
+        surface_paths_correct(f->distance, f->vertices, f->n, u, check->slack * check->edge);
+    /* along edges, which may be those of other faces */
+    for (sl_int k = 0; k < f->n && f->path != NULL; k++) {
+        if (f->distance[k] > f->path[k]) {
+            c.largest = fmax(c.largest, f->distance[k] - f->path[k]);
+            c.lowered++;
+            f->distance[k] = f->path[k];
+        }
     }
-    const double *u3 = surface_search_lengths(check->three);
-    keep_near(f, u3, radius, true);
-    const surface_correction c =
-        surface_paths_correct(f->distance, f->vertices, f->n, surface_search_lengths(check->one),
-                              u3, check->slack * check->edge);
-    const sl_int straight = straight_lines_raise(f->distance, check->m, f->vertices, f->n, sources,
-                                                 count, &check->sum.largest);
+    const sl_int straight =
+        straight_lines_raise(f->distance, check->m, f->vertices, f->n, sources, count, &c.largest);
     if (straight < 0) {
         app_die("out of memory for straight lines");
     }
@@ -71,6 +73,30 @@ void path_check_distances(path_check *check, heat_field *f, const sl_int *source
     check->sum.largest_width = fmax(check->sum.largest_width, c.largest_width);
     check->width_sum += c.mean_width * (double)f->n;
     check->distances += f->n;
+}
+
+void path_check_distances(path_check *check, heat_field *f, const sl_int *sources, sl_int count,
+                          double radius, double limit) {
+    const double began = app_now();
+    const size_t n = (size_t)check->m->n_vertices;
+    double *flat = app_alloc(2 * n, sizeof *flat), *mixed = count > 1 ? flat + n : flat;
+    if (!surface_search_run(check->one, sources, count, 2 * limit) ||
+        !surface_search_run(check->three, sources, count, limit) ||
+        !surface_search_unfold(flat, check->three, false) ||
+        (count > 1 && !surface_search_unfold(mixed, check->three, true))) {
+        app_die("out of memory for paths over the faces");
+    }
+    const double *u3 = surface_search_lengths(check->three);
+    const surface_lengths u = {surface_search_lengths(check->one), u3, flat, mixed};
+    keep_near(f, u3, radius, true);
+    double *before = app_alloc((size_t)f->n, sizeof *before);
+    memcpy(before, f->distance, (size_t)f->n * sizeof *before);
+    move_distances(check, f, &u, sources, count);
+    for (sl_int k = 0; k < f->n; k++) {
+        check->far += fabs(f->distance[k] - before[k]) > 0.5 * check->edge;
+    }
+    free(before);
+    free(flat);
     keep_near(f, u3, radius, false);
     check->seconds += app_now() - began;
 }
@@ -79,9 +105,10 @@ void path_check_report(const path_check *check) {
     const surface_correction *c = &check->sum;
     printf("paths      over the faces in %.1f ms: of %lld distances %d raised, %d lowered, %lld "
            "raised "
-           "to the straight line, by up to %.3g; errors of at most about %.3g, %.3g on average\n",
+           "to the straight line, by up to %.3g, %lld by more than half an edge; errors of at most "
+           "about %.3g, %.3g on average\n",
            1e3 * check->seconds, (long long)check->distances, (int)c->raised, (int)c->lowered,
-           (long long)check->straight, c->largest, c->largest_width,
+           (long long)check->straight, c->largest, (long long)check->far, c->largest_width,
            check->distances > 0 ? check->width_sum / (double)check->distances : 0);
     if (c->largest > 4 * check->edge) {
         app_warn("the heat method is off by up to %.3g, %.1f mean edges: %lld of %lld distances "

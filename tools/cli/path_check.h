@@ -19,6 +19,7 @@ typedef struct path_check {
     double width_sum;
     sl_off distances;
     sl_off straight; /* distances raised to the straight line */
+    sl_off far;      /* distances moved by more than half an edge */
 } path_check;
 
 /** Prepares the searches; release with path_check_close. m must outlive it. */

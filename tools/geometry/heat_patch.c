@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "planar_triangle.h"
+#include "heat_sources.h"
 #include "laplacian.h"
 #include "pinned_poisson.h"
 
@@ -60,10 +61,14 @@ sl_status heat_patch_create(heat_patch *out, heat_solver *s, const sl_int *sourc
     return status;
 }
 
+/* What X is on a face: the direction in which heat falls; the one in which a distance rises; the
+ * gradient of a distance, where it is longer than 1 its direction. */
+typedef enum field_kind { DOWN_THE_HEAT, UP_THE_DISTANCE, AT_MOST_1 } field_kind;
+
 /* B = div X. A face with corners x_i, x_j, x_k and weights w adds at its vertex i:
  *     w_k (x_i - x_j) X + w_j (x_i - x_k) X.
  * Returns the number of faces without X. */
-static sl_int divergence(double *B, const submesh *p, const double *u) {
+static sl_int divergence(double *B, const submesh *p, const double *u, field_kind kind) {
     const mesh *m = &p->m;
     sl_int faces_without_gradient = 0;
     memset(B, 0, (size_t)m->n_vertices * sizeof *B);
@@ -83,9 +88,13 @@ static sl_int divergence(double *B, const submesh *p, const double *u) {
             double up = (u[face[2]] - u[face[0]]) / largest - along * flat.x[2][0];
             up /= flat.x[2][1];
             double length = hypot(along, up);
+            double size = kind == DOWN_THE_HEAT ? -1 : 1;
+            if (kind == AT_MOST_1) {
+                size = fmin(1, length * largest);
+            }
             if (length > 0 && isfinite(length)) {
-                X[0] = -along / length;
-                X[1] = -up / length;
+                X[0] = size * along / length;
+                X[1] = size * up / length;
             }
         }
         faces_without_gradient += X[0] == 0 && X[1] == 0;
@@ -154,23 +163,46 @@ static bool find_local_sources(sl_int *local_sources, const heat_patch *h, const
     return found;
 }
 
-/* Heat u on the patch, from 1 at each source. ones: scratch of count. */
+/* Heat u on the patch, from 1 at one source, or such that u is 1 at all of several. given: scratch
+ * of count. */
 static sl_status solve_heat(heat_field *out, const heat_patch *h, const sl_int *sources,
-                            sl_int count, double *u, double *ones) {
+                            sl_int count, double *u, double *given) {
     sl_plan *plan = NULL;
     sl_options opt;
     memset(&opt, 0, sizeof opt);
     opt.region = h->heat_region;
-    for (sl_int k = 0; k < count; k++) {
-        ones[k] = 1;
-    }
+    given[0] = 1;
     sl_status status = sl_plan_create(&plan, h->s->S, sources, count, h->b.vertices, h->b.n, &opt,
                                       &out->heat_stats);
+    if (status == SL_OK && count > 1) {
+        status = heat_sources_balance(given, h->s, h->heat_region, sources, count);
+    }
     if (status == SL_OK) {
         status =
-            sl_plan_solve(plan, h->s->heat, u, (size_t)h->b.n, ones, (size_t)count, 1, h->s->work);
+            sl_plan_solve(plan, h->s->heat, u, (size_t)h->b.n, given, (size_t)count, 1, h->s->work);
     }
     sl_plan_free(plan);
+    return status;
+}
+
+/* Distances d with all sources held at 0. Where two fronts meet at an angle, heat flows between
+ * their directions, and d would rise there as fast as behind one of them. The directions of d are
+ * better: X is taken from d once more, and then twice without lengthening its gradient. */
+static sl_status integrate_held(double *d, const heat_patch *h, const sl_int *local_sources,
+                                sl_int count, double *B) {
+    static const field_kind then[] = {UP_THE_DISTANCE, AT_MOST_1, AT_MOST_1};
+    const sl_csc N = sl_matrix_view(h->poisson.N);
+    pinned_poisson p;
+    sl_status status = pinned_poisson_create(&p, &N, local_sources, count);
+    if (status != SL_OK) {
+        return status;
+    }
+    status = pinned_poisson_solve(&p, d, B);
+    for (size_t k = 0; k < sizeof then / sizeof *then && status == SL_OK; k++) {
+        (void)divergence(B, &h->p, d, then[k]);
+        status = pinned_poisson_solve(&p, d, B);
+    }
+    pinned_poisson_free(&p);
     return status;
 }
 
@@ -182,8 +214,7 @@ static sl_status integrate(heat_field *out, heat_patch *h, const sl_int *local_s
     sl_status status = SL_ERR_PIVOT;
     out->poisson_stats = h->poisson.stats;
     if (count > 1 && out->solves > 1) {
-        const sl_csc N = sl_matrix_view(h->poisson.N);
-        status = pinned_poisson_solve(&N, out->distance, B, local_sources, count);
+        status = integrate_held(out->distance, h, local_sources, count, B);
         out->pinned = status == SL_OK;
     }
     if (status == SL_ERR_PIVOT) {
@@ -211,7 +242,7 @@ static sl_status solve(heat_field *out, heat_patch *h, const sl_int *sources, sl
         status = solve_heat(out, h, sources, count, out->heat, B);
     }
     if (status == SL_OK) {
-        out->faces_without_gradient = divergence(B, &h->p, out->heat);
+        out->faces_without_gradient = divergence(B, &h->p, out->heat, DOWN_THE_HEAT);
         out->solves = solves;
         status = integrate(out, h, local_sources, count, up, B);
     }

@@ -9,7 +9,8 @@
 /* The patch is a graph ball around some vertices. Within it the heat method (heat_solver.h)
  * computes:
  *
- *  u  exactly: the rows of the full solve, with b on the sources and x on the patch.
+ *  u  exactly: the rows of the full solve, with b on the sources and x on the patch. With several
+ *     sources b is such that u = 1 at all of them (heat_sources.h).
  *  X  exactly, on the faces of the patch.
  *  d  not exactly, because X is unknown outside the patch. With one local solve X is set to 0
  *     outside: L d = div X for a field that ends at the interface. With more local solves no flow
@@ -77,7 +78,8 @@ void heat_patch_free(heat_patch *h);
  *  sources  [in]   count distinct vertices of the patch.
  *  radius   [in]   only vertices with a distance up to radius are returned; 0: all of the patch.
  *  solves   [in]   the largest number of local solves for d, 1 or more. With several sources and
- *                  more than 1, d is 0 at all of them, by a factor of the patch's own Laplacian.
+ *                  more than 1, d is 0 at all of them, by a factor of the patch's own Laplacian,
+ *                  with four solves: X is corrected by the gradient of d three times.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: the patch has regions and the time has changed;
  *           SL_ERR_MEMORY.
  *  Cost     as heat_patch_create; with regions O(patch).

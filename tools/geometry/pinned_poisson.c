@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tools/matrix/triplets.h"
 #include "tools/mesh/adjacency.h"
@@ -62,41 +63,51 @@ static sl_matrix *part_of(const sl_csc *N, const sl_int *number, sl_int n_rows) 
     return out;
 }
 
-/* Solves A y = y. */
-static sl_status solve(const sl_matrix *A, double *y, size_t n) {
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
+static sl_status factor(pinned_poisson *p, const sl_matrix *A) {
     sl_stats stats;
     const sl_csc view = sl_matrix_view(A);
-    sl_status status = sl_symbolic_create(&S, &view, NULL, NULL);
-    status = status == SL_OK ? sl_factor_create(&F, S, &view, NULL, &stats) : status;
-    if (status == SL_OK && stats.factor.negative > 0) {
-        status = SL_ERR_PIVOT;
+    sl_status status = sl_symbolic_create(&p->S, &view, NULL, NULL);
+    status = status == SL_OK ? sl_factor_create(&p->F, p->S, &view, NULL, &stats) : status;
+    return status == SL_OK && stats.factor.negative > 0 ? SL_ERR_PIVOT : status;
+}
+
+sl_status pinned_poisson_create(pinned_poisson *out, const sl_csc *N, const sl_int *pins,
+                                sl_int count) {
+    const size_t n = (size_t)N->n_cols;
+    memset(out, 0, sizeof *out);
+    out->n = N->n_cols;
+    out->number = (sl_int *)malloc((n + 1) * sizeof *out->number);
+    out->y = (double *)malloc((n + 1) * sizeof *out->y);
+    out->n_rows =
+        out->number != NULL && out->y != NULL ? number_rows(out->number, N, pins, count) : -1;
+    sl_matrix *A = out->n_rows >= 0 ? part_of(N, out->number, out->n_rows) : NULL;
+    const sl_status status = A != NULL ? factor(out, A) : SL_ERR_MEMORY;
+    sl_matrix_free(A);
+    if (status != SL_OK) {
+        pinned_poisson_free(out);
     }
-    status = status == SL_OK ? sl_factor_solve(F, y, n, y, n, 1, NULL) : status;
-    sl_factor_free(F);
-    sl_symbolic_free(S);
     return status;
 }
 
-sl_status pinned_poisson_solve(const sl_csc *N, double *x, const double *b, const sl_int *pins,
-                               sl_int count) {
-    const size_t n = (size_t)N->n_cols;
-    sl_int *number = (sl_int *)malloc((n + 1) * sizeof *number);
-    double *y = (double *)malloc((n + 1) * sizeof *y);
-    const sl_int n_rows = number != NULL && y != NULL ? number_rows(number, N, pins, count) : -1;
-    sl_matrix *A = n_rows >= 0 ? part_of(N, number, n_rows) : NULL;
-    for (size_t v = 0; v < n && A != NULL; v++) {
-        if (number[v] >= 0) {
-            y[number[v]] = b[v];
+sl_status pinned_poisson_solve(pinned_poisson *p, double *x, const double *b) {
+    const size_t rows = (size_t)p->n_rows;
+    for (sl_int v = 0; v < p->n; v++) {
+        if (p->number[v] >= 0) {
+            p->y[p->number[v]] = b[v];
         }
     }
-    const sl_status status = A != NULL ? solve(A, y, (size_t)n_rows) : SL_ERR_MEMORY;
-    for (size_t v = 0; v < n && status == SL_OK; v++) {
-        x[v] = number[v] >= 0 ? y[number[v]] : number[v] == PINNED ? 0 : NAN;
+    const sl_status status = sl_factor_solve(p->F, p->y, rows, p->y, rows, 1, NULL);
+    for (sl_int v = 0; v < p->n && status == SL_OK; v++) {
+        const sl_int row = p->number[v];
+        x[v] = row >= 0 ? p->y[row] : row == PINNED ? 0 : NAN;
     }
-    sl_matrix_free(A);
-    free(y);
-    free(number);
     return status;
+}
+
+void pinned_poisson_free(pinned_poisson *p) {
+    sl_factor_free(p->F);
+    sl_symbolic_free(p->S);
+    free(p->y);
+    free(p->number);
+    memset(p, 0, sizeof *p);
 }

@@ -23,6 +23,7 @@ struct surface_search {
     size_t n_found;
     double limit;
     path_heap heap;
+    unsigned char *flat; /* n_vertices, see find_flat; NULL: not needed yet */
 };
 
 /* The ends of the edge opposite to corner s % 3 of face s / 3, lower number first. */
@@ -191,8 +192,171 @@ const sl_int *surface_search_origins(const surface_search *s) {
     return s->origin;
 }
 
+/* The distance of corner c of a face with the distances of a and b, corners of the same face: that
+ * of the point which has these two in the plane of the face, beyond the edge from a to b. INFINITY:
+ * the line from there to c does not cross that edge. */
+static double unfolded(const mesh *m, sl_int a, sl_int b, sl_int c, double to_a, double to_b) {
+    const double *p = m->xyz + 3 * (size_t)a, *q = m->xyz + 3 * (size_t)b,
+                 *r = m->xyz + 3 * (size_t)c;
+    double edge2 = 0, side2 = 0, along = 0;
+    for (int d = 0; d < 3; d++) {
+        edge2 += (q[d] - p[d]) * (q[d] - p[d]);
+        side2 += (r[d] - p[d]) * (r[d] - p[d]);
+        along += (q[d] - p[d]) * (r[d] - p[d]);
+    }
+    const double edge = sqrt(edge2), x = along / edge, y = sqrt(fmax(0, side2 - x * x));
+    const double from_x = (to_a * to_a - to_b * to_b + edge2) / (2 * edge);
+    const double depth2 = to_a * to_a - from_x * from_x;
+    if (!(depth2 >= 0 && y > 0)) {
+        return INFINITY;
+    }
+    const double depth = sqrt(depth2), crossing = from_x + (x - from_x) * depth / (depth + y);
+    return crossing >= 0 && crossing <= edge ? hypot(x - from_x, y + depth) : INFINITY;
+}
+
+/* Marks the vertices around which the faces are as in a plane, and those of the border that have no
+ * other neighbors inside. */
+static bool find_flat(surface_search *s) {
+    enum { BORDER = 2 };
+    const mesh *m = s->inc->m;
+    const double full = 2 * acos(-1), rounding = 1e-6;
+    const size_t n = (size_t)m->n_vertices;
+    double *angle = (double *)calloc(n + 1, sizeof *angle);
+    s->flat = (unsigned char *)calloc(n + 1, 1);
+    if (angle == NULL || s->flat == NULL) {
+        free(angle);
+        return false;
+    }
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        const double *x = m->xyz + 3 * (size_t)m->faces[k];
+        const double *y = m->xyz + 3 * (size_t)m->faces[k / 3 * 3 + (k + 1) % 3];
+        const double *z = m->xyz + 3 * (size_t)m->faces[k / 3 * 3 + (k + 2) % 3];
+        double yy = 0, zz = 0, yz = 0;
+        for (int d = 0; d < 3; d++) {
+            yy += (y[d] - x[d]) * (y[d] - x[d]);
+            zz += (z[d] - x[d]) * (z[d] - x[d]);
+            yz += (y[d] - x[d]) * (z[d] - x[d]);
+        }
+        angle[m->faces[k]] += atan2(sqrt(fmax(0, yy * zz - yz * yz)), yz);
+    }
+    for (size_t v = 0; v < n; v++) {
+        s->flat[v] = fabs(angle[v] - full) < rounding;
+    }
+    for (sl_int e = 0; e < s->n_edges; e++) {
+        sl_int ends[2];
+        ends_of(ends, m, s->side[s->begin[e]]);
+        for (int k = 0; k < 2 && s->begin[e + 1] - s->begin[e] == 1; k++) {
+            s->flat[ends[k]] = BORDER;
+        }
+    }
+    memset(angle, 0, n * sizeof *angle); /* now 1: next to a vertex inside that is not flat */
+    for (size_t k = 0; k < 3 * (size_t)m->n_faces; k++) {
+        for (size_t i = 1; i < 3 && s->flat[m->faces[k]] == 0; i++) {
+            angle[m->faces[k / 3 * 3 + (k + i) % 3]] = 1;
+        }
+    }
+    for (size_t v = 0; v < n; v++) {
+        s->flat[v] = s->flat[v] == 1 || (s->flat[v] == BORDER && angle[v] == 0);
+    }
+    free(angle);
+    return true;
+}
+
+/* A vertex and the length of its path. */
+typedef struct reached {
+    double length;
+    sl_int vertex;
+} reached;
+
+static int by_length(const void *a, const void *b) {
+    const reached *p = (const reached *)a, *q = (const reached *)b;
+    return p->length != q->length ? (p->length > q->length) - (p->length < q->length)
+                                  : (p->vertex > q->vertex) - (p->vertex < q->vertex);
+}
+
+/* Distances where the surface is flat, and the sources that they are from. */
+typedef struct flat_lengths {
+    const surface_search *s;
+    double *length; /* by vertex; INFINITY: not known */
+    sl_int *origin;
+    bool mixed; /* whether the ends of an edge may have different sources */
+} flat_lengths;
+
+/* Shortens the way to v: along an edge from a flat vertex or a source, or across the opposite edge
+ * of a face between two of them. Returns whether it did. */
+static bool shorten(flat_lengths *w, sl_int v) {
+    const surface_search *s = w->s;
+    const mesh *m = s->inc->m;
+    const double before = w->length[v];
+    for (sl_off p = s->inc->begin[v]; p < s->inc->begin[v + 1]; p++) {
+        const sl_int *face = m->faces + 3 * (size_t)s->inc->face[p];
+        const int c = face[0] == v ? 0 : face[1] == v ? 1 : 2;
+        const sl_int end[2] = {face[(c + 1) % 3], face[(c + 2) % 3]};
+        double length = INFINITY;
+        int known = 0;
+        for (int k = 0; k < 2; k++) {
+            const double *x = m->xyz + 3 * (size_t)end[k], *y = m->xyz + 3 * (size_t)v;
+            const double there = w->length[end[k]];
+            if (isfinite(there) && (s->flat[end[k]] || there == 0)) {
+                const double here = there + hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]);
+                known++;
+                if (here < w->length[v] * (1 - 1e-12)) {
+                    w->length[v] = here;
+                    w->origin[v] = w->origin[end[k]];
+                }
+            }
+        }
+        if (known == 2 && (w->mixed || w->origin[end[0]] == w->origin[end[1]])) {
+            length = unfolded(m, end[0], end[1], v, w->length[end[0]], w->length[end[1]]);
+        }
+        if (length < w->length[v] * (1 - 1e-12)) {
+            w->length[v] = length;
+            w->origin[v] = w->origin[end[0]];
+        }
+    }
+    return w->length[v] < before;
+}
+
+bool surface_search_unfold(double *out, surface_search *s, bool mixed) {
+    enum { PASSES = 8 }; /* more than one for obtuse faces, which are crossed against the order */
+    const mesh *m = s->inc->m;
+    size_t count = 0;
+    bool changed = true;
+    reached *order = (reached *)malloc((s->n_found + 1) * sizeof *order);
+    flat_lengths w = {s, out, NULL, mixed};
+    w.origin = (sl_int *)malloc(((size_t)m->n_vertices + 1) * sizeof *w.origin);
+    if (order == NULL || w.origin == NULL || (s->flat == NULL && !find_flat(s))) {
+        free(w.origin);
+        free(order);
+        return false;
+    }
+    for (sl_int v = 0; v < m->n_vertices; v++) {
+        out[v] = INFINITY;
+    }
+    for (size_t k = 0; k < s->n_found; k++) {
+        const int64_t v = s->found[k];
+        if (v < m->n_vertices) {
+            order[count].vertex = (sl_int)v;
+            order[count++].length = s->length[v];
+            out[v] = s->length[v] == 0 ? 0 : INFINITY;
+            w.origin[v] = s->origin[v];
+        }
+    }
+    qsort(order, count, sizeof *order, by_length);
+    for (int pass = 0; pass < PASSES && changed; pass++) {
+        changed = false;
+        for (size_t k = 0; k < count; k++) {
+            changed = shorten(&w, order[k].vertex) || changed;
+        }
+    }
+    free(w.origin);
+    free(order);
+    return true;
+}
+
 void surface_search_free(surface_search *s) {
     if (s != NULL) {
+        free(s->flat);
         free(s->heap.at);
         free(s->found);
         free(s->origin);
@@ -205,19 +369,26 @@ void surface_search_free(surface_search *s) {
 }
 
 surface_correction surface_paths_correct(double *distance, const sl_int *vertices, sl_int n,
-                                         const double *u1, const double *u3, double slack) {
+                                         const surface_lengths *u, double slack) {
     surface_correction c;
     sl_int counted = 0;
     memset(&c, 0, sizeof c);
     for (sl_int k = 0; k < n; k++) {
-        double high = u3[vertices[k]], d = distance[k];
+        const sl_int v = vertices[k];
+        double high = u->three[v], d = distance[k];
         /* without u1, which is longer than its search followed, only high is known */
-        double gap = isfinite(u1[vertices[k]]) ? u1[vertices[k]] - high : 2 * high;
-        double low = fmax(0, high - 0.5 * gap - slack);
+        double gap = isfinite(u->one[v]) ? u->one[v] - high : 2 * high;
+        double low = high - 0.5 * gap - slack;
         if (isnan(d) || !isfinite(high)) {
             continue;
         }
-        double moved = d > high ? high : d < low ? low : d;
+        if (u->flat[v] <= high * (1 + 1e-12)) {
+            const bool agree = u->flat[v] - u->mixed[v] <= slack;
+            low = agree ? u->mixed[v] - slack : fmax(low, u->mixed[v] - slack);
+            high = fmin(high, u->flat[v] + slack);
+            gap = high - low;
+        }
+        double moved = fmax(0, fmax(low, fmin(high, d)));
         c.raised += moved > d;
         c.lowered += moved < d;
         c.largest = fmax(c.largest, fabs(moved - d));

@@ -36,6 +36,22 @@ const double *surface_search_lengths(const surface_search *s);
  *  length is finite. */
 const sl_int *surface_search_origins(const surface_search *s);
 
+/** Distances where the surface is flat: those of vertices that a path can reach through vertices
+ *  whose faces fill 360 degrees, or of the border of such a part. Where it crosses the edge of a
+ *  face opposite to a vertex, the distance there follows from those at the ends of that edge as in
+ *  the plane.
+ *
+ *  out    [out]  by vertex of the mesh; INFINITY at the others. For the sources of the last search
+ *                and within its limit.
+ *  mixed  [in]   whether the distances at the ends of an edge may be those of different sources. If
+ *                so, none is too large, else none is too small; they differ where fronts meet.
+ *                Near the limit of the search both may be too large.
+ *  Returns  true; false: out of memory.
+ *  Cost     O(k log k) for the k vertices found, and O(faces) at the first call.
+ *  Example  tests/tools/test_path_checks.c
+ */
+bool surface_search_unfold(double *out, surface_search *s, bool mixed);
+
 /** Releases everything; NULL is allowed. */
 void surface_search_free(surface_search *s);
 
@@ -47,18 +63,25 @@ typedef struct surface_correction {
     double largest_width;
 } surface_correction;
 
-/** Moves distances into the intervals that two lengths of paths leave to them.
+/** What is known of the distance at each vertex of a mesh. */
+typedef struct surface_lengths {
+    const double *one, *three;  /* of the shortest paths through 1 and 3 points of each edge */
+    const double *flat, *mixed; /* surface_search_unfold, of one source an edge, or of two */
+} surface_lengths;
+
+/** Moves distances into the intervals that lengths of paths leave to them.
  *
- *  With u1 and u3, by fewer and more points, the error of u3 is at most about (u1 - u3) / 3,
- *  because errors fall with the square of the number of points. Distances below
- *  u3 - slack - (u1 - u3) / 2 are raised to that, those above u3 are lowered to it.
+ *  Errors of u3, through 3 points, and of u1, through 1, fall with the square of the number of
+ *  points. Distances below u3 - slack - (u1 - u3) / 2 are raised to that, those above u3 are
+ *  lowered to it. Where the surface is flat, distances are moved to within `slack` of what they are
+ *  there.
  *
  *  distance  [in,out]  n values of the vertices `vertices`; NaNs stay.
- *  u1, u3    [in]      by vertex of the mesh; distances stay where u3 is infinite, and are
+ *  u         [in]      by vertex of the mesh; distances stay where u3 is infinite, and are
  *                      only lowered where u1 is.
- *  slack     [in]      0 or more: what the distances may be shorter than u3 in any case.
+ *  slack     [in]      0 or more.
  */
 surface_correction surface_paths_correct(double *distance, const sl_int *vertices, sl_int n,
-                                         const double *u1, const double *u3, double slack);
+                                         const surface_lengths *u, double slack);
 
 #endif
