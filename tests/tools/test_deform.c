@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/lib/run_command.h"
 
+#include "tools/mesh/mesh_write.h"
 #include "tools/mesh/surface_generator.h"
 
 static const char script[] = "# two handles\n"
@@ -202,6 +203,54 @@ static void bad_meshes_are_deformed(void **state) {
         "frames");
 }
 
+/* A torus, a triangle, two single vertices, and a triangle so thin that pins on the factor of the
+ * mesh lose all digits there: what is held is where it is moved to, what has no handle is at rest. */
+static void nearly_degenerate_parts_are_held(void **state) {
+    (void)state;
+    static const char parts[] = "v 5 0 0\nv 6 0 0\nv 7 1e-5 0\nv 0 0 5\nv 1 0 5\nv 0 1 5\nv 9 9 9\n"
+                                "v 8 8 8\nf 289 290 291\nf 292 293 294\n";
+    static const char moves[] = "grab 288-290\ngrab 0-4\ngrab 294\nmove 0 0.1 0.2 0\nframe\n"
+                                "move 1 0 0 0.1\nframe\nrelease 0\nframe\n";
+    char message[300];
+    size_t length;
+    mesh m, out;
+    assert_true(surface_generate(&m, "torus:24x12", NULL, 0) && m.n_vertices == 288);
+    assert_true(mesh_write(files_path("torus.obj"), &m, NULL, message, sizeof message));
+    char *torus = files_get(files_path("torus.obj"), &length);
+    char *text = malloc(length + sizeof parts);
+    memcpy(text, torus, length);
+    memcpy(text + length, parts, sizeof parts);
+    files_put_text("parts.obj", text);
+    files_put_text("script.txt", moves);
+    static const char *const formats[] = {
+        "deform --check --script %s --out %s %s --method biharmonic",
+        "deform --check --script %s --out %s %s"};
+    for (int k = 0; k < 2; k++) {
+        int status;
+        char *output =
+            run_command(command_deform, line_of(formats[k], "out.obj", "parts.obj"), &status);
+        assert_int_equal(status, 0);
+        assert_non_null(strstr(output, "2 of 5 components have no handle, 1 of them single"));
+        assert_true(k == 1 || strstr(output, "each solve makes a new factor") != NULL);
+        assert_true(k == 1 || strstr(output, "(refused: a new factor for each solve)") != NULL);
+        free(output);
+        assert_true(mesh_read(&out, files_path("out.obj"), message, sizeof message));
+        assert_true(fabs(out.xyz[2] - m.xyz[2] - 0.1) < 1e-9);    /* vertex 0 is held */
+        assert_true(k == 1 || fabs(out.xyz[3 * 288] - 5) < 1e-9); /* no longer held */
+        assert_true(fabs(out.xyz[3 * 291 + 2] - 5) < 1e-9 && out.xyz[3 * 294] == 9);
+        mesh_free(&out);
+    }
+    /* the same for the wanted vertices alone */
+    command_says(
+        command_deform,
+        line_of("deform --check --script %s --csv %s %s --method biharmonic --at 0,100,289",
+                "out.csv", "parts.obj"),
+        0, "differ by at most");
+    free(text);
+    free(torus);
+    mesh_free(&m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scripts_move_handles),
@@ -211,6 +260,7 @@ int main(void) {
         cmocka_unit_test(malformed_scripts_are_refused),
         cmocka_unit_test(malformed_options_are_refused),
         cmocka_unit_test(bad_meshes_are_deformed),
+        cmocka_unit_test(nearly_degenerate_parts_are_held),
     };
     return cmocka_run_group_tests(tests, files_set_up, files_tear_down);
 }

@@ -5,9 +5,8 @@
 
 #include "app.h"
 #include "command.h"
-#include "handle_script.h"
+#include "deform.h"
 #include "solve_accuracy.h"
-#include "tools/geometry/deformer.h"
 #include "tools/io/output_file.h"
 
 static const options_usage usage = {
@@ -38,118 +37,6 @@ static const options_manual manual = {
     "star:5 --script bend.txt --frames bend --out bent.ply\n"
     "bunny.obj --script bend.txt --method biharmonic --check --steps steps.csv"};
 
-/* Milliseconds of a step of the script. */
-typedef struct step_times {
-    double pin, release, rotations, solve, fresh;
-    double energy;     /* before the last solve of a frame */
-    double difference; /* of --check */
-} step_times;
-
-typedef struct deform_command {
-    const char *script_path, *method, *frames, *steps, *at;
-    sl_int iterations;
-    bool check;
-    double bound;
-    app_output output;
-    mesh m;
-    deformer d;
-    handle_script script;
-    sl_int *watched, n_watched;
-    double *near_positions; /* n_watched x 3 */
-    double box[6];
-    FILE *table;
-    step_times total;
-    double worst; /* difference of --check */
-    sl_int pinned, released;
-} deform_command;
-
-/* ---- output ---- */
-
-/* The mesh in its present shape; release with free(m.xyz). */
-static mesh deformed(const deform_command *cmd) {
-    mesh m = cmd->m;
-    size_t n = (size_t)m.n_vertices;
-    m.xyz = app_alloc(3 * n, sizeof *m.xyz);
-    for (size_t k = 0; k < 3 * n; k++) {
-        m.xyz[k] = cmd->d.Y[k % 3 * n + k / 3];
-    }
-    return m;
-}
-
-/* Draws the present shape with its handles; writes the mesh too if `output` says so. */
-static void write_shape(const deform_command *cmd, const app_output *output) {
-    static const rgb moved = {0xd5, 0x2b, 0x1e}, still = {0x28, 0x50, 0xa0};
-    mesh m = deformed(cmd);
-    size_t n = (size_t)m.n_vertices, n_marks = (size_t)cmd->d.n_pins;
-    render_mark *marks = app_alloc(n_marks, sizeof *marks);
-    double *displacement = app_alloc(n, sizeof *displacement);
-    for (size_t v = 0; v < n; v++) {
-        for (size_t c = 0; c < 3; c++) {
-            displacement[v] = hypot(displacement[v], m.xyz[3 * v + c] - cmd->m.xyz[3 * v + c]);
-        }
-    }
-    int n_moved = 0;
-    for (size_t k = 0; k < n_marks; k++) {
-        const sl_int v = cmd->d.held[k];
-        const bool has_moved = displacement[v] > 1e-6 * cmd->d.diameter;
-        marks[k].vertex = v;
-        marks[k].radius = 3;
-        marks[k].color = has_moved ? moved : still;
-        n_moved += has_moved;
-    }
-    legend_key keys[2] = {{moved, ""}, {still, ""}};
-    (void)snprintf(keys[0].text, sizeof keys->text, "moved\n%d", n_moved);
-    (void)snprintf(keys[1].text, sizeof keys->text, "at rest\n%d", (int)n_marks - n_moved);
-    const mesh_field field = {"displacement", displacement};
-    const mesh_extra extra = {.fields = &field, .n_fields = 1};
-    const render_style style = {.box = cmd->box,
-                                .marks = marks,
-                                .n_marks = (int)n_marks,
-                                .legend = "vertices\nthat handles\nhold",
-                                .keys = keys,
-                                .n_keys = 2};
-    app_write(output, &m, &extra, &style);
-    free(displacement);
-    free(marks);
-    free(m.xyz);
-}
-
-/* The name of the picture of a frame; release with free. */
-static char *frame_path(const deform_command *cmd, sl_int frame) {
-    size_t room = strlen(cmd->frames) + 32;
-    char *path = app_alloc(room, 1);
-    (void)snprintf(path, room, "%s%04d.png", cmd->frames, (int)frame);
-    return path;
-}
-
-static void write_frame(const deform_command *cmd, sl_int frame) {
-    char *path = frame_path(cmd, frame);
-    app_output one = cmd->output;
-    one.out = NULL;
-    one.png = path;
-    write_shape(cmd, &one);
-    free(path);
-}
-
-static void write_csv(const deform_command *cmd) {
-    size_t n = (size_t)cmd->d.n, count = cmd->at != NULL ? (size_t)cmd->n_watched : n;
-    FILE *csv = app_create(cmd->output.csv);
-    fprintf(csv, "vertex,x,y,z,displacement\n");
-    for (size_t k = 0; k < count; k++) {
-        const size_t v = cmd->at != NULL ? (size_t)cmd->watched[k] : k;
-        double size = 0;
-        fprintf(csv, "%d", (int)v);
-        for (size_t c = 0; c < 3; c++) {
-            const double x =
-                cmd->at != NULL ? cmd->near_positions[c * count + k] : cmd->d.Y[c * n + v];
-            size = hypot(size, x - cmd->d.rest[c * n + v]);
-            fprintf(csv, ",%.17g", x);
-        }
-        fprintf(csv, ",%.17g\n", size);
-    }
-    app_close(csv);
-}
-
 /* A row of --steps. */
 static void report(deform_command *cmd, const script_step *step, const step_times *t) {
     cmd->total.pin += t->pin;
@@ -177,6 +64,14 @@ static void report(deform_command *cmd, const script_step *step, const step_time
 
 /* ---- steps of the script ---- */
 
+static void warn_of_refusal(deform_command *cmd) {
+    if (cmd->d.anew && !cmd->has_warned) {
+        app_warn("a part of the mesh is so close to degenerate that pins on its factor lose all "
+                 "digits; each solve makes a new factor instead");
+        cmd->has_warned = true;
+    }
+}
+
 static void grab(deform_command *cmd, const script_handle *h, const script_step *step,
                  step_times *t) {
     const double began = app_processor_ms();
@@ -188,6 +83,7 @@ static void grab(deform_command *cmd, const script_handle *h, const script_step 
     }
     t->pin = app_processor_ms() - began;
     cmd->pinned += h->count;
+    warn_of_refusal(cmd);
 }
 
 static void release(deform_command *cmd, const script_handle *h, step_times *t) {
@@ -225,6 +121,7 @@ static void solve_frame(deform_command *cmd, step_times *t) {
         app_must(deformer_solve(&cmd->d), "solve", NULL);
         t->solve += cmd->at == NULL ? app_processor_ms() - began : 0;
     }
+    warn_of_refusal(cmd);
 }
 
 static void check_frame(deform_command *cmd, step_times *t) {
@@ -260,12 +157,15 @@ static void run_script(deform_command *cmd) {
             move(cmd, h, step);
             break;
         case SCRIPT_FRAME:
+            if (step->handle == 0) {
+                deform_print_free(cmd);
+            }
             solve_frame(cmd, &t);
             if (cmd->check) {
                 check_frame(cmd, &t);
             }
             if (cmd->frames != NULL) {
-                write_frame(cmd, step->handle);
+                deform_write_frame(cmd, step->handle);
             }
             break;
         }
@@ -294,7 +194,7 @@ static void check_options(const deform_command *cmd) {
     }
     app_check_output(&cmd->output, cmd->output.out);
     if (cmd->frames != NULL) {
-        char *first = frame_path(cmd, 0);
+        char *first = deform_frame_path(cmd, 0);
         if (!output_is_possible(first, message, sizeof message)) {
             app_die("%s", message);
         }
@@ -353,37 +253,6 @@ static void open_command(deform_command *cmd, const char *operand) {
     }
 }
 
-static void print_summary(const deform_command *cmd) {
-    const double frames = cmd->script.n_frames > 0 ? (double)cmd->script.n_frames : 1;
-    if (cmd->pinned > 0) {
-        printf("pins       %d grabbed, %.4f ms each", (int)cmd->pinned,
-               cmd->total.pin / (double)cmd->pinned);
-        if (cmd->released > 0) {
-            printf("; %d released, %.4f ms each", (int)cmd->released,
-                   cmd->total.release / (double)cmd->released);
-        }
-        const sl_pins_info *pins = &cmd->d.stats.pins;
-        printf("; %d of %d eliminated%s\n", (int)pins->eliminated, (int)pins->count,
-               pins->reason == SL_PINS_REFUSED    ? " (refused: a pivot is too small)"
-               : pins->reason == SL_PINS_UNSUITED ? " (not possible: several null vectors)"
-                                                  : "");
-    }
-    printf("frames     %d", (int)cmd->script.n_frames);
-    if (cmd->d.method == DEFORM_ARAP) {
-        printf(" of %d iterations: rotations %.3f ms, solve %.3f ms per iteration\n",
-               (int)cmd->iterations, cmd->total.rotations / frames / (double)cmd->iterations,
-               cmd->total.solve / frames / (double)cmd->iterations);
-    } else {
-        printf(": solve %.3f ms%s\n", cmd->total.solve / frames,
-               cmd->at != NULL ? " at the wanted vertices" : "");
-    }
-    if (cmd->check && cmd->script.n_frames > 0) {
-        printf("check      a new factor and its solve take %.3f ms per frame; positions differ by "
-               "at most %.3g diameters, bound %.3g\n",
-               cmd->total.fresh / frames, cmd->worst, cmd->bound);
-    }
-}
-
 int command_deform(int argc, char **argv) {
     deform_command cmd;
     const char *operand = NULL;
@@ -421,11 +290,11 @@ int command_deform(int argc, char **argv) {
     if (cmd.table != NULL) {
         app_close(cmd.table);
     }
-    print_summary(&cmd);
+    deform_print_summary(&cmd);
     if (cmd.output.csv != NULL) {
-        write_csv(&cmd);
+        deform_write_csv(&cmd);
     }
-    write_shape(&cmd, &cmd.output);
+    deform_write_shape(&cmd, &cmd.output);
     const bool failed = cmd.check && !(cmd.worst <= cmd.bound);
     if (failed) {
         app_warn("positions differ from those of a new factor by more than --bound");

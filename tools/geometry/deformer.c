@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "deformer_anew.h"
 #include "laplacian.h"
 #include "polyharmonic.h"
 #include "tools/matrix/triplets.h"
@@ -167,6 +167,13 @@ static bool is_alone(const deformer *d, sl_int vertex) {
     return d->sizes[d->component[vertex]] == 1;
 }
 
+/* Whether pins have lost all digits, as they do in parts of the mesh that are nearly degenerate. If
+ * so, they are no longer used. */
+static bool is_refused(deformer *d, sl_status status) {
+    d->anew = d->anew || status == SL_ERR_PIVOT || status == SL_ERR_INACCURATE;
+    return d->anew;
+}
+
 /* is_held while a set of vertices is held or released. */
 enum { HELD = 1, CHANGING = 2 };
 
@@ -186,7 +193,8 @@ sl_status deformer_hold(deformer *d, const sl_int *vertices, sl_int count) {
             d->target[3 * v + c] = d->Y[c * n + v];
         }
     }
-    sl_status status = sl_pins_add(d->pins, added, n_added, &d->stats);
+    sl_status status = d->anew ? SL_OK : sl_pins_add(d->pins, added, n_added, &d->stats);
+    status = is_refused(d, status) ? SL_OK : status;
     d->n_pins += status == SL_OK ? n_added : 0;
     for (sl_int k = 0; k < count; k++) {
         if (d->is_held[vertices[k]] == CHANGING) {
@@ -214,8 +222,10 @@ sl_status deformer_release(deformer *d, const sl_int *vertices, sl_int count) {
             gone[n_gone++] = k;
         }
     }
-    sl_status status =
-        gone == NULL ? SL_ERR_MEMORY : sl_pins_release(d->pins, gone, n_gone, &d->stats);
+    sl_status status = gone != NULL ? SL_OK : SL_ERR_MEMORY;
+    if (status == SL_OK && !d->anew) {
+        status = sl_pins_release(d->pins, gone, n_gone, &d->stats);
+    }
     for (sl_int k = 0; k < n_pins && status == SL_OK; k++) {
         if (d->is_held[d->held[k]] != CHANGING) {
             d->held[n_left++] = d->held[k];
@@ -283,7 +293,13 @@ sl_status deformer_solve(deformer *d) {
         }
     }
     gather_pins(d);
-    sl_status status = sl_pins_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
+    sl_status status = SL_OK;
+    if (!d->anew) {
+        status = sl_pins_solve(d->pins, NULL, d->U, n, d->B, n, d->G, n, 3, d->W);
+    }
+    if (is_refused(d, status)) {
+        status = deformer_solve_anew(d);
+    }
     if (status != SL_OK) {
         return status;
     }
@@ -326,94 +342,20 @@ sl_status deformer_watch(deformer *d, const sl_int *vertices, sl_int count) {
 sl_status deformer_solve_watched(deformer *d, double *Y) {
     size_t n = (size_t)d->n, count = (size_t)d->n_watched;
     gather_pins(d);
-    sl_status status = sl_pins_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
+    sl_status status = SL_OK;
+    if (!d->anew) {
+        status = sl_pins_solve(d->pins, d->near, Y, count, d->B, 0, d->G, n, 3, d->W);
+    }
+    if (is_refused(d, status)) {
+        status = deformer_solve_anew(d);
+        for (size_t k = 0; k < 3 * count && status == SL_OK; k++) {
+            Y[k] = d->U[k / count * n + (size_t)d->watched[k % count]];
+        }
+    }
     for (size_t k = 0; k < 3 * count && status == SL_OK; k++) {
         size_t v = (size_t)d->watched[k % count], at = k / count * n + v;
         bool is_free = d->n_held[d->component[v]] == 0;
         Y[k] = d->rest[at] + displacement(d, v, k / count, is_free ? 0 : Y[k]);
     }
-    return status;
-}
-
-/* ---- comparison with a new factor ---- */
-
-/* The free vertices are numbered: number[v], or -1. B becomes their right-hand side. Returns their
- * matrix; NULL: out of memory. */
-static sl_matrix *free_system(const deformer *d, double *B, sl_int *number, sl_int n_free) {
-    triplets list = {0, 0, NULL, NULL, NULL};
-    sl_matrix *out = NULL;
-    size_t n = (size_t)d->n, nf = (size_t)n_free;
-    const sl_csc K = sl_matrix_view(d->K);
-    bool ok = true;
-    for (size_t v = 0; v < n; v++) {
-        for (size_t c = 0; c < 3 && number[v] >= 0; c++) {
-            B[c * nf + (size_t)number[v]] = d->B[c * n + v];
-        }
-    }
-    for (sl_int j = 0; j < d->n && ok; j++) {
-        for (sl_int p = K.p[j]; p < K.p[j + 1] && ok; p++) {
-            sl_int i = K.i[p];
-            if (number[i] >= 0 && number[j] >= 0) {
-                sl_int a = number[i], b = number[j];
-                ok = triplets_add(&list, a > b ? a : b, a > b ? b : a, K.x[p]);
-            } else if (number[i] >= 0 || number[j] >= 0) {
-                size_t to = (size_t)(number[i] >= 0 ? number[i] : number[j]);
-                size_t from = (size_t)(number[i] >= 0 ? j : i);
-                for (size_t c = 0; c < 3 && d->is_held[from]; c++) {
-                    double g = d->target[3 * from + c] - d->rest[c * n + from];
-                    B[c * nf + to] -= K.x[p] * g;
-                }
-            }
-        }
-    }
-    if (!ok || triplets_finish(&out, n_free, n_free, &list, true) != SL_OK) {
-        triplets_free(&list);
-        return NULL;
-    }
-    return out;
-}
-
-sl_status deformer_compare(deformer *d, double *difference, double *seconds) {
-    size_t n = (size_t)d->n;
-    sl_int n_free = 0, *number = integers(n);
-    sl_symbolic *S = NULL;
-    sl_factor *F = NULL;
-    sl_matrix *A = NULL;
-    double *B = NULL;
-    *difference = *seconds = 0;
-    for (size_t v = 0; v < n && number != NULL; v++) {
-        bool is_free = !d->is_held[v] && d->n_held[d->component[v]] > 0;
-        number[v] = is_free ? n_free++ : -1;
-    }
-    B = number != NULL ? reals(3 * (size_t)n_free) : NULL;
-    A = B != NULL ? free_system(d, B, number, n_free) : NULL;
-    sl_status status = A == NULL ? SL_ERR_MEMORY : SL_OK;
-    const clock_t began = clock();
-    if (status == SL_OK) {
-        const sl_csc view = sl_matrix_view(A);
-        status = sl_symbolic_create(&S, &view, NULL, NULL);
-        if (status == SL_OK) {
-            status = sl_factor_create(&F, S, &view, NULL, &d->stats);
-        }
-    }
-    if (status == SL_OK) {
-        size_t nf = (size_t)n_free;
-        status = sl_factor_solve(F, B, nf, B, nf, 3, d->W);
-        *seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
-        for (size_t v = 0; v < n; v++) {
-            double distance = 0;
-            for (size_t c = 0; c < 3 && number[v] >= 0; c++) {
-                distance = hypot(distance, B[c * nf + (size_t)number[v]] - d->U[c * n + v]);
-            }
-            /* written so that a NaN counts */
-            *difference =
-                distance / d->diameter <= *difference ? *difference : distance / d->diameter;
-        }
-    }
-    sl_factor_free(F);
-    sl_symbolic_free(S);
-    sl_matrix_free(A);
-    free(B);
-    free(number);
     return status;
 }

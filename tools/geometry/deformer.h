@@ -38,7 +38,7 @@ typedef struct deformer {
     double *G;         /* n x 3: displacements of the pins, leading dimension n */
     sl_int *held;      /* n_pins vertices that are pins, in their order */
     sl_int n_pins;
-    double *target;    /* 3 n: where each held vertex is held */
+    double *target; /* 3 n: where each held vertex is held */
     unsigned char *is_held;
     sl_int n_components;
     sl_int *component; /* n */
@@ -49,6 +49,7 @@ typedef struct deformer {
     sl_int *watched;   /* n_watched vertices */
     sl_int n_watched;
     double diameter; /* diagonal of the bounding box */
+    bool anew;       /* pins were refused, with stats.error.row: each solve makes a new factor */
 } deformer;
 
 /** Prepares a deformation: assembles, orders, analyzes and factors K.
@@ -65,7 +66,8 @@ void deformer_free(deformer *d);
 
 /** Holds vertices where they are, all or none. Those that are held already stay so.
  *
- *  Returns  SL_OK; as sl_pins_add, with the vertex in stats.error.row.
+ *  Returns  SL_OK; as sl_pins_add, with the vertex in stats.error.row; where that finds a null
+ *           pivot, pins are no longer used.
  *  Cost     that of sl_pins_add; stats.pins has the way in use. Many are eliminated in a second
  *           factor.
  */
