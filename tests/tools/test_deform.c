@@ -204,7 +204,8 @@ static void bad_meshes_are_deformed(void **state) {
 }
 
 /* A torus, a triangle, two single vertices, and a triangle so thin that pins on the factor of the
- * mesh lose all digits there: what is held is where it is moved to, what has no handle is at rest. */
+ * mesh lose all digits there: what is held is where it is moved to, what has no handle is at
+ * rest. */
 static void nearly_degenerate_parts_are_held(void **state) {
     (void)state;
     static const char parts[] = "v 5 0 0\nv 6 0 0\nv 7 1e-5 0\nv 0 0 5\nv 1 0 5\nv 0 1 5\nv 9 9 9\n"
