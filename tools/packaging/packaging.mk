@@ -15,7 +15,7 @@ INSTALL_PARTS ?=
 SHARED_FLAGS ?=
 SHARED_LIBS ?=
 
-.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python test-python test-python-build bench-python
+.PHONY: deps-eigen deps-packaging test-adapters test-clients shared test-shared install uninstall check-install deps-python deps-torch test-python test-python-build bench-python
 
 deps-eigen: deps-cxx ## Eigen: the tests of its adapter
 	@tools/build/deps.sh /usr/include/eigen3/Eigen/Sparse=libeigen3-dev
@@ -115,18 +115,25 @@ deps-python: ## NumPy, SciPy, pytest, pip and setuptools
 	$(DIST)/numpy=python3-numpy $(DIST)/scipy=python3-scipy $(DIST)/pytest=python3-pytest \
 	$(DIST)/pip=python3-pip $(DIST)/setuptools=python3-setuptools $(DIST)/wheel=python3-wheel
 
-# Built from a copy, as from a source distribution: pip leaves files beside pyproject.toml.
-build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/*) $(SHARED_SOURCE) sparse_local.h
+deps-torch: ## torch, for the derivatives of the Python package
+	@$(PYTHON) -c 'import torch' 2>/dev/null || tools/build/deps.sh $(DIST)/torch=python3-torch
+
+# A wheel, once, from a copy, as from a source distribution: pip leaves files beside pyproject.toml.
+build/python/installed: $(wildcard tools/python/*.* tools/python/sparse_local/* tools/python/sparse_local/*/*.py) $(SHARED_SOURCE) sparse_local.h
 	@rm -rf build/python && mkdir -p build/python
 	@cp -r tools/python build/python/source && rm -rf build/python/source/build build/python/source/*.egg-info
 	@mkdir -p build/python/source/csrc && cp sparse_local.h $(SHARED_SOURCE) build/python/source/csrc
 	$(call say,PIP )
-	$(Q)$(PYTHON) -m pip install --quiet --root-user-action=ignore --no-index --no-deps --no-build-isolation --disable-pip-version-check \
-	--target build/python/site build/python/source
+	$(Q)$(PYTHON) -m pip wheel --quiet --no-index --no-deps --no-build-isolation --disable-pip-version-check \
+	--wheel-dir build/python/wheel build/python/source
+	$(Q)$(PYTHON) -m pip install --quiet --root-user-action=ignore --no-index --no-deps --disable-pip-version-check \
+	--target build/python/site build/python/wheel/*.whl
 	@touch $@
 
-test-python: deps-python sparse_local.h ## the package of tools/python, installed by pip, against SciPy
+test-python: deps-python sparse_local.h ## the package of tools/python, from its wheel, against SciPy, and its examples
 	@$(MAKE) --no-print-directory build/python/installed
+	@rm -rf build/python/source/tests build/python/source/examples
+	@cp -r tools/python/tests tools/python/examples build/python/source
 	@cd build/python && PYTHONPATH=site $(PYTHON) -B -m pytest -q -p no:cacheprovider source/tests
 
 # The source distribution and the wheel by `build`, without a network; each is installed and runs the example, whose picture is kept.

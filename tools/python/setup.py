@@ -1,6 +1,6 @@
 """setup.py: compiles sparse_local.h to the shared library inside the package.
 
-CC and CFLAGS are read from the environment; CFLAGS defaults to -O2.
+CC and CFLAGS are read from the environment; CFLAGS come after -O2.
 """
 import os
 import shlex
@@ -29,13 +29,16 @@ class Build(build_py):
         super().run()
         target = os.path.join(self.build_lib, "sparse_local", LIBRARY)
         os.makedirs(os.path.dirname(target), exist_ok=True)
-        command = shlex.split(os.environ.get("CC", "cc"))
-        command += shlex.split(os.environ.get("CFLAGS", "-O2"))
-        command += ["-std=c99", "-fPIC", "-fvisibility=hidden", "-shared"]
-        command += ["-I", os.path.dirname(source("sparse_local.h"))]
-        command += [source("sparse_local.c"), "-o", target, "-lm"]
-        print(" ".join(command))
-        subprocess.check_call(command)
+        compiler = shlex.split(os.environ.get("CC", "cc")) + ["-O2"]
+        compiler += shlex.split(os.environ.get("CFLAGS", ""))
+        compiled = target + ".o"
+        # in two steps, of which ccache remembers the first
+        for command in (["-std=c99", "-fPIC", "-fvisibility=hidden", "-I",
+                         os.path.dirname(source("sparse_local.h")), "-c", source("sparse_local.c"),
+                         "-o", compiled], ["-shared", compiled, "-o", target, "-lm"]):
+            print(" ".join(compiler + command))
+            subprocess.check_call(compiler + command)
+        os.remove(compiled)
 
 
 class SourceDistribution(sdist):
