@@ -41,16 +41,18 @@ class Analysis:
                       ctypes.byref(stats)), stats, width)
         self._own(symbolic.value, triangle, matrix.kind())
 
-    def _own(self, symbolic, triangle, kind):
+    def _own(self, symbolic, triangle, kind, is_ordered=True):
         self._symbolic = Handle("symbolic", symbolic)
         self._triangle = triangle
         self._kind = kind
+        self._is_ordered = is_ordered
         self.n = lib.sl_symbolic_view(symbolic).n // kind.width
         return self
 
     @classmethod
-    def _of(cls, symbolic, triangle, kind):
-        return cls.__new__(cls)._own(symbolic, triangle, kind)
+    def _of(cls, symbolic, triangle, kind, is_ordered=True):
+        """The owner of an analysis; is_ordered: of a matrix that was put in order."""
+        return cls.__new__(cls)._own(symbolic, triangle, kind, is_ordered)
 
     def factor(self, A, **numbers):
         """A Factor of a matrix with this pattern, stored alike; numbers: the options of Factor that
@@ -60,11 +62,11 @@ class Analysis:
 
     def _matrix(self, A):
         """The view of a matrix as the analyzed one was viewed, checked for symmetry."""
-        matrix = Matrix(A)
+        matrix = Matrix(A, self._is_ordered)
         if self._kind is arrays.COMPLEX and not matrix.is_complex:
             A = A.astype(complex) if hasattr(A, "astype") else CscArrays(
                 A.shape, A.indptr, A.indices, np.asarray(A.data).astype(complex))
-            matrix = Matrix(A)
+            matrix = Matrix(A, self._is_ordered)
         elif matrix.is_complex and self._kind is arrays.REAL:
             raise TypeError("a real matrix was analyzed, and this one is complex")
         if self._triangle is None:
@@ -75,7 +77,7 @@ class Analysis:
             # stored by rows where the analyzed matrix was stored by columns, or the reverse
             if not hasattr(A, "tocsr"):
                 raise ArgumentError("the analyzed matrix was stored by rows")
-            matrix = Matrix(A.tocsc() if matrix.is_turned else A.tocsr())
+            matrix = Matrix(A.tocsc() if matrix.is_turned else A.tocsr(), self._is_ordered)
         return matrix
 
     @property

@@ -59,7 +59,8 @@ class Files:
 
     def __reduce__(self):
         return _unpickle, (self.to_bytes(), self.analysis._triangle, self._threads,
-                           self._kind is arrays.COMPLEX, self._definite)
+                           self._kind is arrays.COMPLEX, self._definite,
+                           self.analysis._is_ordered)
 
     @classmethod
     def _loaded(cls, call, source, checks, triangle, threads, is_complex, definite, path=None):
@@ -74,7 +75,7 @@ class Files:
     def _taken(cls, loaded, triangle, threads=None, is_complex=False, definite=False):
         """The owner of an analysis and a factor that were loaded."""
         kind = arrays.COMPLEX if is_complex else arrays.REAL
-        analysis = Analysis._of(loaded.symbolic, triangle, kind)
+        analysis = Analysis._of(loaded.symbolic, triangle, kind, is_ordered=False)
         self = cls._of(analysis, loaded.factor, threads, definite)
         self._check_definite()
         return self
@@ -88,7 +89,9 @@ def encoded(path):
     return name
 
 
-def _unpickle(data, triangle, threads=None, is_complex=False, definite=False):
+def _unpickle(data, triangle, threads=None, is_complex=False, definite=False, is_ordered=False):
     from ._factor import Factor
-    return Factor.from_bytes(data, triangle=triangle, threads=threads, is_complex=is_complex,
+    self = Factor.from_bytes(data, triangle=triangle, threads=threads, is_complex=is_complex,
                              definite=definite)
+    self.analysis._is_ordered = is_ordered
+    return self

@@ -22,15 +22,20 @@ class Matrix:
     CSC with 32-bit indices and float64 values is used in place; p, i, x are its arrays. 64-bit
     indices are converted by the library. CSR is used in place as its transpose, so that its
     triangles change places (is_turned). A complex matrix becomes the real one of twice the size.
+    is_ordered: a matrix that SciPy knows to have rows out of order, as sums have them, is copied in
+    order, since an analysis takes other matrices with their entries in the same order only.
     """
 
-    def __init__(self, A):
+    def __init__(self, A, is_ordered=True):
         form = getattr(A, "format", "csc")
         if form not in ("csc", "csr"):
             A = A.tocsc()
             form = "csc"
-        elif not all(hasattr(A, name) for name in ("shape", "indptr", "indices", "data")):
+        if not all(hasattr(A, name) for name in ("shape", "indptr", "indices", "data")):
             raise TypeError("a sparse matrix in compressed columns is needed (scipy.sparse.csc)")
+        if is_ordered and _is_out_of_order(A):
+            A = A.copy()
+            A.sum_duplicates()
         self.is_turned = form == "csr"
         rows, columns = A.shape
         if self.is_turned:
@@ -123,6 +128,14 @@ class Matrix:
             row = int(np.argmax(differs)) // width
             raise PatternError("the two triangles differ; pass triangle='lower' or 'upper' to read "
                                "one of them", row)
+
+
+def _is_out_of_order(A):
+    """Whether A is a well-formed matrix of SciPy with rows out of order, or with duplicates."""
+    p = np.asarray(A.indptr)
+    return (hasattr(A, "has_canonical_format") and p.ndim == 1 and p.size > 0 and p[0] == 0 and
+            p.size == A.shape[0 if A.format == "csr" else 1] + 1 and (np.diff(p) >= 0).all() and
+            p[-1] <= min(np.size(A.indices), np.size(A.data)) and not A.has_canonical_format)
 
 
 def _positions(array, what, is_wide):

@@ -47,7 +47,7 @@ class System:
         analysis, self._numbers = split(options)
         self._stored = Stored(A, analysis.get("triangle"))
         self._pattern = A if getattr(A, "format", "csc") in ("csc", "csr") else A.tocsc()
-        self.analysis = Analysis(A, **analysis)
+        self.analysis = Analysis(_Values(self._pattern, self._pattern.data), **analysis)
         self.n = self.analysis.n
         self._i, self._j = (torch.from_numpy(s.astype(np.int64))
                             for s in (self._stored.rows, self._stored.columns))

@@ -32,7 +32,7 @@ class Stored:
         if triangle is not None:
             raise ArgumentError("a matrix that is read by one of its two triangles: store one")
         A = A if getattr(A, "format", "csc") in ("csc", "csr") else A.tocsc()
-        view = Matrix(A)
+        view = Matrix(A, is_ordered=False)
         if view.is_complex:
             raise TypeError("derivatives are those of real matrices")
         p, i = np.asarray(A.indptr), np.asarray(A.indices)

@@ -1,4 +1,6 @@
 """Pins, changes of entries, submatrices and edited meshes, against dense algebra."""
+import pickle
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -112,6 +114,21 @@ def test_changes_follow_entries(A, turn):
     H = sl.Factor(form(A)).rank_update(V, [2.5])
     assert np.allclose(H.solve(b), wanted) and H.changed["ranks"] == 1
     assert np.allclose(H.rank_update(V, [-2.5]).solve(b), np.linalg.solve(A.toarray(), b))
+
+
+def test_sums_of_scipy_may_be_out_of_order(A):
+    v = sp.csc_matrix(([1.0, -1.0], ([18, 17], [0, 0])), shape=(400, 1))
+    B, b = A + 2.5 * (v @ v.T), right_hand_sides(400)
+    assert not B.has_sorted_indices
+    kept = B.indices.copy()
+    for F in (sl.Factor(A), sl.Factor(B), sl.Sum([A]).factor([1.0])):
+        assert F.n == 400
+    F = sl.Factor(A)
+    F.change(B, A)
+    assert np.allclose(B @ F.solve(b), b) and np.allclose(B @ F.refactor(B).solve(b), b)
+    assert np.allclose(A @ sl.Factor(B).refactor(A).solve(b), b)
+    assert np.allclose(B @ pickle.loads(pickle.dumps(F)).refactor(B).solve(b), b)
+    assert np.array_equal(B.indices, kept)
 
 
 def test_refused_changes_leave_the_factor(A, F):

@@ -25,8 +25,8 @@ import numpy as np
 import sparse_local as sl
 n = 30
 k = np.arange(n)
-A = sl.from_triplets(np.r_[k, k[1:]], np.r_[k, k[:-1]], np.r_[np.full(n, 2.5), np.full(n - 1, -1.0)],
-                     n)
+values = np.r_[np.full(n, 2.5), np.full(n - 1, -1.0)]
+A = sl.from_triplets(np.r_[k, k[1:]], np.r_[k, k[:-1]], values, n)
 assert type(A) is sl.CscArrays and A.shape == (n, n)
 dense = np.zeros((n, n))
 for j in range(n):
@@ -72,7 +72,7 @@ def test_the_wheel_is_of_this_platform_and_of_any_python():
 
 
 @pytest.mark.skipif(not INFO or "SPARSE_LOCAL_LIBRARY" in os.environ,
-                    reason="the package is not installed from a wheel, or another library is chosen")
+                    reason="not installed from a wheel, or another library is chosen")
 def test_the_library_is_inside():
     assert os.path.dirname(sl.library_path()) == PACKAGE
     name = "sparse_local/" + os.path.basename(sl.library_path())

@@ -1,0 +1,22 @@
+"""harmonic.py: a flat map of a surface whose border is laid on a circle."""
+import numpy as np
+
+import sparse_local as sl
+from mesh import boundary, laplacian, surface
+
+points, triangles = surface()
+L, M = laplacian(points, triangles)
+border = boundary()
+inside = np.setdiff1d(np.arange(L.shape[0]), border)
+
+angle = np.linspace(0, 2 * np.pi, len(border), endpoint=False)
+flat = np.zeros((L.shape[0], 2))
+flat[border] = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+F = sl.cholesky(L[inside][:, inside])  # L itself is singular, this part of it is not
+flat[inside] = F.solve(-L[inside][:, border] @ flat[border])  # both coordinates at once
+
+assert abs((L @ flat)[inside]).max() < 1e-12
+a, b, c = (flat[triangles[:, k]] for k in range(3))
+areas = np.cross(b - a, c - a)
+print("%d triangles, %d of them turned over" % (len(areas), (areas <= 0).sum()))
