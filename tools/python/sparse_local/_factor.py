@@ -11,10 +11,12 @@ from ._entries import Entries
 from ._errors import PivotError, StateError
 from ._files import Files
 from ._library import Handle, Stats, as_dict, check, lib, new_options
-from ._options import Chosen, split
+from ._options import Chosen, choice, split
 from ._pseudo import NullSpace
 from ._solves import Solves
 from ._threads import set_threads
+
+_PIVOTS = {"null": 0, "regularized": 1}
 
 
 class Factor(Solves, Entries, Changes, Files):
@@ -171,6 +173,17 @@ class Factor(Solves, Entries, Changes, Files):
             return np.zeros(0)
         return np.ctypeslib.as_array(ctypes.cast(view.D, ctypes.POINTER(ctypes.c_double)),
                                      (self.n * self._kind.width,))
+
+    def pivot_rows(self, kind="null"):
+        """(rows, shifts): the rows whose pivots were not taken as they came, in the order of the
+        pivots, and what was added to them. kind: 'null' (skipped, shifts 0), or 'regularized'."""
+        number, count = choice(_PIVOTS, kind, "kind"), ctypes.c_int32()
+        info = self.stats["factor"]
+        rows = np.zeros(max(info["null"], info["regularized"], 1), dtype=np.int32)
+        shifts = np.zeros(rows.size)
+        check(lib.sl_factor_pivot_rows(self._pointer, number, arrays.address(rows),
+                                       arrays.address(shifts), rows.size, ctypes.byref(count)))
+        return rows[:count.value] // self._kind.width, shifts[:count.value]
 
     def _null_space(self, pseudo=True):
         """What corrects entries to those of the pseudo-inverse; None: A is regular."""

@@ -118,6 +118,25 @@ class Plan:
                                         ctypes.byref(stats)), stats)
         return dense.X, bounds
 
+    def solve_refined(self, B, steps=2):
+        """(x, error): x as solve returns it, without what regularization changed, by at most steps
+        corrections; error is the backward error that is left.
+
+        Both reaches have to contain the regularized rows, as where these are in both sets
+        (Factor.pivot_rows): ArgumentError names one that they do not. InaccurateError: the error is
+        above error_limit. Cost: 1 + steps local solves.
+        """
+        width = self._factor._kind.width
+        dense = self._dense(np.asfortranarray(B))
+        b = dense.right()
+        out = np.empty((max(self.nx * width, 1), dense.count), order="F")
+        factor, stats = self._factor, Stats()
+        check(lib.sl_plan_solve_refined(self._plan.pointer, factor._pointer, arrays.address(out),
+                                        out.shape[0], arrays.address(b), max(self.nb * width, 1),
+                                        dense.count, steps, factor._work(), ctypes.byref(stats)),
+              stats, width)
+        return dense.shaped(out[:self.nx * width]), stats.refine.backward_error
+
     def solve_part(self, parts, B):
         """Half of the solve: 'P L' forward, 'LT PT' backward, either with 'D' or 'sqrtD'.
 

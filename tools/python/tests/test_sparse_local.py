@@ -263,6 +263,24 @@ def test_bounds_hold(A, F, certainty):
         F.certify(2 * A, certainty)
 
 
+def test_regularized_pivots_are_refined():
+    K = sp.block_diag([grid(6), [[0.0, 2.0], [2.0, 0.0]]], format="csc")
+    b = right_hand_sides(38, 3)
+    F = sl.Factor(K, regularization=1e-6, signs=np.r_[np.ones(37, dtype=int), -1])
+    rows, shifts = F.pivot_rows("regularized")
+    assert 0 < rows.size == F.stats["factor"]["regularized"] == shifts.size
+    plan = F.plan(None, None)
+    wanted = np.linalg.solve(K.toarray(), b)
+    for right, x in ((b, wanted), (np.asfortranarray(b), wanted), (b[:, 0], wanted[:, 0])):
+        refined, error = plan.solve_refined(right)
+        assert refined.shape == x.shape and np.allclose(refined, x) and error < 1e-8
+    rows, shifts = sl.Factor(grid(5, 0.0), null_pivots="skip").pivot_rows()
+    assert rows.size == 1 and shifts[0] == 0.0
+    assert F.pivot_rows()[0].size == 0
+    with pytest.raises(sl.ArgumentError):
+        F.pivot_rows("weak")
+
+
 # ---- half solves ----
 
 def test_parts_make_up_the_solve(A, F):
