@@ -2,9 +2,9 @@
 
 Each thread runs C code without the interpreter's lock. Results have the same bits for any number.
 """
+import _thread
 import concurrent.futures
 import ctypes
-import itertools
 import os
 import threading
 
@@ -35,28 +35,58 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_forget)
 
 
-def _run(context, count, body, data):
-    """An sl_parallel_for: the caller takes indices too, so that a busy pool only takes longer."""
-    call, numbers, lock = _BODY(body), itertools.count(), threading.Lock()
+class _Loop:
+    """One loop of the library: body(data, k) for each k < count."""
 
-    def take():
+    def __init__(self, body, data, count):
+        self._call, self._data, self._count = _BODY(body), data, count
+        self._lock, self._end = threading.Lock(), threading.Event()
+        self._next = self._done = self._helpers = 0
+
+    def take(self):
+        """Runs bodies until none is left."""
         while True:
-            with lock:
-                k = next(numbers)
-            if k >= count:
+            with self._lock:
+                k = self._next
+                self._next += 1
+            if k >= self._count:
                 return
-            call(data, k)
+            self._call(self._data, k)
+            with self._lock:
+                self._done += 1
+                if self._done == self._count:
+                    self._end.set()
 
-    helpers = []
-    try:
-        for _ in range(count - 1):
-            helpers.append(_executor().submit(take))
-    except RuntimeError:  # no thread could be started
-        pass
-    take()
-    for helper in helpers:
-        if not helper.cancel():
-            helper.result()
+    def finish(self):
+        """Runs what is left and returns when all bodies are done; may be called again.
+
+        The main thread leaves all bodies to helpers, for only there Python raises
+        KeyboardInterrupt, which must not lose a body.
+        """
+        takes_part = threading.current_thread() is not threading.main_thread()
+        try:
+            while self._helpers < self._count - takes_part:
+                self._helpers += 1
+                _executor().submit(self.take)
+        except RuntimeError:  # no thread could be started
+            takes_part = True
+        if takes_part:
+            self.take()
+        self._end.wait()
+
+
+def _run(context, count, body, data):
+    """An sl_parallel_for. An interrupt waits until the loop has ended."""
+    loop, is_interrupted = None, False
+    while count > 0:
+        try:
+            loop = loop or _Loop(body, data, count)
+            loop.finish()
+            break
+        except KeyboardInterrupt:
+            is_interrupted = True
+    if is_interrupted:
+        _thread.interrupt_main()
 
 
 _CALLBACK = _RUN(_run)

@@ -34,22 +34,6 @@ def test_an_analysis_serves_many_factors(A):
     assert np.array_equal(sl.analyze(pattern).factor(A).solve(b), sl.Factor(A).solve(b))
 
 
-@pytest.mark.parametrize("threads", [2, 3])
-def test_threads_give_the_same_bits(threads):
-    A = grid(120)
-    one, many = sl.Factor(A), sl.Factor(A, threads=threads)
-    B = right_hand_sides(A.shape[0], 40)
-    assert np.array_equal(one.solve(B), many.solve(B))
-    assert np.array_equal(one.solve(B[:, 0]), many.solve(B[:, 0]))
-    assert np.array_equal(one.diagonal(), many.diagonal())
-    assert np.array_equal(one.refactor(2 * A).solve(B), many.refactor(2 * A).solve(B))
-    again = sl.Factor.from_bytes(many.to_bytes(), threads=threads)
-    assert np.array_equal(again.refactor(2 * A).solve(B), many.solve(B))
-    for wrong in (0, -1, 1.5, True):
-        with pytest.raises(sl.ArgumentError):
-            sl.Factor(grid(3), threads=wrong)
-
-
 @pytest.mark.parametrize("threads", [None, 2])
 def test_sums_are_factors_of_sums(A, threads):
     M = sp.diags(np.linspace(1, 2, 400), format="csc")

@@ -2,8 +2,6 @@
 
 Each of these once answered with success in some other package.
 """
-import threading
-
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -298,21 +296,3 @@ def test_options_that_are_not_numbers():
                   {"ordering": None}, {"purpose": 1}, {"storage": "half"}):
         with pytest.raises((sl.Error, TypeError)):
             sl.Factor(A, **wrong)
-
-
-def test_threads_that_factor_and_solve_with_objects_of_their_own():
-    A, b, wrong = grid(20), right_hand_sides(400), []
-    x = sl.Factor(A).solve(b)
-
-    def work(k):
-        for _ in range(5):
-            F = sl.Factor((k + 1) * A, threads=2)
-            if not np.allclose(F.solve(b) * (k + 1), x):
-                wrong.append(k)
-
-    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert not wrong
