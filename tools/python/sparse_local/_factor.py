@@ -1,6 +1,5 @@
 """Factor: the numbers of L and D over an analysis, what they are made from, and their life."""
 import ctypes
-import threading
 
 import numpy as np
 
@@ -10,11 +9,11 @@ from ._changes import Changes
 from ._entries import Entries
 from ._errors import PivotError, StateError
 from ._files import Files
-from ._library import Handle, Stats, as_dict, check, lib, new_options
+from ._library import Handle, Stats, as_dict, check, lib
 from ._options import Chosen, choice, split
 from ._pseudo import NullSpace
 from ._solves import Solves
-from ._threads import set_threads
+from ._works import Works
 
 _PIVOTS = {"null": 0, "regularized": 1}
 
@@ -101,7 +100,7 @@ class Factor(Solves, Entries, Changes, Files):
         self._refused = None  # why the numbers are not to be used
         self._consistency = None  # that of a file
         self._has_mass = False
-        self._works = threading.local()
+        self._works = Works(threads)
         self._nulls = None
         return self
 
@@ -125,14 +124,8 @@ class Factor(Solves, Entries, Changes, Files):
         return self.analysis._symbolic
 
     def _work(self):
-        """The workspace of this thread, which grows and is used again."""
-        work = getattr(self._works, "work", None)
-        if work is None:
-            options, pointer = new_options(), ctypes.c_void_p()
-            set_threads(options, self._threads)
-            check(lib.sl_work_create(ctypes.byref(pointer), ctypes.byref(options)))
-            work = self._works.work = Handle("work", pointer.value)
-        return work.pointer
+        """The workspace of this thread."""
+        return self._works.pointer()
 
     def refactor(self, A):
         """Factors a matrix of the same pattern, stored alike, with new values.
