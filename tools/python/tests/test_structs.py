@@ -9,6 +9,9 @@ import pytest
 from sparse_local import _structs
 
 
+# members of a struct in the struct of C, which is no struct here
+RENAMED = {"thread_count": "count", "thread_run": "run", "thread_context": "context",
+           "allocator_context": "context"}
 HEADER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "csrc")
 
 
@@ -36,6 +39,8 @@ def test_structs_are_those_of_the_header(tmp_path, name):
     numbers = subprocess.check_output([str(tmp_path / "offsets")], text=True).split()
     assert int(numbers[0]) == ctypes.sizeof(getattr(_structs, name))
     assert [int(text) for text in numbers[1:]] == list(ours.values())
+    assert [path.split(".")[-1] for path in theirs] == [
+        RENAMED.get(path.split(".")[-1], path.split(".")[-1]) for path in ours]
 
 
 def leaves(struct, prefix="", start=0):
