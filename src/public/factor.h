@@ -21,11 +21,11 @@
  *                growth_limit, error_limit, storage; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
- *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one, or
- *           two triangles with different values, by more than 1e-6 of the row;
- *           SL_ERR_PIVOT: a null pivot at error.row, or the row that shows that A is indefinite;
- *           error.what says what helps, such as sl_symbolic_create_pivoted, and null_bound up to
- *           which size the pivot error.value is null;
+ *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one,
+ *           or two triangles whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a
+ *           null pivot at error.row, or the row that shows that A is indefinite; error.what says
+ *           what helps, such as sl_symbolic_create_pivoted, and null_bound up to which size the
+ *           pivot error.value is null;
  *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
  *           SL_ERR_INACCURATE: growth above its limit by the pivot error.value of error.row, or a
  *           number that float cannot hold; SL_ERR_UNSUPPORTED: the isa, or a combination of options
