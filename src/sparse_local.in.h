@@ -90,7 +90,7 @@ extern "C" {
 #include "impl/matrix/csc_build.h"
 #include "impl/matrix/csc_triangle.h"
 #include "impl/matrix/csc_products.h"
-#include "impl/matrix/permute.h"
+#include "impl/matrix/submatrix.h"
 /* ordering: fill-reducing orderings of a graph */
 #include "impl/ordering/graph.h"
 #include "impl/ordering/job.h"

@@ -41,7 +41,8 @@ comparison *comparison_create(const bench_run *run, const bench_system *system, 
     cmp->cholmod = peer_cholmod_create(&system->A, perm);
     if (system->stats.symbolic.flops < max_flops_eigen) {
         bench_progress("[%s: Eigen]\n", system->name);
-        bench_must(sl_matrix_permute(&cmp->permuted, &system->A, perm, NULL),
+        bench_must(sl_matrix_submatrix(&cmp->permuted, &system->A, perm, system->A.n_cols, NULL,
+                                       NULL),
                    "permuting for Eigen");
         const sl_csc C = sl_matrix_view(cmp->permuted);
         cmp->eigen = peer_eigen_create(&C);

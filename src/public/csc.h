@@ -32,17 +32,21 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
                                                     const sl_options *opt);
 
-/** The symmetric permutation C = P A P' of a square matrix: C(k, l) = A(perm[k], perm[l]).
+/** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
+ *  With all rows it is a symmetric permutation P A P'.
  *
- *  If A stores one triangle, C has its lower triangle; if A stores both, so does C.
+ *  If A stores one triangle, C has its lower triangle; if A stores both, so does C. Rows of a
+ *  column are in any order; duplicates stay.
  *
- *  perm   [in]   n entries, a permutation of 0..n-1.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
+ *  stats  [out]  error.row: a row out of range or given twice; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
-                                                  const sl_int *perm, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A,
+                                                    const sl_int *rows, sl_int count,
+                                                    const sl_options *opt, sl_stats *stats);
 
 /** The arrays of a matrix; valid as long as M. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);

@@ -1,4 +1,4 @@
-/* test_csc.c: compressed columns: validation, triangle detection, transpose and permutation */
+/* test_csc.c: compressed columns: validation, triangle detection, transpose, submatrix */
 #include "tests/lib/check_factor.h"
 
 /* ---- validation ---- */
@@ -201,7 +201,7 @@ static void transpose_keeps_every_entry(void **state) {
     SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_transpose(NULL, &A, NULL));
 }
 
-static void permute_is_a_symmetric_permutation(void **state) {
+static void all_rows_make_a_symmetric_permutation(void **state) {
     (void)state;
     for (int kind = 0; kind < GEN_KINDS; kind++) {
         gen_list_t t = gen_make((gen_kind_t)kind, 24, 0, 5);
@@ -211,7 +211,7 @@ static void permute_is_a_symmetric_permutation(void **state) {
             gen_matrix_t M = gen_store(&t, gen_style(which), 2);
             sl_matrix *P = NULL;
             sl_triangle before, after;
-            SL_CHECK(sl_matrix_permute(&P, &M.view, perm, NULL));
+            SL_CHECK(sl_matrix_submatrix(&P, &M.view, perm, n, NULL, NULL));
             sl_csc C = sl_matrix_view(P);
             SL_CHECK(sl_csc_check(&C, NULL));
             SL_CHECK(sl_csc_triangle(&M.view, &before, NULL, NULL));
@@ -230,20 +230,64 @@ static void permute_is_a_symmetric_permutation(void **state) {
     }
 }
 
-static void invalid_arguments_of_permute_are_refused(void **state) {
+/* Every subset of the rows of a small matrix, in a shuffled order. */
+static void a_submatrix_has_the_chosen_rows(void **state) {
+    (void)state;
+    enum { ROWS = 6 };
+    gen_list_t t = gen_make(GEN_RANDOM, ROWS, 1, 3);
+    for (int which = 0; which < GEN_STYLES; which++) {
+        gen_matrix_t M = gen_store(&t, gen_style(which), 2);
+        double *D = ref_dense(&M.view);
+        for (int set = 0; set < 1 << ROWS; set++) {
+            sl_int order[ROWS], rows[ROWS + 1], count = 0;
+            sl_matrix *P = NULL;
+            gen_permutation(order, ROWS, (uint64_t)set);
+            for (sl_int k = 0; k < ROWS; k++) {
+                rows[count] = order[k];
+                count += set >> k & 1;
+            }
+            SL_CHECK(sl_matrix_submatrix(&P, &M.view, rows, count, NULL, NULL));
+            const sl_csc C = sl_matrix_view(P);
+            SL_CHECK(sl_csc_check(&C, NULL));
+            double *got = ref_dense(&C);
+            assert_int_equal(C.n_cols, count);
+            for (sl_int k = 0; k < count * count; k++) {
+                SAME_VALUES(&D[rows[k % count] + ROWS * rows[k / count]], &got[k], 1);
+            }
+            free(got);
+            sl_matrix_free(P);
+        }
+        free(D);
+        M.view.x = NULL;
+        sl_matrix *pattern = NULL;
+        const sl_int two[2] = {1, 0};
+        SL_CHECK(sl_matrix_submatrix(&pattern, &M.view, two, 2, NULL, NULL));
+        assert_null(sl_matrix_view(pattern).x);
+        sl_matrix_free(pattern);
+        gen_matrix_free(&M);
+    }
+    gen_list_free(&t);
+}
+
+static void invalid_arguments_of_submatrix_are_refused(void **state) {
     (void)state;
     gen_matrix_t M = gen_matrix(GEN_PATH, 4, 1, 1);
     const sl_int good[4] = {3, 1, 0, 2}, twice[4] = {3, 1, 1, 2}, big[4] = {0, 1, 2, 4},
                  low[4] = {0, -1, 2, 3};
     sl_matrix *P = NULL;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, twice, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, big, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, low, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, NULL, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(NULL, &M.view, good, NULL));
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, NULL, good, NULL));
+    sl_stats stats;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &M.view, twice, 4, NULL, &stats));
+    assert_int_equal(stats.error.row, 1);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &M.view, big, 4, NULL, &stats));
+    assert_int_equal(stats.error.row, 4);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &M.view, low, 4, NULL, &stats));
+    assert_int_equal(stats.error.row, -1);
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &M.view, NULL, 4, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &M.view, good, -1, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(NULL, &M.view, good, 4, NULL, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, NULL, good, 4, NULL, NULL));
     M.view.n_rows = 5;
-    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_permute(&P, &M.view, good, NULL));
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_matrix_submatrix(&P, &M.view, good, 4, NULL, NULL));
     assert_null(P);
     gen_matrix_free(&M);
 }
@@ -255,8 +299,9 @@ int main(void) {
         cmocka_unit_test(an_entry_without_mirror_image_is_reported),
         cmocka_unit_test(triangle_detection_agrees_with_dense_patterns),
         cmocka_unit_test(transpose_keeps_every_entry),
-        cmocka_unit_test(permute_is_a_symmetric_permutation),
-        cmocka_unit_test(invalid_arguments_of_permute_are_refused),
+        cmocka_unit_test(all_rows_make_a_symmetric_permutation),
+        cmocka_unit_test(a_submatrix_has_the_chosen_rows),
+        cmocka_unit_test(invalid_arguments_of_submatrix_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,7 +104,7 @@ static void build_matrices(input_t *in) {
         static const double halves[2] = {0.25, 0.75};
         status = sl_matrix_sum(&M, halves, terms, 2, &opt, NULL);
     } else if (form == 2) {
-        status = sl_matrix_permute(&M, &A, perm, &opt);
+        status = sl_matrix_submatrix(&M, &A, perm, A.n_cols, &opt, NULL);
     } else {
         status = sl_matrix_from_triplets(&M, n, n, A.p[n], A.i, columns, A.x, &opt, NULL);
     }

@@ -78,7 +78,8 @@ static const sl_hermitian option_hermitian = {1, option_hermitian_p, option_herm
 OPTION_CALL(option_from_hermitian, sl_matrix,
             sl_matrix_from_hermitian(&out, &option_hermitian, opt, NULL))
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
-OPTION_CALL(option_permute, sl_matrix, sl_matrix_permute(&out, &f->U, f->perm, opt))
+OPTION_CALL(option_submatrix, sl_matrix,
+            sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
 OPTION_CALL(option_sum, sl_matrix,
             sl_matrix_sum(&out, f->coefficients, f->pair.terms, TERMS, opt, NULL))
 OPTION_CALL(option_lower, sl_matrix, sl_factor_lower(&out, f->F, opt))
@@ -206,7 +207,7 @@ static const struct {
     {"sl_matrix_parse", option_parse, READS_NOTHING},
     {"sl_matrix_read", option_read, READS_NOTHING},
     {"sl_matrix_transpose", option_transpose, READS_NOTHING},
-    {"sl_matrix_permute", option_permute, READS_NOTHING},
+    {"sl_matrix_submatrix", option_submatrix, READS_NOTHING},
     {"sl_csc_triangle", option_triangle, READS_TRIANGLE},
     {"sl_matrix_sum", option_sum, READS_TRIANGLE},
     {"sl_symbolic_create", option_symbolic, READS_ANALYSIS | READS_TRIANGLE},

@@ -6,7 +6,7 @@
 #include "compress.h"
 #include "metis.h"
 #include "reduce.h"
-#include "../matrix/permute.h"
+#include "../matrix/submatrix.h"
 #include "../base/status.h"
 
 static void sli_order_natural(sl_int n, sl_int *perm) {
@@ -23,7 +23,7 @@ static sl_status sli_order_given(const sli_order_job *job) {
     if (given == NULL && n > 0) {
         return SL_ERR_ARGUMENT;
     }
-    bad = sli_perm_invert(given, n, job->scratch);
+    bad = sli_rows_invert(given, n, n, job->scratch);
     if (bad >= 0) {
         return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
     }
