@@ -16,6 +16,7 @@ extern "C" {
 #include "public/factor.h"
 #include "public/solve.h"
 #include "public/plan.h"
+#include "public/dirichlet.h"
 #if defined(SL_WITH_ACCURACY)
 #include "public/parts.h"
 #include "public/pseudo.h"
@@ -153,6 +154,8 @@ extern "C" {
 #include "impl/solve/compile.h"
 #include "impl/solve/plan.h"
 #include "impl/solve/local.h"
+#include "impl/solve/dirichlet_rows.h"
+#include "impl/solve/dirichlet.h"
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
 #if defined(SL_WITH_ACCURACY)
 #include "impl/accuracy/parts.h"
@@ -226,6 +229,7 @@ extern "C" {
 #include "impl/change/restrict_analysis.h"
 #include "impl/change/restrict_symbolic.h"
 #include "impl/change/restrict.h"
+#include "impl/change/dirichlet_reuse.h"
 #include "impl/change/edit_match.h"
 #include "impl/change/edit_place.h"
 #include "impl/change/edit_separate.h"
@@ -280,6 +284,7 @@ extern "C" {
 #endif
 /* packs: the tables through which the core calls packs */
 #include "impl/packs/storage_types.h"
+#include "impl/packs/dirichlet_ways.h"
 /* last: undefine every internal macro */
 #include "impl/base/undef.h"
 #endif

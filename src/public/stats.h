@@ -187,6 +187,18 @@ typedef struct sl_pins_info {
     double seconds;             /* processor seconds of the call */
 } sl_pins_info;
 
+/** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
+typedef struct sl_dirichlet_info {
+    sl_dirichlet_method method; /* the way in use */
+    sl_int n_free;              /* rows that are not fixed */
+    sl_off couplings;           /* entries of A between free and fixed rows */
+    /* of a choice among ways, as estimated from counts; 0: there was none */
+    double seconds_submatrix;
+    double seconds_restriction; /* the same */
+    double seconds_pins;        /* the same; 0 also where pins are not possible */
+    double seconds;             /* processor seconds of the call */
+} sl_dirichlet_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -209,8 +221,9 @@ typedef struct sl_stats {
     /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
      * is null; 0: not known */
     double null_bound;
+    sl_dirichlet_info dirichlet;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[19];
+    sl_off reserved[13];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */

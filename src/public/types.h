@@ -172,6 +172,13 @@ typedef enum sl_pins_reason {
     SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
 } sl_pins_reason;
 
+/** How sl_dirichlet_create fixes rows. */
+typedef enum sl_dirichlet_method {
+    SL_DIRICHLET_SUBMATRIX = 0, /* a factor of the free rows */
+    SL_DIRICHLET_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_restrict) */
+    SL_DIRICHLET_PINS           /* pins on a factor of all rows (sl_pins_create) */
+} sl_dirichlet_method;
+
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
@@ -180,5 +187,6 @@ typedef struct sl_work sl_work;         /* workspace of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
 typedef struct sl_pins sl_pins;         /* rows held at given values */
 typedef struct sl_region sl_region;     /* a part of the matrix where local solves can stop early */
+typedef struct sl_dirichlet sl_dirichlet; /* a system with rows fixed at given values */
 
 #endif

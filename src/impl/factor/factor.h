@@ -135,6 +135,16 @@ static void sli_pairs_done(sl_factor *F) {
     }
 }
 
+/* Adds the numbers to the identity of F. The pivots show every option, besides the storage, that
+ * changes more than rounding. */
+static void sli_factor_identify_numbers(sl_factor *F) {
+    const sl_int storage = (sl_int)F->type->storage;
+    if (F->type->storage != SL_STORAGE_DOUBLE) {
+        F->identity = sli_hash_ints(F->identity, &storage, 1);
+    }
+    F->identity = sli_hash_words(F->identity, F->D, F->S->n);
+}
+
 /* Ends a factorization: computes what solves with null pivots need, and records the outcome in F
  * and for the caller. */
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
@@ -160,12 +170,8 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     }
     F->stats.factor.seconds = sli_seconds() - started;
     F->is_valid = failure->status == SL_OK;
-    if (F->is_valid) { /* the pivots show every other option that changes more than rounding */
-        const sl_int storage = (sl_int)F->type->storage;
-        if (F->type->storage != SL_STORAGE_DOUBLE) {
-            F->identity = sli_hash_ints(F->identity, &storage, 1);
-        }
-        F->identity = sli_hash_words(F->identity, F->D, F->S->n);
+    if (F->is_valid) {
+        sli_factor_identify_numbers(F);
         if (F->E != NULL) {
             sli_pairs_done(F);
         }

@@ -62,4 +62,13 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_PINS_COPY 0.6e-9     /* an entry of F that is copied */
 #define SLI_PINS_MEMORY 1.2e-9   /* an entry of a new factor, more in new pages */
 
+/* Seconds of the ways to fix rows, measured on grids of 1e4 and 9e4 rows. */
+#define SLI_DIRICHLET_ANALYSIS 280e-9 /* an entry of A that is analyzed, ordering included */
+#define SLI_DIRICHLET_ROW 120e-9      /* a row of a restriction */
+#define SLI_DIRICHLET_COPY 1.2e-9     /* an entry of L that it copies */
+#define SLI_DIRICHLET_PROBE 2e-9      /* an entry of L, or of A, in a test solve with pins */
+#define SLI_DIRICHLET_PINS 3.0        /* of the seconds above: what pins took */
+/* Pins may lose so many times epsilon, as a backward error. */
+#define SLI_DIRICHLET_LOST 1000.0
+
 #endif

@@ -149,6 +149,24 @@ static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
                            (unsigned char *)t->memory + (size_t)worker * t->bytes);
 }
 
+/* Plans how to solve a query, and grows W for it. */
+static sl_status sli_query_prepare(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
+                                   const sli_rhs *rhs, sl_work *W) {
+    sli_sweep_tasks_plan(t, F, q, rhs, &W->threads);
+    return sli_work_grow(W, t->workers > 1 ? t->total
+                                           : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
+}
+
+/* Solves a query that has been prepared. */
+static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
+                               const sli_rhs *rhs, sl_work *W) {
+    if (t->workers > 1) {
+        sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
+        return SL_OK;
+    }
+    return sli_sweep(F, q, rhs, W->block);
+}
+
 /* Solves a query in the caller's workspace, or in one of its own. */
 static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                                  sl_work *W) {
@@ -160,14 +178,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
     }
     own = sli_work_own(&F->allocator);
     W = W == NULL ? &own : W;
-    sli_sweep_tasks_plan(&t, F, q, rhs, &W->threads);
-    status = sli_work_grow(W, t.workers > 1 ? t.total
-                                            : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
-    if (status == SL_OK && t.workers > 1) {
-        sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
-    } else if (status == SL_OK) {
-        status = sli_sweep(F, q, rhs, W->block);
-    }
+    status = sli_query_prepare(&t, F, q, rhs, W);
+    status = status == SL_OK ? sli_query_run(&t, F, q, rhs, W) : status;
     sli_free(&own.allocator, own.block);
     return status;
 }

@@ -80,6 +80,9 @@ _PinsInfo = _struct("_PinsInfo", [
 _CertificateInfo = _struct("_CertificateInfo", [
     ("certainty", ENUM), ("solves", INT), ("eta", REAL), ("eigenvalue_min", REAL),
     ("seconds", REAL)])
+_DirichletInfo = _struct("_DirichletInfo", [
+    ("method", ENUM), ("n_free", INT), ("couplings", OFF), ("seconds_submatrix", REAL),
+    ("seconds_restriction", REAL), ("seconds_pins", REAL), ("seconds", REAL)])
 _RefineInfo = _struct("_RefineInfo", [("steps", INT), ("backward_error", REAL)])
 
 
@@ -91,7 +94,7 @@ class Stats(ctypes.Structure):
                 ("change", _ChangeInfo), ("restriction", _RestrictInfo),
                 ("edit", _EditInfo), ("storage", OFF), ("reuse", _ReuseInfo),
                 ("pins", _PinsInfo), ("certificate", _CertificateInfo), ("null_bound", REAL),
-                ("reserved", OFF * 19)]
+                ("dirichlet", _DirichletInfo), ("reserved", OFF * 13)]
 
 
 class SavedSet(ctypes.Structure):

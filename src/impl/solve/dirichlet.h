@@ -1,0 +1,435 @@
+/* dirichlet.h: systems with rows fixed at given values: a factor of the free rows, and its solves */
+#ifndef SLI_SOLVE_DIRICHLET_H
+#define SLI_SOLVE_DIRICHLET_H
+
+#include "dirichlet_rows.h"
+#include "sweep.h"
+
+static const sli_dirichlet_ways *sli_dirichlet_ways_of(void); /* of a pack; NULL: none */
+
+/* Releases what a way has made. */
+static void sli_dirichlet_clear(sl_dirichlet *D) {
+    if (D->pins != NULL) {
+        D->ways->release(D);
+    }
+    sl_factor_free(D->F);
+    sl_symbolic_free(D->S);
+    sl_matrix_free(D->M);
+    sli_free(&D->allocator, D->from);
+}
+
+SL_API void sl_dirichlet_free(sl_dirichlet *D) {
+    if (D != NULL) {
+        const sl_allocator a = D->allocator;
+        sli_dirichlet_clear(D);
+        sli_free(&a, D);
+    }
+}
+
+/* Copies A[free, free], analyzes and factors it. arrays: those of the options. scratch: n + 1
+ * elements. On error all are NULL. */
+static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
+                                      const sli_dirichlet_arrays *arrays, const sl_int *where,
+                                      sl_int *scratch, sl_stats *stats) {
+    sl_options analysis = D->analysis, factorization = D->factorization;
+    sli_submatrix s;
+    sl_csc view;
+    sl_status status;
+    analysis.perm = arrays->perm;
+    analysis.block_size =
+        sli_dirichlet_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
+    factorization.signs = arrays->signs;
+    factorization.mass = arrays->mass;
+    factorization.null_vector = arrays->null_vector;
+    s.A = A;
+    s.triangle = D->triangle;
+    s.is_folded = 1;
+    s.count = D->n_free;
+    s.where = where;
+    status = sli_submatrix_make(&D->M, &D->from, &s, scratch, &D->allocator);
+    if (status == SL_OK) {
+        view = sl_matrix_view(D->M);
+        status = sl_symbolic_create(&D->S, &view, &analysis, stats);
+    }
+    if (status == SL_OK) {
+        status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
+        if (stats != NULL) {
+            sli_dirichlet_report(D, stats);
+        }
+    }
+    D->info.method = SL_DIRICHLET_SUBMATRIX;
+    return status;
+}
+
+/* Splits the options of both steps, without their arrays. */
+static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
+    const sl_options none = sli_options_with(&D->allocator);
+    sl_options *f = &D->factorization, *s = &D->analysis;
+    *f = *s = none;
+    if (opt == NULL) {
+        return;
+    }
+    s->threads = f->threads = opt->threads;
+    s->ordering = opt->ordering;
+    s->relaxation = opt->relaxation;
+    s->metis_options = opt->metis_options;
+    s->block_size = opt->block_size;
+    s->purpose = opt->purpose;
+    f->isa = opt->isa;
+    f->method = opt->method;
+    f->null_pivots = opt->null_pivots;
+    f->null_tolerance = opt->null_tolerance;
+    f->consistency_tolerance = opt->consistency_tolerance;
+    f->regularization = opt->regularization;
+    f->growth_limit = opt->growth_limit;
+    f->error_limit = opt->error_limit;
+    f->null_vector_count = opt->null_vector_count;
+    f->storage = opt->storage;
+}
+
+/* Checks the arguments of a creation. */
+static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
+                                     const sl_options *opt, sl_stats *stats) {
+    const sl_status status = sl_csc_check(A, stats);
+    if (status != SL_OK) {
+        return status;
+    }
+    if (A->n_rows != A->n_cols || (sli_nnz(A) > 0 && A->x == NULL) || count < 0 ||
+        (count > 0 && rows == NULL) ||
+        !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE | SLI_READS_FACTOR |
+                                        SLI_READS_ISA) ||
+        !sli_factor_choices_are_valid(opt)) {
+        return SL_ERR_ARGUMENT;
+    }
+    return opt != NULL && opt->block_size != 0 &&
+                   (opt->block_size < 0 || A->n_cols % opt->block_size != 0)
+               ? SL_ERR_ARGUMENT
+               : SL_OK;
+}
+
+static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
+    (void)sli_take(b, 1, sizeof(sl_dirichlet));
+    D->free_rows = SLI_TAKE(b, sl_int, D->n_free);
+    D->fixed_rows = SLI_TAKE(b, sl_int, D->n_fixed);
+    D->coupling_free = SLI_TAKE(b, sl_int, D->n_couplings);
+    D->coupling_fixed = SLI_TAKE(b, sl_int, D->n_couplings);
+    D->coupling_from = SLI_TAKE(b, sl_int, D->n_couplings);
+    D->couplings = SLI_TAKE(b, double, D->n_couplings);
+}
+
+/* Makes the object without a factor. where := as in sli_dirichlet_number. */
+static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
+                                   sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
+    sli_block b = {NULL, 0, 0};
+    sl_dirichlet *D;
+    sl_status status = SL_OK;
+    sl_int k, free_row = 0;
+    const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
+    if (bad >= 0) {
+        return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+    }
+    for (k = 0; k < draft->n; k++) {
+        where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
+    }
+    draft->n_free = free_row;
+    draft->n_couplings = sli_dirichlet_couple(NULL, A, draft->triangle, where);
+    SLI_LAYOUT(&b, &draft->allocator, status) {
+        sli_dirichlet_layout(draft, &b);
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    D = (sl_dirichlet *)(void *)b.base;
+    *D = *draft;
+    *out = D;
+    for (k = 0; k < D->n_fixed; k++) {
+        D->fixed_rows[k] = rows[k];
+    }
+    for (k = 0; k < D->n; k++) {
+        if (where[k] >= 0) {
+            D->free_rows[where[k]] = k;
+        }
+    }
+    (void)sli_dirichlet_couple(D, A, D->triangle, where);
+    D->info.n_free = D->n_free;
+    D->info.couplings = D->n_couplings;
+    status = sli_dirichlet_check_values(D, A, stats);
+    if (status == SL_OK) {
+        sli_dirichlet_copy_values(D, A);
+    }
+    return status;
+}
+
+/* May a factor of A take the place of one with these options? */
+static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
+    return F != NULL &&
+           (opt == NULL ||
+            ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
+             opt->signs == NULL && opt->null_vector == NULL &&
+             opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
+           F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
+}
+
+/* Ends a creation or a refactorization. */
+static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats) {
+    D->info.seconds = sli_seconds() - started;
+    if (stats != NULL) {
+        stats->dirichlet = D->info;
+    }
+}
+
+/* Makes the factor of an object: from F, or of its own. where: the rows; scratch: n + 1 elements. */
+static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
+                                     const sl_options *opt, const sl_int *where, sl_int *scratch,
+                                     sl_stats *stats) {
+    static const sl_options sli_no_options;
+    const sl_options *arrays_of = opt == NULL ? &sli_no_options : opt;
+    const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
+    sli_block b = {NULL, 0, 0};
+    sli_dirichlet_arrays arrays;
+    sl_status status = SL_OK;
+    if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
+        D->ways = ways;
+        status = ways->take(D, F, A, stats);
+        if (status != SL_OK || D->F != NULL || D->pins != NULL) {
+            return status;
+        }
+    }
+    SLI_LAYOUT(&b, &D->allocator, status) {
+        sli_dirichlet_arrays_layout(&arrays, &b, arrays_of, D->n_free);
+    }
+    if (status == SL_OK) {
+        status = sli_dirichlet_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
+        status =
+            status == SL_OK ? sli_dirichlet_factor(D, A, &arrays, where, scratch, stats) : status;
+        sli_free(&D->allocator, b.base);
+    }
+    D->analysis.metis_options = NULL;
+    return status;
+}
+
+SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
+                                     sl_int count, const sl_factor *F, const sl_options *opt,
+                                     sl_stats *stats) {
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+    sli_block b = {NULL, 0, 0};
+    sl_dirichlet draft, *D = NULL;
+    sl_int *where = NULL, *scratch = NULL;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (out == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    *out = NULL;
+    status = sli_dirichlet_check(A, rows, count, opt, stats);
+    if (status != SL_OK) {
+        return status;
+    }
+    memset(&draft, 0, sizeof draft);
+    draft.allocator = sli_allocator(opt);
+    draft.n = A->n_cols;
+    draft.n_fixed = count;
+    (void)sli_pattern_hash(A, &draft.pattern);
+    sli_dirichlet_options(&draft, opt);
+    status = sli_csc_triangle(A, sli_triangle_scan(A), &draft.triangle, opt, stats);
+    SLI_LAYOUT(&b, &draft.allocator, status) {
+        where = SLI_TAKE(&b, sl_int, draft.n);
+        scratch = SLI_TAKE(&b, sl_int, (uint64_t)draft.n + 1);
+    }
+    if (status != SL_OK) {
+        return status;
+    }
+    status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
+    status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
+    sli_free(&draft.allocator, b.base);
+    if (status == SL_OK) {
+        sli_dirichlet_done(D, started, stats);
+        *out = D;
+    } else {
+        sl_dirichlet_free(D);
+    }
+    return status;
+}
+
+/* Replaces what a pack has made by a factor of A[free, free]. On error D is as before. */
+static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+    const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
+    sl_dirichlet own = *D;
+    sli_block b = {NULL, 0, 0};
+    sl_int *where = NULL, *scratch = NULL;
+    sl_status status = SL_OK;
+    own.M = NULL;
+    own.from = NULL;
+    own.S = NULL;
+    own.F = NULL;
+    own.ways = NULL;
+    own.pins = NULL;
+    SLI_LAYOUT(&b, &D->allocator, status) {
+        where = SLI_TAKE(&b, sl_int, D->n);
+        scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
+    }
+    if (status == SL_OK) {
+        sli_dirichlet_number(D, where);
+        status = sli_dirichlet_factor(&own, A, &none, where, scratch, stats);
+        sli_free(&D->allocator, b.base);
+    }
+    sli_dirichlet_clear(status == SL_OK ? D : &own);
+    if (status == SL_OK) {
+        *D = own;
+        sli_dirichlet_copy_values(D, A);
+    }
+    return status;
+}
+
+SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+    const double started = stats == NULL ? 0.0 : sli_seconds(); /* half a microsecond */
+    sli_hash pattern;
+    sl_status status;
+    sli_stats_clear_error(stats);
+    if (D == NULL || !sli_csc_has_pattern(A)) {
+        return SL_ERR_ARGUMENT;
+    }
+    if (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
+        !sli_hash_equals(pattern, D->pattern)) {
+        return SL_ERR_PATTERN;
+    }
+    if (sli_nnz(A) > 0 && A->x == NULL) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_dirichlet_check_values(D, A, stats);
+    if (status == SL_OK && D->M == NULL) {
+        status = sli_dirichlet_replace(D, A, stats);
+    } else if (status == SL_OK) {
+        const sl_csc view = sl_matrix_view(D->M);
+        sli_dirichlet_copy_values(D, A);
+        status = sl_factor_refactor(D->F, &view, stats);
+        if (stats != NULL) {
+            sli_dirichlet_report(D, stats);
+        }
+    }
+    if (status == SL_OK) {
+        sli_dirichlet_done(D, started, stats);
+    }
+    return status;
+}
+
+/* Moves rows free_rows of B to the first rows of X, which may be B: they move up. */
+static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
+    const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
+    const sl_int by_rows = x.column == 1;
+    const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
+    sl_int i, j;
+    for (i = 0; i < outer; i++) {
+        for (j = 0; j < inner; j++) {
+            const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
+            rhs->X[k * x.row + r * x.column] =
+                rhs->B == NULL ? 0.0 : rhs->B[(size_t)D->free_rows[k] * b.row + r * b.column];
+        }
+    }
+}
+
+/* x -= A[free, fixed] g in the first rows of X. */
+static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                                   size_t ldg) {
+    const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
+    sl_int k, r;
+    for (k = 0; k < D->n_couplings; k++) {
+        double *to = rhs->X + (size_t)D->coupling_free[k] * x.row;
+        const double *from = G + (size_t)D->coupling_fixed[k] * g.row, a = D->couplings[k];
+        for (r = 0; r < rhs->nrhs; r++) {
+            to[(size_t)r * x.column] -= a * from[(size_t)r * g.column];
+        }
+    }
+}
+
+/* Moves the first rows of X to free_rows, from the last one on. */
+static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
+    const sli_dense x = sli_dense_of(rhs->ldx);
+    const sl_int by_rows = x.column == 1;
+    const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
+    sl_int i, j;
+    for (i = outer - 1; i >= 0; i--) {
+        for (j = inner - 1; j >= 0; j--) {
+            const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
+            rhs->X[(size_t)D->free_rows[k] * x.row + r * x.column] =
+                rhs->X[k * x.row + r * x.column];
+        }
+    }
+}
+
+/* Sets the fixed rows of X to g. Returns 0 if a value is not finite. */
+static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                                   size_t ldg) {
+    const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
+    sl_int k, r;
+    int is_finite = 1;
+    for (r = 0; r < rhs->nrhs; r++) {
+        for (k = 0; k < D->n_fixed; k++) {
+            const double value = G[(size_t)k * g.row + (size_t)r * g.column];
+            rhs->X[(size_t)D->fixed_rows[k] * x.row + (size_t)r * x.column] = value;
+            is_finite &= sli_is_finite(value);
+        }
+    }
+    return is_finite;
+}
+
+/* Solves by the factor of the free rows, in place in X. */
+static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                                   size_t ldg, sl_work *W) {
+    const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
+    const sli_query q = sli_query_all(D->S);
+    sli_sweep_tasks t;
+    sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
+    if (status == SL_OK) {
+        sli_dirichlet_gather(D, rhs);
+        sli_dirichlet_subtract(D, rhs, G, ldg);
+        status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
+        sli_dirichlet_scatter(D, rhs);
+    }
+    return status;
+}
+
+SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
+                                    size_t ldb, const double *G, size_t ldg, sl_int nrhs,
+                                    sl_work *W) {
+    sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+    sl_work own;
+    sl_status status;
+    if (D == NULL ||
+        (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
+        return SL_ERR_ARGUMENT;
+    }
+    status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
+    if (status != SL_OK || nrhs == 0 || D->n == 0) {
+        return status;
+    }
+    if (D->pins == NULL && !D->F->is_valid) {
+        return SL_ERR_STATE;
+    }
+    own = sli_work_own(&D->allocator);
+    W = W == NULL ? &own : W;
+    status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
+                             : sli_dirichlet_run(D, &rhs, G, ldg, W);
+    sli_free(&own.allocator, own.block);
+    if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
+        status = SL_ERR_NOT_FINITE;
+    }
+    return status;
+}
+
+SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
+    sl_dirichlet_arrays v;
+    memset(&v, 0, sizeof v);
+    if (D != NULL) {
+        v.n_free = D->n_free;
+        v.n_fixed = D->n_fixed;
+        v.free_rows = D->free_rows;
+        v.fixed_rows = D->fixed_rows;
+        v.symbolic = D->S;
+        v.factor = D->F;
+        v.matrix = sl_matrix_view(D->M);
+    }
+    return v;
+}
+
+#endif

@@ -1,0 +1,90 @@
+/* dirichlet.h: rows fixed at given values, of a matrix that need not be factored as a whole */
+#ifndef SL_PUBLIC_DIRICHLET_H
+#define SL_PUBLIC_DIRICHLET_H
+
+#include "solve.h"
+
+/** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
+ *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
+ *
+ *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
+ *  is there already, and SL_WITH_CHANGE is compiled in, the cheapest of three ways is taken, by
+ *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor. All give
+ *  the same solutions, up to rounding.
+ *
+ *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
+ *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read.
+ *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
+ *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
+ *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
+ *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
+ *                of A: perm, mass, signs and null_vector have n entries; may be NULL.
+ *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row); SL_ERR_PIVOT:
+ *           A[free, free] is singular, as where no row of a component of a Laplacian is fixed:
+ *           error.row is one of its rows; all others as sl_symbolic_create and sl_factor_create.
+ *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row, 16
+ *           per entry of A[free, free], and 20 per entry between free and fixed rows.
+ *  Threads  options.threads.
+ *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
+ *  Example  tests/core/test_dirichlet.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A,
+                                                    const sl_int *rows, sl_int count,
+                                                    const sl_factor *F, const sl_options *opt,
+                                                    sl_stats *stats);
+
+/** Releases the object; NULL is allowed. */
+SL_API void sl_dirichlet_free(sl_dirichlet *D);
+
+/** Takes new values of A. An object that uses a factor of A gets one of its own.
+ *
+ *  A      [in]   the pattern that sl_dirichlet_create was given, with its entries in the same order.
+ *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
+ *  Returns  as sl_dirichlet_create; SL_ERR_PATTERN: another pattern. After SL_ERR_PIVOT,
+ *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *           refactorization succeeds; after other errors D is as before.
+ *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
+ *  Threads  exclusive use of D.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
+                                                      sl_stats *stats);
+
+/** Solves for x in the free rows, for any values of the fixed ones.
+ *
+ *  X     [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
+ *               row-major if ldx is SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx =
+ *               ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE; after
+ *               other errors untouched.
+ *  B     [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X; fixed
+ *               rows are not used. NULL: b = 0.
+ *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the
+ *               values, in the order of rows. May be NULL if count = 0.
+ *  nrhs  [in]   number of right-hand sides, 0 or more.
+ *  W     [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed refactorization, or the factor whose
+ *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
+ *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
+ *           free and fixed rows, and a pass over X and B. No allocation once W has grown, except
+ *           for pins with row-major blocks.
+ *  Threads  any number at once on one D, each with its own W, whose threads are used.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx,
+                                                   const double *B, size_t ldb, const double *G,
+                                                   size_t ldg, sl_int nrhs, sl_work *W);
+
+/** What the object is made of, for local solves on plans and for all other calls on a factor: row k
+ *  of its system is row free_rows[k] of A. Valid until sl_dirichlet_refactor or _free. */
+typedef struct sl_dirichlet_arrays {
+    sl_int n_free, n_fixed;
+    const sl_int *free_rows;     /* n_free: ascending */
+    const sl_int *fixed_rows;    /* n_fixed: rows, in the order of the caller */
+    const sl_symbolic *symbolic; /* of A[free, free]; NULL: pins hold the fixed rows */
+    const sl_factor *factor;     /* the same */
+    sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
+} sl_dirichlet_arrays;
+
+SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
+
+#endif
