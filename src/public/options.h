@@ -39,6 +39,8 @@ typedef struct sl_allocator {
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create, sl_batch_factor          | threads, isa .. signs,                   |
  *  |                                            | null_vector .. storage                   |
+ *  | sl_dirichlet_create                        | threads, ordering .. signs,              |
+ *  |                                            | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create, sl_work_create         | threads                                  |
  *  | sl_load_memory, _file; sl_map_memory, _file | threads, isa                             |

@@ -39,6 +39,7 @@ static void every_allocation_may_fail(void **state) {
         {"sl_factor_lower", lower},
         {"sl_factor_restrict", restrict_half},
         {"sl_factor_restrict, few rows", restrict_few},
+        {"sl_dirichlet_*", dirichlet},
         {"sl_symbolic_edit", edit},
         {"sl_factor_edit", edit_factor},
         {"sl_pins_*", pins_few},

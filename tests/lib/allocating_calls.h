@@ -210,6 +210,24 @@ static sl_status solve_without_work(fixture_t *f, const sl_options *opt) {
     return status;
 }
 
+/* The solution is untouched without memory. */
+static sl_status dirichlet(fixture_t *f, const sl_options *opt) {
+    sl_dirichlet *D = GARBAGE(sl_dirichlet);
+    sl_options given = *opt;
+    given.ordering = SL_ORDERING_GIVEN;
+    given.perm = f->perm;
+    sl_status status =
+        sl_dirichlet_create(&D, &f->y.M.view, f->bset, 20, NULL, &given, NULL);
+    MADE_OR_NULL(status, D);
+    if (status == SL_OK) {
+        memcpy(f->X, f->before, sizeof f->X);
+        status = sl_dirichlet_solve(D, f->X, 225, f->X, 225, f->B, 20, 3, NULL);
+        assert_true((memcmp(f->X, f->before, sizeof f->X) != 0) == (status == SL_OK));
+    }
+    sl_dirichlet_free(D);
+    return status;
+}
+
 /* rows of bset: too few to keep columns; rows 0 .. 99: some are kept */
 static sl_status restriction(fixture_t *f, const sl_int *rows, sl_int count,
                              const sl_options *opt) {

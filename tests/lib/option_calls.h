@@ -80,6 +80,8 @@ OPTION_CALL(option_from_hermitian, sl_matrix,
 OPTION_CALL(option_transpose, sl_matrix, sl_matrix_transpose(&out, &f->U, opt))
 OPTION_CALL(option_submatrix, sl_matrix,
             sl_matrix_submatrix(&out, &f->U, f->perm, 2, opt, NULL))
+OPTION_CALL(option_dirichlet, sl_dirichlet,
+            sl_dirichlet_create(&out, f->pair.terms, f->perm, 2, f->F, opt, NULL))
 OPTION_CALL(option_sum, sl_matrix,
             sl_matrix_sum(&out, f->coefficients, f->pair.terms, TERMS, opt, NULL))
 OPTION_CALL(option_lower, sl_matrix, sl_factor_lower(&out, f->F, opt))
@@ -217,6 +219,8 @@ static const struct {
     {"sl_factor_edit", option_edit_factor, READS_FACTOR | READS_ISA},
     {"sl_factor_lower", option_lower, READS_NOTHING},
     {"sl_factor_restrict", option_restrict, READS_NOTHING},
+    {"sl_dirichlet_create", option_dirichlet,
+     READS_ANALYSIS | READS_TRIANGLE | READS_FACTOR | READS_ISA},
     {"sl_work_create", option_work, READS_NOTHING},
     {"sl_plan_create", option_plan, READS_REGION},
     {"sl_selected_create", option_selected, READS_NOTHING},

@@ -1,0 +1,232 @@
+/* test_dirichlet_reuse.c: rows fixed at given values by a factor of all rows: which way, and when */
+#include "tests/lib/dirichlet.h"
+
+/* Creates an object with a factor of A, and checks its solutions. Returns the way that was taken. */
+static sl_dirichlet_method taken(const sl_csc *A, const sl_factor *F, const sl_int *rows,
+                                 sl_int count, const sl_options *opt) {
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    SL_CHECK(sl_dirichlet_create(&D, A, rows, count, F, opt, &stats));
+    assert_int_equal(stats.dirichlet.n_free, A->n_cols - count);
+    assert_int_equal(sl_dirichlet_view(D).factor == NULL,
+                     stats.dirichlet.method == SL_DIRICHLET_PINS);
+    dirichlet_check_all(D, A, rows, count);
+    SL_CHECK(sl_dirichlet_refactor(D, A, NULL));
+    assert_true(sl_dirichlet_view(D).matrix.n_cols == A->n_cols - count);
+    dirichlet_check_all(D, A, rows, count);
+    sl_dirichlet_free(D);
+    return stats.dirichlet.method;
+}
+
+static void all_ways_hold(void **state) {
+    (void)state;
+    int ways[3] = {0, 0, 0};
+    for (int kind = 0; kind < GEN_REGULAR; kind++) {
+        for (int shape = 0; shape < SUBSET_SHAPES; shape++) {
+            const int style = (5 * shape + kind) % GEN_STYLES;
+            factored_t y = factored_make((gen_kind_t)kind, 300,
+                                         kind == GEN_KKT || shape % 2 ? 1 : -1, style, NULL);
+            const sl_int n = y.M.view.n_cols;
+            sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, shape, y.S);
+            const sl_dirichlet_method way = taken(&y.M.view, y.F, rows, count, NULL);
+            assert_true(kind != GEN_KKT || way != SL_DIRICHLET_PINS);
+            ways[way]++;
+            free(rows);
+            factored_free(&y);
+        }
+    }
+    assert_true(ways[SL_DIRICHLET_PINS] > 10 && ways[SL_DIRICHLET_RESTRICTION] > 30);
+}
+
+static void few_rows_are_pinned_and_many_restricted(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 2500, 1, 0, NULL);
+    const sl_int n = y.M.view.n_cols;
+    sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, SUBSET_FEW, y.S);
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    assert_int_equal(taken(&y.M.view, y.F, rows, 1, NULL), SL_DIRICHLET_PINS);
+    assert_int_equal(taken(&y.M.view, y.F, rows, count, NULL), SL_DIRICHLET_RESTRICTION);
+    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, rows, 1, y.F, NULL, &stats));
+    assert_true(stats.dirichlet.seconds_pins < stats.dirichlet.seconds_restriction &&
+                stats.dirichlet.seconds_restriction < stats.dirichlet.seconds_submatrix);
+    sl_dirichlet_free(D);
+    free(rows);
+    factored_free(&y);
+}
+
+/* A factor of other values, changed in place or without numbers is not used, nor is one where the
+ * options ask for something else. */
+static void an_unsuited_factor_is_not_used(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    const sl_csc *A = &y.M.view;
+    sl_csc other = *A;
+    const sl_int n = A->n_cols, row = 7;
+    double *x = test_reals((size_t)A->p[n]), *ones = test_reals((size_t)n);
+    sl_int *perm = test_ints((size_t)n), *signs = test_ints((size_t)n);
+    for (sl_int k = 0; k < n; k++) {
+        perm[k] = k;
+        ones[k] = signs[k] = 1;
+    }
+    memcpy(x, A->x, (size_t)A->p[n] * sizeof *x);
+    other.x = x;
+    assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_DIRICHLET_PINS); /* the same values */
+    x[0] += 1.0;
+    assert_int_equal(taken(&other, y.F, &row, 1, NULL), SL_DIRICHLET_SUBMATRIX);
+    for (int k = 0; k < 7; k++) {
+        sl_options opt = options_none();
+        opt.null_pivots = k == 1 || k == 2 || k == 6 ? SL_NULL_PIVOT_SKIP : SL_NULL_PIVOT_REFUSE;
+        opt.mass = k == 1 ? ones : NULL;
+        opt.null_vector = k == 2 ? ones : NULL;
+        opt.regularization = k == 3 || k == 4 ? 1e-8 : 0.0;
+        opt.signs = k == 3 ? signs : NULL;
+        opt.ordering = k == 5 ? SL_ORDERING_GIVEN : SL_ORDERING_ND;
+        opt.perm = k == 0 || k == 5 ? perm : NULL; /* read with GIVEN only */
+        assert_int_equal(taken(A, y.F, &row, 1, &opt),
+                         k == 0 ? SL_DIRICHLET_PINS : SL_DIRICHLET_SUBMATRIX);
+    }
+    x[0] = 0.0;
+    x[1] = 1e300;
+    assert_int_not_equal(sl_factor_refactor(y.F, &other, NULL), SL_OK);
+    assert_int_equal(taken(A, y.F, &row, 1, NULL), SL_DIRICHLET_SUBMATRIX);
+    free(x);
+    free(ones);
+    free(perm);
+    free(signs);
+    factored_free(&y);
+}
+
+/* The Laplacian of grids side by side, with shift on the diagonal. */
+static gen_matrix_t laplacian(int grids, sl_int side, double shift) {
+    gen_list_t t = gen_list(grids * side * side);
+    for (sl_int v = 0; v < t.n; v++) {
+        const sl_int k = v % (side * side), right = (k + 1) % side != 0,
+                     up = k + side < side * side;
+        gen_add(&t, v, v, right + up + (k % side != 0) + (k >= side) + shift);
+        if (right) {
+            gen_add(&t, v + 1, v, -1.0);
+        }
+        if (up) {
+            gen_add(&t, v + side, v, -1.0);
+        }
+    }
+    gen_matrix_t M = gen_store(&t, gen_style(0), 1);
+    gen_list_free(&t);
+    return M;
+}
+
+/* A singular factor serves if rows of every component are fixed. */
+static void a_singular_factor_needs_a_row_of_each_component(void **state) {
+    (void)state;
+    gen_matrix_t M = laplacian(2, 20, 0.0);
+    const sl_int rows[2] = {30, 530};
+    sl_options opt = options_none();
+    sl_symbolic *S = NULL;
+    sl_factor *F = NULL;
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+    SL_CHECK(sl_factor_create(&F, S, &M.view, &opt, NULL));
+    assert_int_equal(taken(&M.view, F, rows, 2, NULL), SL_DIRICHLET_PINS);
+    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_create(&D, &M.view, rows, 1, F, NULL, &stats));
+    assert_null(D);
+    assert_in_range(stats.error.row, 400, 799);
+    sl_factor_free(F);
+    sl_symbolic_free(S);
+    gen_matrix_free(&M);
+}
+
+/* A Laplacian with a tiny shift: solutions without pins are 1e12 times as large as with them. */
+static void pins_that_lose_digits_are_not_used(void **state) {
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        gen_matrix_t M = laplacian(1, 20, k == 0 ? 1.0 : 1e-12);
+        const sl_int row = 30;
+        sl_symbolic *S = NULL;
+        sl_factor *F = NULL;
+        SL_CHECK(sl_symbolic_create(&S, &M.view, NULL, NULL));
+        SL_CHECK(sl_factor_create(&F, S, &M.view, NULL, NULL));
+        assert_int_equal(taken(&M.view, F, &row, 1, NULL),
+                         k == 0 ? SL_DIRICHLET_PINS : SL_DIRICHLET_RESTRICTION);
+        sl_factor_free(F);
+        sl_symbolic_free(S);
+        gen_matrix_free(&M);
+    }
+}
+
+/* Pins are refused after the factor has changed, until the object has one of its own. A failure
+ * leaves it as it was. */
+static void pins_follow_their_factor(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    sl_csc other = y.M.view;
+    const sl_int n = other.n_cols, row = 7;
+    double *x = test_reals((size_t)other.p[n]), *X = test_reals((size_t)n), g = 2.0;
+    sl_dirichlet *D = NULL;
+    sl_stats stats;
+    other.x = x;
+    SL_CHECK(sl_dirichlet_create(&D, &y.M.view, &row, 1, y.F, NULL, &stats));
+    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_PINS);
+    SL_EXPECT(SL_ERR_PIVOT, sl_dirichlet_refactor(D, &other, NULL)); /* all 0 */
+    SL_CHECK(sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    SL_CHECK(sl_factor_refactor(y.F, &y.M.view, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, &g, 1, 1, NULL));
+    SL_EXPECT(SL_ERR_STATE, sl_dirichlet_solve(D, X, SL_ROWS(1), NULL, 0, &g, SL_ROWS(1), 1, NULL));
+    SL_CHECK(sl_dirichlet_refactor(D, &y.M.view, &stats));
+    assert_int_equal(stats.dirichlet.method, SL_DIRICHLET_SUBMATRIX);
+    dirichlet_check_all(D, &y.M.view, &row, 1);
+    sl_dirichlet_free(D);
+    free(x);
+    free(X);
+    factored_free(&y);
+}
+
+/* Every allocation fails once: of an object that pins, of one that restricts, and of its solves. */
+static void memory_may_end_at_any_time(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 400, 1, 0, NULL);
+    const sl_int n = y.M.view.n_cols;
+    sl_int *rows = test_ints((size_t)n), count = subset_fill(rows, n, SUBSET_HALF, y.S);
+    double *X = test_reals((size_t)n), *G = test_reals((size_t)n);
+    for (int which = 0; which < 2; which++) {
+        sl_status status = SL_ERR_MEMORY;
+        for (int64_t k = 0; status != SL_OK; k++) {
+            counter_t c = counter_make();
+            sl_options opt = options_counted(&c);
+            sl_dirichlet *D = NULL;
+            sl_stats stats;
+            c.fail_at = k;
+            status = sl_dirichlet_create(&D, &y.M.view, rows, which ? count : 1, y.F, &opt, &stats);
+            if (status == SL_OK) {
+                assert_int_equal(stats.dirichlet.method,
+                                 which ? SL_DIRICHLET_RESTRICTION : SL_DIRICHLET_PINS);
+                status = sl_dirichlet_solve(D, X, (size_t)n, NULL, 0, G, (size_t)n, 1, NULL);
+            }
+            if (status == SL_OK) {
+                status = sl_dirichlet_refactor(D, &y.M.view, NULL);
+            }
+            assert_true(status == SL_OK || status == SL_ERR_MEMORY);
+            sl_dirichlet_free(D);
+            COUNTER_CLEAN(&c);
+        }
+    }
+    free(rows);
+    free(X);
+    free(G);
+    factored_free(&y);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_ways_hold),
+        cmocka_unit_test(few_rows_are_pinned_and_many_restricted),
+        cmocka_unit_test(an_unsuited_factor_is_not_used),
+        cmocka_unit_test(a_singular_factor_needs_a_row_of_each_component),
+        cmocka_unit_test(pins_that_lose_digits_are_not_used),
+        cmocka_unit_test(pins_follow_their_factor),
+        cmocka_unit_test(memory_may_end_at_any_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
