@@ -20,11 +20,12 @@
  *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
  *                of A: perm, mass, signs and null_vector have n entries; may be NULL.
  *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row); SL_ERR_PIVOT:
- *           A[free, free] is singular, as where no row of a component of a Laplacian is fixed:
- *           error.row is one of its rows; all others as sl_symbolic_create and sl_factor_create.
- *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row, 16
- *           per entry of A[free, free], and 20 per entry between free and fixed rows.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
+ *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
+ *           is fixed: error.row is one of its rows; all others as sl_symbolic_create and
+ *           sl_factor_create.
+ *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row,
+ *           16 per entry of A[free, free], and 20 per entry between free and fixed rows.
  *  Threads  options.threads.
  *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
  *  Example  tests/core/test_dirichlet.c
@@ -39,7 +40,7 @@ SL_API void sl_dirichlet_free(sl_dirichlet *D);
 
 /** Takes new values of A. An object that uses a factor of A gets one of its own.
  *
- *  A      [in]   the pattern that sl_dirichlet_create was given, with its entries in the same order.
+ *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
  *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
  *  Returns  as sl_dirichlet_create; SL_ERR_PATTERN: another pattern. After SL_ERR_PIVOT,
  *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
@@ -54,8 +55,8 @@ SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_
  *
  *  X     [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
  *               row-major if ldx is SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx =
- *               ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE; after
- *               other errors untouched.
+ *               ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE;
+ *               after other errors untouched.
  *  B     [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X; fixed
  *               rows are not used. NULL: b = 0.
  *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the

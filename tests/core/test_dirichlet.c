@@ -233,7 +233,7 @@ static void another_pattern_is_refused(void **state) {
     sl_dirichlet_free(D);
 }
 
-/* options.perm and the arrays of rows are those of A; blocks stay where they are free as a whole. */
+/* options.perm and the arrays of rows are those of A; blocks stay that are free as a whole. */
 static void options_are_in_rows_of_the_matrix(void **state) {
     (void)state;
     const sl_int perm[6] = {5, 0, 3, 1, 4, 2}, fixed[2] = {0, 3}, signs[6] = {0, 1, -1, 0, 1, 1};

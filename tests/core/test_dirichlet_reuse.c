@@ -1,7 +1,7 @@
-/* test_dirichlet_reuse.c: rows fixed at given values by a factor of all rows: which way, and when */
+/* test_dirichlet_reuse.c: rows fixed at given values by a factor of all rows: which way, when */
 #include "tests/lib/dirichlet.h"
 
-/* Creates an object with a factor of A, and checks its solutions. Returns the way that was taken. */
+/* Creates an object with a factor of A, and checks its solutions. Returns the way it took. */
 static sl_dirichlet_method taken(const sl_csc *A, const sl_factor *F, const sl_int *rows,
                                  sl_int count, const sl_options *opt) {
     sl_dirichlet *D = NULL;

@@ -34,8 +34,8 @@ typedef struct dirichlet_t {
     int x_by_rows, b_by_rows, g_by_rows, has_b, is_in_place;
 } dirichlet_t;
 
-/* The largest residual of a free row of one column, relative to |A| |x| + |b|; fixed rows have to be
- * g exactly. */
+/* The largest residual of a free row of one column, relative to |A| |x| + |b|; fixed rows have to
+ * be g exactly. */
 static inline double dirichlet_error(const dirichlet_t *p, const double *x, const double *b,
                                      const double *g) {
     const size_t n = (size_t)p->A->n_cols;

@@ -105,8 +105,8 @@ static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, con
     return status;
 }
 
-/* Fixes the rows by pins, if those hold every component of a singular A and lose no digits. On error
- * or if they do not, there are none. */
+/* Fixes the rows by pins, if those hold every component of a singular A and lose no digits. On
+ * error, or if they do not, there are none. */
 static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
                                    sl_stats *stats) {
     const sl_options only_memory = sli_options_with(&D->allocator);

@@ -1,4 +1,4 @@
-/* dirichlet.h: systems with rows fixed at given values: a factor of the free rows, and its solves */
+/* dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
 #ifndef SLI_SOLVE_DIRICHLET_H
 #define SLI_SOLVE_DIRICHLET_H
 
@@ -178,7 +178,7 @@ static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats)
     }
 }
 
-/* Makes the factor of an object: from F, or of its own. where: the rows; scratch: n + 1 elements. */
+/* Makes the factor of an object: from F, or of its own. scratch: n + 1 elements. */
 static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
                                      const sl_options *opt, const sl_int *where, sl_int *scratch,
                                      sl_stats *stats) {

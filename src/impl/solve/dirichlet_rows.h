@@ -124,8 +124,8 @@ static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
         opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
 }
 
-/* Fills the arrays. scratch: n elements, where: as in sli_dirichlet_number. Refuses an order that is
- * not a permutation of all rows. */
+/* Fills the arrays. scratch: n elements; where: as in sli_dirichlet_number. Refuses an order that
+ * is not a permutation of all rows. */
 static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
                                            const sl_options *opt, const sl_int *where,
                                            sl_int *scratch, sl_stats *stats) {
