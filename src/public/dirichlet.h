@@ -8,7 +8,7 @@
  *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
  *
  *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
- *  is there already, and SL_WITH_CHANGE is compiled in, the cheapest of three ways is taken, by
+ *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
  *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor. All give
  *  the same solutions, up to rounding.
  *
