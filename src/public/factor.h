@@ -14,16 +14,16 @@
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
- *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
+ *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
  *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage; may be NULL.
+ *                growth_limit, error_limit, storage, definite; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one,
  *           or two triangles whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a
- *           null pivot at error.row, or the row that shows that A is indefinite; error.what says
+ *           null pivot at error.row, or a negative one that options do not allow; error.what says
  *           what helps, such as sl_symbolic_create_pivoted, and null_bound up to which size the
  *           pivot error.value is null;
  *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;

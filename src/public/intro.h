@@ -70,6 +70,11 @@
  *              length follows its array. The library never prints or aborts and has no mutable
  *              globals; for METIS, an option, see sl_symbolic_create. What is marked EXPERIMENTAL
  *              may change in any version; all else keeps its promises from 1.0 on.
+ * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
+ *              inverse their analysis, a plan its region, pins their factor. So all of them may be
+ *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
+ *              have no atomic counters. Memory and allocators of the caller, and views of arrays,
+ *              are not kept.
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work.

@@ -106,8 +106,7 @@ typedef struct sl_options {
 
     /* ---- local solves ---- */
 
-    /* where the sweeps of a plan may end; borrowed, must outlive the plan; NULL: at the roots only
-     */
+    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
     const sl_region *region;
     /* upper bound on the bytes of a region that has a boundary; 0: no bound */
     size_t region_bytes;
@@ -133,8 +132,13 @@ typedef struct sl_options {
      * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
-    /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[2];
+    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, as where
+     * M - t L stands for M + t L; stats.factor counts the others. Not with regularization or
+     * SL_NULL_PIVOT_SKIP, which refuses negative pivots in any case. Not saved in files */
+    size_t definite;
+
+    /* must be NULL; new options take its place, so that the size of the struct never changes */
+    const void *reserved[1];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.

@@ -23,8 +23,8 @@
  *  check the equalities whose rows are all in their reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
- *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
- *              changes, solves are refused until sl_pins_refactor.
+ *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
+ *              sl_pins_refactor.
  *  opt  [in]   allocator; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
  *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.

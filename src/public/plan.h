@@ -11,7 +11,7 @@
  *  proportional to its own size.
  *
  *  out    [out]  the plan, or NULL on error; release with sl_plan_free.
- *  S      [in]   analysis of A, n columns; borrowed, must outlive the plan.
+ *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
  *                twice add up. NULL (nb is ignored): all n.
  *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx

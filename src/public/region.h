@@ -31,9 +31,8 @@
  *
  *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
  *                sl_plan_create.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
- *                is refactored, or a refactorization fails, plans in the region are refused until
- *                sl_region_refactor.
+ *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
+ *                refactorization fails, plans in the region are refused until sl_region_refactor.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
  *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
  *                it is not dereferenced.

@@ -17,7 +17,7 @@
  *  factor over S. G has the options and the storage of F, but refuses null pivots by
  *  null_tolerance: a component of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
  *
- *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
+ *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are

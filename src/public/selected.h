@@ -16,7 +16,7 @@
  *
  *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
  *                change if F is refactored or released, until sl_selected_refactor.
- *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
+ *  F      [in]   the factor; its analysis is kept by the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
  *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
  *                it is not dereferenced.

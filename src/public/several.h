@@ -80,7 +80,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  out           [out]  count factors; release with sl_factor_free. If one fails, it is NULL and
  *                       the others are computed nevertheless: release them. After SL_ERR_ARGUMENT
  *                       with failed = -1 all are NULL.
- *  S             [in]   the analysis; borrowed, must outlive the factors.
+ *  S             [in]   the analysis; kept by the factors.
  *  coefficients  [in]   terms x count finite numbers, column-major, leading dimension terms: one
  *                       column per factor.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.

@@ -39,8 +39,6 @@ typedef struct sl_symbolic_info {
 
 /** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_stats. */
 typedef struct sl_factor_info {
-    sl_isa isa;
-    sl_method method;   /* the method that was used */
     sl_int positive;    /* pivots (eigenvalues of 2x2 ones) by sign: the inertia of A */
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
@@ -51,6 +49,8 @@ typedef struct sl_factor_info {
     /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
+    sl_isa isa;
+    sl_method method; /* the method that was used */
     double pivot_min; /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
     double pivot_max; /* largest */
     double entry_max; /* largest |a| among the entries of A that were read */

@@ -317,6 +317,52 @@ static void invalid_arguments_are_refused(void **state) {
     factored_free(&y);
 }
 
+/* With options.definite a wrong sign is refused with its row: here that of M - t L. */
+static void an_indefinite_matrix_is_refused_where_a_definite_one_is_meant(void **state) {
+    (void)state;
+    factored_t y = factored_make(GEN_GRID2, 100, 1, 0, NULL);
+    sl_csc A = y.M.view;
+    double *x = test_reals((size_t)A.p[100]);
+    sl_options opt = options_none();
+    sl_factor *F = NULL;
+    sl_stats stats;
+    opt.definite = 1;
+    SL_CHECK(sl_factor_create(&F, y.S, &A, &opt, &stats));
+    assert_int_equal(stats.factor.positive, 100);
+    assert_same_bits(F, y.F);
+    for (int k = 0; k < A.p[100]; k++) {
+        x[k] = -0.01 * A.x[k];
+    }
+    for (sl_int j = 0; j < 100; j++) { /* the diagonal is the first entry of a column */
+        x[A.p[j]] += j % 7 == 3 ? 0.0 : 1.0;
+    }
+    A.x = x;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_refactor(F, &A, &stats));
+    assert_int_equal(stats.error.row % 7, 3);
+    assert_true(stats.error.value < 0.0);
+    assert_non_null(strstr(stats.error.what, "definite"));
+    assert_int_equal(stats.factor.positive + stats.factor.negative, 100); /* all are there */
+    assert_int_equal(stats.factor.null, 0);
+    assert_true(stats.factor.negative >= 14);
+    SL_EXPECT(SL_ERR_STATE, sl_factor_solve(F, x, 100, x, 100, 1, NULL));
+    sl_factor_free(F);
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, y.S, &A, &opt, NULL));
+    opt.growth_limit = 1e-3; /* growth does not hide the sign */
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, y.S, &A, &opt, NULL));
+    SL_EXPECT(SL_ERR_INACCURATE, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    opt.growth_limit = 0.0;
+    opt.null_pivots = SL_NULL_PIVOT_SKIP;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    opt.null_pivots = SL_NULL_PIVOT_REFUSE;
+    opt.regularization = 1e-8;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    opt.regularization = 0.0;
+    opt.definite = 2;
+    SL_EXPECT(SL_ERR_ARGUMENT, sl_factor_create(&F, y.S, &y.M.view, &opt, NULL));
+    free(x);
+    factored_free(&y);
+}
+
 /* Several factors share one analysis, and one stats struct collects the results of several
  * calls. */
 static void one_stats_struct_collects_several_calls(void **state) {
@@ -352,6 +398,7 @@ int main(void) {
         cmocka_unit_test(an_overflow_of_magnitudes_is_no_null_pivot),
         cmocka_unit_test(extreme_scales_leave_no_nan),
         cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(an_indefinite_matrix_is_refused_where_a_definite_one_is_meant),
         cmocka_unit_test(one_stats_struct_collects_several_calls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

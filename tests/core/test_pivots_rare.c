@@ -44,6 +44,22 @@ static void pairs_that_overflow_are_refused(void **state) {
     sl_symbolic_free(t.S);
 }
 
+/* With options.definite a pivot with a negative eigenvalue is refused, here -5. */
+static void a_pair_is_not_definite(void **state) {
+    (void)state;
+    three_t t;
+    sl_factor *F = NULL;
+    sl_options opt = options_none();
+    sl_stats stats;
+    three_make(&t);
+    opt.definite = 1;
+    SL_EXPECT(SL_ERR_PIVOT, sl_factor_create(&F, t.S, &t.A, &opt, &stats));
+    assert_in_range(stats.error.row, 1, 2);
+    assert_true(fabs(stats.error.value + 5.0) < 1e-14);
+    assert_non_null(strstr(stats.error.what, "definite"));
+    sl_symbolic_free(t.S);
+}
+
 /* The entry between them is 0, and so is the second one on the diagonal. */
 static void a_pair_without_its_entry_is_refused(void **state) {
     (void)state;
@@ -178,6 +194,7 @@ static void pairs_need_no_relaxation(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_that_overflow_are_refused),
+        cmocka_unit_test(a_pair_is_not_definite),
         cmocka_unit_test(a_pair_without_its_entry_is_refused),
         cmocka_unit_test(magnitudes_of_pairs_may_overflow),
         cmocka_unit_test(small_entries_below_pairs_are_dropped_in_float),

@@ -180,6 +180,7 @@ static inline sl_options options_for_analysis(const sl_options *from) {
         opt.mass = opt.null_vector = NULL;
         opt.null_vector_count = 0;
         opt.storage = SL_STORAGE_DOUBLE;
+        opt.definite = 0;
         opt.signs = NULL;
     }
     return opt;

@@ -163,7 +163,7 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
     if (parts >= 2u * SL_PART_PT || (parts & both) == both) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     if (parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
@@ -240,7 +240,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
     if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
         return SL_ERR_ARGUMENT;
     }
-    if (!sli_factor_is_over(F, P->query.S, P->query.analysis)) {
+    if (F->S != P->query.S) {
         return SL_ERR_STATE;
     }
     if (P->query.ending != NULL) {

@@ -259,8 +259,7 @@ static void sli_fill_septree(sl_symbolic *S, const sli_septree *septree) {
     }
 }
 
-/* Hashes what determines the object. Plans, regions and selected inverses keep the hash, and notice
- * by it that their analysis was released and another one created at its address. */
+/* Hashes what determines the object: the identity of a factor begins with it. */
 static void sli_fill_identity(sl_symbolic *S, sl_triangle triangle) {
     const sl_int kind = (sl_int)triangle;
     sl_int k;
@@ -484,13 +483,18 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
 }
 
 SL_API void sl_symbolic_free(sl_symbolic *S) {
-    if (S != NULL) {
+    if (S != NULL && sli_is_last(&S->borrowers)) {
         const sl_allocator a = S->allocator;
         if (S->backing.release != NULL) {
             S->backing.release(S->backing.bytes, S->backing.size);
         }
         sli_free(&a, S);
     }
+}
+
+/* Ends a borrowing. */
+SLI_INLINE void sli_symbolic_return(const sl_symbolic *S) {
+    sl_symbolic_free((sl_symbolic *)S);
 }
 
 SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {

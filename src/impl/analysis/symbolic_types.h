@@ -18,6 +18,7 @@ typedef struct sli_backing {
 
 struct sl_symbolic {
     sl_allocator allocator;
+    sli_atomic borrowers; /* factors, plans, selected inverses, regions */
     sl_stats stats;  /* its symbolic group */
     sl_int n;        /* rows of A */
     sl_int n_supers; /* supernodes, in postorder */

@@ -208,6 +208,9 @@ SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
 SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
     __atomic_store_n(word, value, __ATOMIC_RELEASE);
 }
+SLI_INLINE sli_atomic sli_atomic_add(sli_atomic *word, sli_atomic value) {
+    return __atomic_fetch_add(word, value, __ATOMIC_ACQ_REL);
+}
 #elif defined(_MSC_VER)
 #include <intrin.h>
 #define SLI_ATOMIC 1
@@ -220,6 +223,9 @@ SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
 }
 SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
     (void)_InterlockedExchange((volatile long *)word, value);
+}
+SLI_INLINE sli_atomic sli_atomic_add(sli_atomic *word, sli_atomic value) {
+    return _InterlockedExchangeAdd((volatile long *)word, value);
 }
 #else
 typedef int sli_atomic;
@@ -234,7 +240,23 @@ SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
 SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
     *word = value;
 }
+SLI_INLINE sli_atomic sli_atomic_add(sli_atomic *word, sli_atomic value) {
+    const sli_atomic old = *word;
+    *word = old + value;
+    return old;
+}
 #endif
+
+/* An object that others borrow counts them. It is released by the last call that frees it, its own
+ * or that of a borrower, so that objects may be freed in any order. */
+SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
+    (void)sli_atomic_add((sli_atomic *)borrowers, 1);
+}
+
+/* Takes one of borrowers and owner away. Was it the last one? */
+SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
+    return sli_atomic_add(borrowers, -1) == 0;
+}
 
 /* A number that one thread writes while another reads it, and that either value suits. */
 SLI_INLINE sl_int sli_shared_read(const sl_int *a) {

@@ -33,7 +33,7 @@ static int sli_options_set(const sl_options *opt) {
                        opt->regularization != 0.0 || opt->signs != NULL ||
                        opt->null_vector != NULL || opt->growth_limit != 0.0 ||
                        opt->error_limit != 0.0 || opt->null_vector_count != 0 ||
-                       opt->storage != 0;
+                       opt->storage != 0 || opt->definite != 0;
     return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
            (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
            (opt->region != NULL ? SLI_READS_REGION : 0) |

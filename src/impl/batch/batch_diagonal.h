@@ -48,7 +48,7 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
         if (F == NULL) {
             return SL_ERR_ARGUMENT;
         }
-        if (!F->is_valid || !sli_factor_is_over(F, d->factors[0]->S, d->factors[0]->analysis)) {
+        if (!F->is_valid || F->S != d->factors[0]->S) {
             return SL_ERR_STATE;
         }
         if (F->E != NULL) {

@@ -187,8 +187,7 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
                 return SL_ERR_ARGUMENT;
             }
         }
-        if (!sli_factor_is_over(factors[k], factors[0]->S, factors[0]->analysis) ||
-            factors[k]->is_immutable) {
+        if (factors[k]->S != factors[0]->S || factors[k]->is_immutable) {
             return SL_ERR_STATE;
         }
     }

@@ -263,7 +263,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
     sl_status status;
     sli_stats_clear_error(stats);
     status = sli_edges_check(F, rows, columns, deltas, count, stats);
-    status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
+    status = status == SL_OK && F->is_immutable ? SL_ERR_STATE : status;
     status = status == SL_OK ? sli_factor_check_size(F->S, A) : status;
     if (status != SL_OK) {
         return status;

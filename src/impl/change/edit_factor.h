@@ -277,7 +277,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
     if (F == NULL || S == NULL || !sli_factor_options_are_valid(opt)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     if (F->S->n > 0 && new_of == NULL) {

@@ -26,6 +26,7 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
     memset(P, 0, sizeof *P);
     P->allocator = a;
     P->F = P->base = F;
+    sli_borrow(&F->borrowers);
     P->reason = SL_PINS_NO_MATRIX;
     status = sli_pins_take(P);
     if (status == SL_OK) {
@@ -41,6 +42,7 @@ SL_API void sl_pins_free(sl_pins *P) {
         const sl_allocator a = P->allocator;
         sli_pins_release(P);
         sl_factor_free(P->G);
+        sl_factor_free((sl_factor *)P->F);
         sli_free(&a, P->values);
         sli_free(&a, P);
     }

@@ -59,7 +59,7 @@ static int sli_rank_is_suited(const sl_factor *F) {
 
 /* May F be changed in place? */
 static sl_status sli_rank_check(const sl_factor *F) {
-    if (!F->is_valid || !sli_factor_may_change(F)) {
+    if (!F->is_valid || F->is_immutable) {
         return SL_ERR_STATE;
     }
     return sli_rank_is_suited(F) ? SL_OK : SL_ERR_UNSUPPORTED;

@@ -179,7 +179,7 @@ static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, con
         !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+    if (!F->is_valid) {
         return SL_ERR_STATE;
     }
     if (F->E != NULL || F->S->nnz_input < 0) {

@@ -35,8 +35,7 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
 
 /* Checks that F holds a factor and that A has the pattern that was analyzed. */
 SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
-    return F->is_valid && sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A)
-                                                                   : SL_ERR_STATE;
+    return F->is_valid ? sli_factor_check(F->S, A) : SL_ERR_STATE;
 }
 
 /* Reports what is not finite. An entry of A has its row and column in A, an entry of a sum its row
@@ -66,6 +65,9 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
     }
     if (f->status != SL_ERR_PIVOT || f->pivot < 0) {
         return NULL;
+    }
+    if (F->is_definite && f->value < 0.0 && f->bound == 0.0) {
+        return "options.definite: the pivot is negative, so that A is not positive definite";
     }
     if (f->bound < 0.0) {
         return "there was no memory to judge whether the pivot is null";
@@ -100,7 +102,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
         sli_factor_report_entry(F, A, f);
     }
     sli_count_pivots(F, n_done);
-    F->stats.factor.null += f->status == SL_ERR_PIVOT;
+    F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
@@ -167,6 +169,11 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     if (sli_signs_are_suspected(F) && failure->status == SL_OK &&
         sli_signs_judge(F, failure) != SL_OK) {
         sli_factor_outcome(F, from->A, failure, 0);
+    }
+    if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
+        failure->status != SL_ERR_PIVOT) {
+        sli_refuse_negative(F, failure);
+        sli_factor_outcome(F, from->A, failure, 1);
     }
     F->stats.factor.seconds = sli_seconds() - started;
     F->is_valid = failure->status == SL_OK;
@@ -268,7 +275,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
     if (F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    status = sli_factor_may_change(F) ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+    status = F->is_immutable ? SL_ERR_STATE : sli_factor_check(F->S, A);
     status = status == SL_OK ? sli_factor_prepare(F) : status;
     if (status != SL_OK) {
         return status;

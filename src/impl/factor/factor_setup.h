@@ -171,6 +171,8 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
             opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
             opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
             (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE) &&
+            (opt->definite == 0 || (opt->definite == 1 && opt->regularization == 0.0 &&
+                                    opt->null_pivots == SL_NULL_PIVOT_REFUSE)) &&
             opt->null_vector_count <= SLI_NULL_VECTORS_MAX &&
             (opt->null_vector_count <= 1 || opt->null_vector != NULL));
 }
@@ -205,6 +207,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
         opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
     F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
     F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+    F->is_definite = opt != NULL && opt->definite != 0;
     F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
                                 sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
     F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -276,10 +279,11 @@ static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
-    if (F != NULL) {
+    if (F != NULL && sli_is_last(&F->borrowers)) {
         const sl_allocator a = F->allocator;
         sli_free(&a, F->work.stack);
         sli_free(&a, F->scratch);
+        sli_symbolic_return(F->S);
         sli_free(&a, F);
     }
 }
@@ -324,7 +328,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     draft.S = S;
     draft.kernels =
         kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
-    draft.analysis = S->identity;
     draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
     if (draft.type == NULL) { /* untested: all packs are there */
         return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
@@ -346,6 +349,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
     if (status == SL_OK) {
         sl_factor *F = (sl_factor *)(void *)b.base;
         *F = draft;
+        sli_borrow(&S->borrowers);
         memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
         if (F->E != NULL) {
             memset(F->E, 0, (size_t)S->n * sizeof(double));

@@ -134,9 +134,9 @@ typedef struct sli_row_work {
 
 struct sl_factor {
     sl_allocator allocator;
+    sli_atomic borrowers; /* sets of pins */
     sl_stats stats;       /* the factor group and the error group */
-    const sl_symbolic *S; /* borrowed */
-    sli_hash analysis;    /* the identity of S */
+    const sl_symbolic *S;
     const sli_kernels *kernels;
     const sli_storage_type *type;   /* how L is kept */
     const sli_sweeps *sweeps;       /* those of the kernels that read L so .. */
@@ -165,6 +165,7 @@ struct sl_factor {
     double *divisors;
     sli_extent *extents; /* n_supers */
     sli_pivot_rule rule;
+    int is_definite;     /* negative pivots are refused */
     double growth_limit; /* a larger growth is refused */
     double error_limit;  /* a refinement that ends above it is reported */
     sli_null_space null;
@@ -195,21 +196,9 @@ SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F
            sli_hash_equals(numbers->identity, F->identity);
 }
 
-/* Is F a factor over the analysis S, with this identity? Also false if the analysis of F was
- * released and another one created at its address. */
-SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_hash identity) {
-    return F->S == S && sli_hash_equals(F->analysis, S->identity) &&
-           sli_hash_equals(identity, S->identity);
-}
-
 /* Entries of the inverse are computed with a diagonal D only. */
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
     return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
-}
-
-/* May the numbers of F change, and is its analysis still there? */
-SLI_INLINE int sli_factor_may_change(const sl_factor *F) {
-    return !F->is_immutable && sli_factor_is_over(F, F->S, F->analysis);
 }
 
 /* Fills in a failure and returns its status. */

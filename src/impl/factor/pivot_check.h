@@ -124,6 +124,20 @@ SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
     info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
 }
 
+/* Refuses the first pivot that is negative, or has a negative eigenvalue. There is one. */
+SLI_COLD static void sli_refuse_negative(const sl_factor *F, sli_failure *failure) {
+    double values[2] = {0.0, 0.0};
+    sl_int k = -1;
+    do {
+        k++;
+        values[0] = values[1] = F->D[k];
+        if (F->E != NULL && F->S->pairs[k] == SLI_PAIR_FIRST) {
+            sli_pair_eigenvalues(F, k, values);
+        } /* a second column is not reached before its first one */
+    } while (!(values[0] < 0.0) && !(values[1] < 0.0));
+    (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, fmin(values[0], values[1]));
+}
+
 /* Counts the first pivots by sign and records their least and largest magnitude. */
 static void sli_count_pivots(sl_factor *F, sl_int count) {
     sl_factor_info info = F->stats.factor; /* in registers: 3 times as fast */

@@ -15,9 +15,6 @@ static void sli_region_index(sl_region *R) {
     sli_region_begin(R);
     R->extent.roots = R->roots;
     R->extent.rows = R->rows;
-    R->analysis = S->identity;
-    R->identity = sli_hash_ints(R->analysis, R->roots, R->extent.n_roots);
-    R->identity = sli_hash_ints(R->identity, R->rows, n);
     R->begin[0] = 0;
     for (k = 0; k < n; k++) {
         R->requested[k] = S->perm[R->rows[k]];
@@ -93,6 +90,7 @@ static sl_status sli_region_new(sl_region **out, const sli_choice *start, const 
         sli_region_from_choice(&draft, &c);
         *out = (sl_region *)(void *)kept.base;
         **out = draft;
+        sli_borrow(&S->borrowers);
     }
     sli_free(a, rest.base);
     sli_free(a, seeds.base);
@@ -254,7 +252,7 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
     if (R == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!sli_factor_is_over(F, R->S, R->analysis) || R->is_immutable) {
+    if (F->S != R->S || R->is_immutable) {
         return SL_ERR_STATE;
     }
     status = sli_region_check_factor(F, Z);
@@ -265,8 +263,9 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
 }
 
 SL_API void sl_region_free(sl_region *R) {
-    if (R != NULL) {
+    if (R != NULL && sli_is_last(&R->ending.borrowers)) {
         const sl_allocator a = R->allocator;
+        sli_symbolic_return(R->S);
         sli_free(&a, R);
     }
 }

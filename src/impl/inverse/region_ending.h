@@ -11,7 +11,7 @@ SLI_INLINE const sl_region *sli_region_of(const sli_ending *e) {
 
 static int sli_region_belongs(const sli_ending *e, const sl_symbolic *S) {
     const sl_region *R = sli_region_of(e);
-    return R->S == S && sli_hash_equals(R->analysis, S->identity);
+    return R->S == S;
 }
 
 /* Is every row of a sorted set in the region? The set of all rows counts as outside. */
@@ -89,15 +89,13 @@ static void sli_region_finish(const sli_ending *e, sli_query *q, sli_set *b, sli
     const sl_region *R = sli_region_of(e);
     sli_set_mark(b, &q->forward);
     sli_set_mark(x, &q->backward);
-    q->used.identity = R->identity;
     q->used.b = b->marks;
     q->used.x = x->marks;
     q->used.entries = sli_boundary_entries(R, b, x);
 }
 
 static int sli_region_holds(const sli_query *q, const sl_factor *F) {
-    const sl_region *R = sli_region_of(q->ending);
-    return sli_hash_equals(q->used.identity, R->identity) && sli_region_fits(R, F);
+    return sli_region_fits(sli_region_of(q->ending), F);
 }
 
 static uint64_t sli_region_vectors_of(const sli_ending *e, sl_int lanes) {
@@ -118,9 +116,13 @@ static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,
     sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind, &boundary);
 }
 
+static void sli_region_give_back(const sli_ending *e) {
+    sl_region_free((sl_region *)(void *)e);
+}
+
 static const sli_ending_calls sli_region_calls = {
     sli_region_belongs,    sli_region_place,      sli_region_finish, sli_region_holds,
-    sli_region_vectors_of, sli_region_scratch_of, sli_region_cross};
+    sli_region_vectors_of, sli_region_scratch_of, sli_region_cross,  sli_region_give_back};
 
 /* Makes the region an ending of queries. */
 SLI_INLINE void sli_region_begin(sl_region *R) {

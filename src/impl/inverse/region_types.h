@@ -21,9 +21,7 @@
 struct sl_region {
     sli_ending ending;
     sl_allocator allocator;
-    const sl_symbolic *S; /* borrowed */
-    sli_hash analysis;    /* the identity of S */
-    sli_hash identity;    /* of the analysis and the extent: what plans in the region depend on */
+    const sl_symbolic *S;
     sli_numbers numbers;  /* Z is a part of the inverse of these */
     sli_region_extent extent;
     sl_int *roots, *rows; /* of the extent: roots of the subtrees, boundary */

@@ -13,7 +13,6 @@
 struct sl_selected {
     sl_allocator allocator;
     sl_threads threads;
-    sli_hash analysis;       /* the identity of the traversal's analysis */
     sli_numbers numbers;     /* Z is the inverse of these */
     sli_traversal traversal; /* of the supernodes that are kept */
     sl_off *begin;           /* count + 1: offsets of the panels, in doubles */
@@ -54,6 +53,7 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
         }
         *out = (sl_selected *)(void *)kept.base;
         **out = *draft;
+        sli_borrow(&S->borrowers);
     } else {
         sli_free(&draft->allocator, kept.base);
     }
@@ -72,7 +72,6 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
     sl_int supers = S->n_supers;
     memset(&draft, 0, sizeof draft);
     draft.allocator = sli_allocator(opt);
-    draft.analysis = S->identity;
     draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
     if (set != NULL) {
         SLI_LAYOUT(&b, &draft.allocator, status) {
@@ -305,7 +304,7 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
     if (Z == NULL || F == NULL) {
         return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid || !sli_factor_is_over(F, Z->traversal.S, Z->analysis) || Z->is_immutable) {
+    if (!F->is_valid || F->S != Z->traversal.S || Z->is_immutable) {
         return SL_ERR_STATE;
     }
     return sli_selected_fill(Z, F, W);
@@ -314,6 +313,7 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
 SL_API void sl_selected_free(sl_selected *Z) {
     if (Z != NULL) {
         const sl_allocator a = Z->allocator;
+        sli_symbolic_return(Z->traversal.S);
         sli_free(&a, Z->is_mapped ? NULL : Z->Z);
         sli_free(&a, Z);
     }

@@ -123,7 +123,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
         return 0;
     }
     F->S = S;
-    F->analysis = S->identity;
     F->method = (sl_method)g->method;
     F->type = sli_storage_type_of((sl_storage)g->storage);
     if (F->type == NULL) { /* untested: all storages are there */

@@ -290,6 +290,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
     }
     *out = (sl_factor *)(void *)m.block;
     **out = *F;
+    sli_borrow(&S->borrowers);
     return SL_OK;
 }
 

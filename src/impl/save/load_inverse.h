@@ -84,6 +84,7 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
         return SL_ERR_MEMORY;
     }
     **out = *draft;
+    sli_borrow(&draft->traversal.S->borrowers);
     return SL_OK;
 }
 
@@ -134,7 +135,6 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
     }
     memset(&draft, 0, sizeof draft);
     draft.allocator = r->allocator;
-    draft.analysis = S->identity;
     draft.is_immutable = r->is_mapped || S->is_partial;
     if (r->opt != NULL) {
         draft.threads = r->opt->threads;
@@ -248,6 +248,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
         sli_region_index(&draft);
         *out = (sl_region *)(void *)b.base;
         **out = draft;
+        sli_borrow(&F->S->borrowers);
     }
     return status;
 }

@@ -120,7 +120,6 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
 static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sli_ending *ending, sli_set *b,
                            sli_set *x) {
     q->S = S;
-    q->analysis = S->identity;
     q->ending = ending;
     q->nb = b->count;
     q->nx = x->count;

@@ -85,6 +85,7 @@ static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
     f->error_limit = opt->error_limit;
     f->null_vector_count = opt->null_vector_count;
     f->storage = opt->storage;
+    f->definite = opt->definite;
 }
 
 /* Checks the arguments of a creation. */

@@ -32,6 +32,10 @@ static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_en
         P->allocator = *a;
         P->bytes = kept.used;
         P->query = query;
+        sli_borrow(&S->borrowers);
+        if (ending != NULL) {
+            sli_borrow(&ending->borrowers);
+        }
         *out = P;
     }
     return status;
@@ -81,6 +85,10 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
 SL_API void sl_plan_free(sl_plan *P) {
     if (P != NULL) {
         const sl_allocator a = P->allocator;
+        if (P->query.ending != NULL) {
+            P->query.ending->calls->give_back(P->query.ending);
+        }
+        sli_symbolic_return(P->query.S);
         sli_free(&a, P);
     }
 }

@@ -10,12 +10,12 @@
  * the boundary, which has the role of the roots, are at the end of both vectors. */
 typedef struct sli_ending {
     const struct sli_ending_calls *calls;
-    sl_int rows; /* of the boundary */
+    sl_int rows;          /* of the boundary */
+    sli_atomic borrowers; /* plans */
 } sli_ending;
 
 /* The parts of an ending that a query uses: what `place` and `finish` have marked. */
 typedef struct sli_ending_use {
-    sli_hash identity;          /* of the ending */
     const unsigned char *b, *x; /* the parts that the sets use */
     sl_off entries;             /* doubles that a solve reads */
 } sli_ending_use;
@@ -24,7 +24,6 @@ typedef struct sli_ending_use {
  * their vectors. */
 typedef struct sli_query {
     const sl_symbolic *S;
-    sli_hash analysis; /* the identity of S */
     sl_int nb, nx;
     int is_shared; /* the reaches are equal: one vector serves both sweeps */
     int b_repeats; /* the b-set repeats a row: its values add up */
@@ -51,13 +50,14 @@ typedef struct sli_ending_calls {
     size_t (*scratch)(const sli_ending *e, sl_int lanes);
     /* From the end of the forward vector to that of the backward vector. */
     void (*apply)(const sl_factor *F, const sli_query *q, int kind, const struct sli_vectors *v);
+    /* Ends a borrowing. */
+    void (*give_back)(const sli_ending *e);
 } sli_ending_calls;
 
 /* The query of a full solve: b is given, and x wanted, in all rows. */
 static sli_query sli_query_all(const sl_symbolic *S) {
     sli_query q;
     q.S = S;
-    q.analysis = S->identity;
     q.nb = q.nx = S->n;
     q.is_shared = 1;
     q.b_repeats = 0;
@@ -70,8 +70,7 @@ static sli_query sli_query_all(const sl_symbolic *S) {
 
 /* Does F hold the numbers that the query needs? */
 SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
-    return F->is_valid && sli_factor_is_over(F, q->S, q->analysis) &&
-           (q->ending == NULL || q->ending->calls->fits(q, F));
+    return F->is_valid && F->S == q->S && (q->ending == NULL || q->ending->calls->fits(q, F));
 }
 
 /* The sweep kernel for a block of nrhs right-hand sides. It takes 1 << kind of them. */

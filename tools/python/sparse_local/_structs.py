@@ -28,7 +28,8 @@ class Options(ctypes.Structure):
         ("null_tolerance", REAL), ("mass", PTR), ("consistency_tolerance", REAL),
         ("regularization", REAL), ("signs", PTR), ("region", PTR), ("region_bytes", SIZE),
         ("null_vector", PTR), ("growth_limit", REAL), ("error_limit", REAL),
-        ("null_vector_count", SIZE), ("storage", ENUM), ("reserved", PTR * 2)]
+        ("null_vector_count", SIZE), ("storage", ENUM), ("definite", SIZE),
+        ("reserved", PTR * 1)]
 
 
 def _struct(name, fields):
@@ -45,8 +46,8 @@ _Symbolic = _struct("_Symbolic", [
     ("seconds_analyze", REAL), ("seconds_tree", REAL), ("seconds_structure", REAL),
     ("bytes", SIZE)])
 _FactorInfo = _struct("_FactorInfo", [
-    ("isa", ENUM), ("method", ENUM), ("positive", INT), ("negative", INT), ("null", INT),
-    ("regularized", INT), ("weak", INT), ("regular", INT), ("pivot_min", REAL),
+    ("positive", INT), ("negative", INT), ("null", INT), ("regularized", INT),
+    ("weak", INT), ("regular", INT), ("isa", ENUM), ("method", ENUM), ("pivot_min", REAL),
     ("pivot_max", REAL), ("entry_max", REAL), ("growth", REAL), ("seconds_setup", REAL),
     ("seconds", REAL), ("bytes", SIZE)])
 _PlanInfo = _struct("_PlanInfo", [
