@@ -1,60 +1,61 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: 9738965acbaacbdb
+ * FNV-1a of the lines after this comment, without the license: dec473d1da9975e4
  * The comments of the implementation are in src/impl.
  *
  * Contents
- *     62 intro.h      what the library does, a quick start, which call for which question, references
- *    175 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
- *    216 config.h     macros that a user may define before the include, the version, and the integer types
- *    294 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
- *    473 options.h    options of all calls, threads, and the allocator
- *    613 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
- *    827 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
- *    925 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
- *    999 factor.h     the numerical factorization P A P' = L D L'
- *   1124 solve.h      full solves, and the workspace of all solves
- *   1219 plan.h       local solves: b is known in a few rows, x is wanted in a few others
- *   1297 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
- *   1396 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
- *   1436 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
- *   1544 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
- *   1621 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
- *   1706 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
- *   1802 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
- *   1914 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
- *   1953 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
- *   2081 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
- *   2113 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
- *   2302 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
- *   2414 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
- *   2541 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
- *   2581 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
- *   2669 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
- *   2778 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
- *   2815 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
- *   2892 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
- *   2932 impl/ base: the compiler, status, memory, sorting, threads
- *   3916 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
- *   4773 impl/ matrix: sparse matrices of the caller and of the library
- *   5316 impl/ ordering: fill-reducing orderings of a graph
- *   9678 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
- *  11624 impl/ factor: the numbers of L and D
- *  14848 impl/ solve: full and local solves
- *  16428 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
- *  18187 impl/ pivots: the order of the pivots by the values of a matrix
- *  18601 impl/ float: L and fronts in single precision
- *  19048 impl/ inverse: entries of the inverse, regions
- *  21984 impl/ change: a factor that follows changes of its matrix
- *  28619 impl/ io: files that are replaced only when they are complete
- *  28831 impl/ files: Matrix Market files, 64-bit indices
- *  29427 impl/ save: factors in files
- *  31353 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  32018 impl/ batch: diagonals of many inverses
- *  32158 impl/ complex: complex Hermitian systems over real factors
- *  32684 impl/ complex: entries of the inverse
- *  32736 impl/ packs: the tables through which the core calls packs
- *  32768 impl/ last: undefine every internal macro
- *  33084 impl/ templates: the header includes them from itself, once for each instruction set
+ *     63 intro.h      what the library does, a quick start, which call for which question, references
+ *    181 packs.h      the packs that a user asks for: what each adds to the core, and what it brings along
+ *    222 config.h     macros that a user may define before the include, the version, and the integer types
+ *    300 types.h      status codes, the view of a matrix, enumerations, and the names of the opaque objects
+ *    487 options.h    options of all calls, threads, and the allocator
+ *    633 stats.h      what calls report: the location of an error, counts, times and sizes, in groups
+ *    860 csc.h        sparse matrices: creation, checks, products, residuals, Matrix Market files
+ *    962 analyze.h    the analysis of a pattern: ordering, elimination tree, supernodes, storage of L
+ *   1037 factor.h     the numerical factorization P A P' = L D L'
+ *   1162 solve.h      full solves, and the workspace of all solves
+ *   1259 plan.h       local solves: b is known in a few rows, x is wanted in a few others
+ *   1336 dirichlet.h  rows fixed at given values, of a matrix that need not be factored as a whole
+ *   1423 parts.h      L, D, L' and the permutation applied one by one: half solves, products, samples (SL_WITH_ACCURACY)
+ *   1522 pseudo.h     what makes the pseudo-inverse of the entries, samples and determinant of a factor (SL_WITH_ACCURACY)
+ *   1562 accuracy.h   refinement of solutions, condition estimate, consistency of singular systems (SL_WITH_ACCURACY)
+ *   1670 bounds.h     how far the answers of a factor are from the exact ones: a bound for each number (SL_WITH_ACCURACY)
+ *   1747 inverse.h    entries, blocks and bilinear forms of the inverse, without a backward sweep (SL_WITH_INVERSE)
+ *   1832 selected.h   the selected inverse: entries of A^-1 on the pattern of L (SL_WITH_INVERSE)
+ *   1928 region.h     regions, inside which the cost of local solves does not depend on the whole matrix (SL_WITH_INVERSE)
+ *   2039 batch.h      many independent solves by one call, distributed over threads (SL_WITH_BATCH)
+ *   2078 several.h    several matrices of one pattern: weighted sums of value arrays over one analysis (SL_WITH_BATCH)
+ *   2206 batch_diagonal.h diagonals of the inverses of many factors by one call (SL_WITH_BATCH and SL_WITH_INVERSE)
+ *   2238 save.h       a factor and what belongs to it in a file or in memory: saved, loaded, mapped (SL_WITH_SAVE)
+ *   2427 change.h     a factor that follows small changes of its matrix (SL_WITH_CHANGE)
+ *   2539 pins.h       rows held at given values, on top of a factor that stays as it is (SL_WITH_CHANGE)
+ *   2666 restrict.h   the factor of a principal submatrix, from that of the whole matrix (SL_WITH_CHANGE)
+ *   2706 edit.h       analyses and factors that follow edits of the pattern: rows and entries come and go (SL_WITH_CHANGE)
+ *   2794 complex.h    complex Hermitian systems, solved as real ones of twice the size (SL_WITH_COMPLEX)
+ *   2903 complex_inverse.h entries of the inverse of complex matrices (SL_WITH_COMPLEX and SL_WITH_INVERSE)
+ *   2940 files.h      matrices in Matrix Market files, and with 64-bit indices (SL_WITH_FILES)
+ *   3017 pivots.h     analyses with 2x2 pivots, chosen by the values of an indefinite matrix (SL_WITH_PIVOTS)
+ *   3057 impl/ base: the compiler, status, memory, sorting, threads
+ *   4060 impl/ kernels: numerical kernels on raw arrays, once for each instruction set
+ *   4917 impl/ matrix: sparse matrices of the caller and of the library
+ *   5509 impl/ ordering: fill-reducing orderings of a graph
+ *   9871 impl/ analysis: elimination tree, supernodes, structure of L; never sees a value
+ *  11822 impl/ factor: the numbers of L and D
+ *  15066 impl/ solve: full and local solves
+ *  17228 impl/ accuracy: refinement, condition, defects, half solves, bounds of errors
+ *  18987 impl/ pivots: the order of the pivots by the values of a matrix
+ *  19401 impl/ float: L and fronts in single precision
+ *  19848 impl/ inverse: entries of the inverse, regions
+ *  22790 impl/ change: a factor that follows changes of its matrix
+ *  29632 impl/ io: files that are replaced only when they are complete
+ *  29844 impl/ files: Matrix Market files, 64-bit indices
+ *  30440 impl/ save: factors in files
+ *  32367 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33031 impl/ batch: diagonals of many inverses
+ *  33171 impl/ complex: complex Hermitian systems over real factors
+ *  33697 impl/ complex: entries of the inverse
+ *  33749 impl/ packs: the tables through which the core calls packs
+ *  33795 impl/ last: undefine every internal macro
+ *  34117 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -129,6 +130,11 @@
  *              length follows its array. The library never prints or aborts and has no mutable
  *              globals; for METIS, an option, see sl_symbolic_create. What is marked EXPERIMENTAL
  *              may change in any version; all else keeps its promises from 1.0 on.
+ * Lifetimes    An object keeps what it was made from: a factor, a plan, a region and a selected
+ *              inverse their analysis, a plan its region, pins their factor. So all of them may be
+ *              freed in any order, and on any threads with gcc, clang and MSVC; other compilers
+ *              have no atomic counters. Memory and allocators of the caller, and views of arrays,
+ *              are not kept.
  * Threads      An analysis, a plan, a selected inverse and a region are immutable after their
  *              creation; a factor is const during solves. Any number of threads may solve with one
  *              factor, each with its own sl_work.
@@ -461,6 +467,13 @@ typedef enum sl_pins_reason {
     SL_PINS_REFUSED       /* elimination met a pivot that it refuses */
 } sl_pins_reason;
 
+/** How sl_dirichlet_create fixes rows. */
+typedef enum sl_dirichlet_method {
+    SL_DIRICHLET_SUBMATRIX = 0, /* a factor of the free rows */
+    SL_DIRICHLET_RESTRICTION,   /* the same, from a factor of all rows (sl_factor_restrict) */
+    SL_DIRICHLET_PINS           /* pins on a factor of all rows (sl_pins_create) */
+} sl_dirichlet_method;
+
 typedef struct sl_matrix sl_matrix;     /* a CSC matrix that the library owns */
 typedef struct sl_symbolic sl_symbolic; /* the analysis of one pattern; immutable */
 typedef struct sl_factor sl_factor;     /* L and D over a symbolic analysis */
@@ -469,6 +482,7 @@ typedef struct sl_work sl_work;         /* workspace of one thread */
 typedef struct sl_selected sl_selected; /* entries of the inverse on the pattern of L; immutable */
 typedef struct sl_pins sl_pins;         /* rows held at given values */
 typedef struct sl_region sl_region;     /* a part of the matrix where local solves can stop early */
+typedef struct sl_dirichlet sl_dirichlet; /* a system with rows fixed at given values */
 
 /* src/public/options.h: options of all calls, threads, and the allocator */
 
@@ -506,6 +520,8 @@ typedef struct sl_allocator {
  *  | sl_symbolic_create, _create_pivoted        | threads, ordering .. purpose             |
  *  | sl_csc_triangle, sl_matrix_sum             | triangle                                 |
  *  | sl_factor_create, sl_batch_factor          | threads, isa .. signs,                   |
+ *  |                                            | null_vector .. storage                   |
+ *  | sl_dirichlet_create                        | threads, ordering .. signs,              |
  *  |                                            | null_vector .. storage                   |
  *  | sl_batch_solve, _refactor, _diagonal       | threads                                  |
  *  | sl_selected_create, sl_work_create         | threads                                  |
@@ -572,8 +588,7 @@ typedef struct sl_options {
 
     /* ---- local solves ---- */
 
-    /* where the sweeps of a plan may end; borrowed, must outlive the plan; NULL: at the roots only
-     */
+    /* where the sweeps of a plan may end; kept by the plan; NULL: at the roots only */
     const sl_region *region;
     /* upper bound on the bytes of a region that has a boundary; 0: no bound */
     size_t region_bytes;
@@ -599,8 +614,13 @@ typedef struct sl_options {
      * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
-    /* must be NULL; new options take their place, so that the size of the struct never changes */
-    const void *reserved[2];
+    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for
+     * example where the sign of t is wrong in M + t L; stats.factor counts the others. Not allowed
+     * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
+    size_t definite;
+
+    /* must be NULL; new options take its place, so that the size of the struct never changes */
+    const void *reserved[1];
 } sl_options;
 
 /** Sets all options to their defaults. size is sizeof(sl_options) of the caller; opt may be NULL.
@@ -647,8 +667,6 @@ typedef struct sl_symbolic_info {
 
 /** A factorization: sl_factor_create, sl_factor_refactor, their variants, sl_factor_stats. */
 typedef struct sl_factor_info {
-    sl_isa isa;
-    sl_method method;   /* the method that was used */
     sl_int positive;    /* pivots (eigenvalues of 2x2 ones) by sign: the inertia of A */
     sl_int negative;    /* the same */
     sl_int null;        /* null pivots: the skipped ones, or the one that was refused */
@@ -659,6 +677,8 @@ typedef struct sl_factor_info {
     /* with SL_NULL_PIVOT_SKIP: connected components without a null pivot. Their solutions are
      * unique, and options.mass does not apply to them */
     sl_int regular;
+    sl_isa isa;
+    sl_method method; /* the method that was used */
     double pivot_min; /* smallest |d|, or magnitude of an eigenvalue of a 2x2 pivot */
     double pivot_max; /* largest */
     double entry_max; /* largest |a| among the entries of A that were read */
@@ -795,6 +815,18 @@ typedef struct sl_pins_info {
     double seconds;             /* processor seconds of the call */
 } sl_pins_info;
 
+/** Rows fixed at given values: sl_dirichlet_create, sl_dirichlet_refactor. */
+typedef struct sl_dirichlet_info {
+    sl_dirichlet_method method; /* the way in use */
+    sl_int n_free;              /* rows that are not fixed */
+    sl_off couplings;           /* entries of A between free and fixed rows */
+    /* of a choice among ways, as estimated from counts; 0: there was none */
+    double seconds_submatrix;
+    double seconds_restriction; /* the same */
+    double seconds_pins;        /* the same; 0 also where pins are not possible */
+    double seconds;             /* processor seconds of the call */
+} sl_dirichlet_info;
+
 /** What a call reports. Each call sets `error` and the groups listed at its declaration and leaves
  *  the others, so that one struct can collect the groups of many calls. It needs no initialization.
  */
@@ -817,8 +849,9 @@ typedef struct sl_stats {
     /* of a factorization that was refused with SL_ERR_PIVOT: a pivot (error.value) up to this size
      * is null; 0: not known */
     double null_bound;
+    sl_dirichlet_info dirichlet;
     /* new fields take this space, so that the size of the struct never changes; not written */
-    sl_off reserved[19];
+    sl_off reserved[13];
 } sl_stats;
 
 /** sizeof(sl_stats) in the library: a binding compares it with its own before it passes one. */
@@ -853,17 +886,21 @@ SL_API SL_WARN_UNUSED sl_status sl_matrix_from_triplets(sl_matrix **out, sl_int 
 SL_API SL_WARN_UNUSED sl_status sl_matrix_transpose(sl_matrix **out, const sl_csc *A,
                                                     const sl_options *opt);
 
-/** The symmetric permutation C = P A P' of a square matrix: C(k, l) = A(perm[k], perm[l]).
+/** The principal submatrix C = A[rows, rows] of a square matrix: C(k, l) = A(rows[k], rows[l]).
+ *  With all rows it is a symmetric permutation P A P'.
  *
- *  If A stores one triangle, C has its lower triangle; if A stores both, so does C.
+ *  If A stores one triangle, C has its lower triangle; if A stores both, so does C. Rows of a
+ *  column are in any order; duplicates stay.
  *
- *  perm   [in]   n entries, a permutation of 0..n-1.
- *  Returns  SL_OK; SL_ERR_ARGUMENT: not square, not a permutation; SL_ERR_PATTERN;
- *           SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  rows   [in]   count rows of A in 0..n-1, any order, none twice.
+ *  stats  [out]  error.row: a row out of range or given twice; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also not square; SL_ERR_PATTERN; SL_ERR_TOO_LARGE;
+ *           SL_ERR_MEMORY.
  *  Cost     O(n + nnz).
  */
-SL_API SL_WARN_UNUSED sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A,
-                                                  const sl_int *perm, const sl_options *opt);
+SL_API SL_WARN_UNUSED sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A,
+                                                    const sl_int *rows, sl_int count,
+                                                    const sl_options *opt, sl_stats *stats);
 
 /** The arrays of a matrix; valid as long as M. A NULL M gives a 0 x 0 view. */
 SL_API sl_csc sl_matrix_view(const sl_matrix *M);
@@ -956,7 +993,8 @@ SL_API SL_WARN_UNUSED sl_status sl_csc_residual(const sl_csc *A, double *R, size
 SL_API SL_WARN_UNUSED sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A,
                                                    const sl_options *opt, sl_stats *stats);
 
-/** Releases an analysis; NULL is allowed. Objects made from it must not be used afterwards. */
+/** Releases an analysis; NULL is allowed. Objects made from it keep it as long as they need it: all
+ *  objects may be freed in any order (intro.h). */
 SL_API void sl_symbolic_free(sl_symbolic *S);
 
 /** Fills the symbolic group of stats. */
@@ -1007,16 +1045,16 @@ SL_API sl_symbolic_arrays sl_symbolic_view(const sl_symbolic *S);
  *  regularized, call sl_factor_refine, and trust X if it returns SL_OK.
  *
  *  out    [out]  the factor, or NULL on error; release with sl_factor_free.
- *  S      [in]   analysis of A's pattern; borrowed, must outlive the factor.
+ *  S      [in]   analysis of A's pattern; kept by the factor.
  *  A      [in]   n x n with values; the analyzed pattern with its entries in the same order.
  *  opt    [in]   allocator, threads, isa, method, null_pivots, null_tolerance, mass,
  *                consistency_tolerance, regularization, signs, null_vector, null_vector_count,
- *                growth_limit, error_limit, storage; may be NULL.
+ *                growth_limit, error_limit, storage, definite; may be NULL.
  *  stats  [out]  factor; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT: no values, an option out of range or NaN, or at error.row a
  *           weight, sign or null vector that is not allowed; SL_ERR_PATTERN: not the analyzed one,
  *           or two triangles whose values differ by more than 1e-6 of the row; SL_ERR_PIVOT: a
- *           null pivot at error.row, or the row that shows that A is indefinite; error.what says
+ *           null pivot at error.row, or a negative one that options do not allow; error.what says
  *           what helps, such as sl_symbolic_create_pivoted, and null_bound up to which size the
  *           pivot error.value is null;
  *           SL_ERR_NOT_FINITE: at error.row, and error.column if it is an entry of A;
@@ -1132,8 +1170,9 @@ SL_API sl_factor_arrays sl_factor_view(const sl_factor *F);
  *
  *  ld must be at least the number of right-hand sides, and have its top bit clear, which says the
  *  layout. X and B of a call may have different layouts, unless they are one array. Accepted by
- *  sl_factor_solve, sl_plan_solve, sl_local_solve, the requests of sl_batch_solve, and the half
- *  solves and products of parts.h; all other calls refuse it with SL_ERR_ARGUMENT.
+ *  sl_factor_solve, sl_plan_solve, sl_local_solve, sl_dirichlet_solve, the requests of
+ *  sl_batch_solve, and the half solves and products of parts.h; all other calls refuse it with
+ *  SL_ERR_ARGUMENT.
  */
 #define SL_ROWS(ld) ((size_t)(ld) | SL_ROW_MAJOR)
 
@@ -1170,6 +1209,7 @@ SL_API size_t sl_work_bytes(const sl_work *W);
  *  |  _multiply_part, _defects,        | has null pivots. Fewer right-hand sides need no more,  |
  *  |  _refine, _rcond                  | but a single one may with threads: try both            |
  *  | sl_factor_pseudo_inverse          | the analysis and the number of columns                 |
+ *  | sl_dirichlet_solve                | the object, nrhs, and the threads of W                 |
  *  | sl_plan_solve, _solve_part        | the plan, nrhs, whether F has null pivots; fewer       |
  *  |                                   | right-hand sides need no more                          |
  *  | sl_plan_solve_refined             | the same, and the number of regularized rows           |
@@ -1225,7 +1265,7 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_solve(const sl_factor *F, double *X, s
  *  proportional to its own size.
  *
  *  out    [out]  the plan, or NULL on error; release with sl_plan_free.
- *  S      [in]   analysis of A, n columns; borrowed, must outlive the plan.
+ *  S      [in]   analysis of A, n columns; kept by the plan.
  *  bset   [in]   nb rows of A in 0..n-1, any order; b is 0 in the others, and values of a row given
  *                twice add up. NULL (nb is ignored): all n.
  *  xset   [in]   nx rows of A in 0..n-1, any order; a row given twice is answered twice. NULL (nx
@@ -1292,6 +1332,92 @@ SL_API SL_WARN_UNUSED sl_status sl_local_solve(const sl_factor *F, const sl_int 
                                                const sl_int *xset, sl_int nx, double *X, size_t ldx,
                                                const double *B, size_t ldb, sl_int nrhs, sl_work *W,
                                                sl_stats *stats);
+
+/* src/public/dirichlet.h: rows fixed at given values, of a matrix that need not be factored as a whole */
+
+/** Prepares solves of A x = b in the free rows, where x is given in the others: Dirichlet problems,
+ *  harmonic maps, interpolation. For definite A, x minimizes x' A x / 2 - b' x under x(rows) = g.
+ *
+ *  The free rows have a factor of A[free, free] of their own; A may be singular. If a factor of A
+ *  is there already, and the pack of pins is compiled in, the cheapest of three ways is taken, by
+ *  counted cost (stats.dirichlet): the same, sl_factor_restrict, or pins on that factor. All give
+ *  the same solutions, up to rounding.
+ *
+ *  out    [out]  the object, or NULL on error; release with sl_dirichlet_free.
+ *  A      [in]   n x n with values, symmetric, not kept. Entries between fixed rows are not read.
+ *  rows   [in]   count rows of A in 0..n-1 that are fixed, any order, none twice; from none to all.
+ *  F      [in]   a factor of A, or NULL. Used only if it was computed from the values of A, and opt
+ *                has none of perm, mass, signs, null_vector, regularization, SL_NULL_PIVOT_SKIP.
+ *  opt    [in]   allocator, threads, and what sl_symbolic_create and sl_factor_create read, in rows
+ *                of A: perm, mass, signs and null_vector have n entries; may be NULL.
+ *  stats  [out]  dirichlet, symbolic, factor; errors are in rows of A; may be NULL.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT: also a row out of range or given twice (error.row);
+ *           SL_ERR_PIVOT: A[free, free] is singular, as where no row of a component of a Laplacian
+ *           is fixed: error.row is one of its rows; all others as sl_symbolic_create and
+ *           sl_factor_create.
+ *  Cost     O(n + nnz), and the analysis and factorization of A[free, free]. Keeps 4 bytes per row,
+ *           16 per entry of A[free, free], and 20 per entry between free and fixed rows.
+ *  Threads  options.threads.
+ *  Manual   tools/docs/dirichlet.md: what pins, restrictions and submatrices cost
+ *  Example  tests/core/test_dirichlet.c
+ */
+SL_API SL_WARN_UNUSED sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A,
+                                                    const sl_int *rows, sl_int count,
+                                                    const sl_factor *F, const sl_options *opt,
+                                                    sl_stats *stats);
+
+/** Releases the object; NULL is allowed. */
+SL_API void sl_dirichlet_free(sl_dirichlet *D);
+
+/** Takes new values of A. An object that uses a factor of A gets one of its own.
+ *
+ *  A      [in]   the pattern that sl_dirichlet_create was given, its entries in the same order.
+ *  stats  [out]  dirichlet, factor; errors are in rows of A; may be NULL.
+ *  Returns  as sl_dirichlet_create; SL_ERR_PATTERN: another pattern. After SL_ERR_PIVOT,
+ *           _NOT_FINITE in free rows, _INACCURATE and _UNSUPPORTED solves are refused until a
+ *           refactorization succeeds; after other errors D is as before.
+ *  Cost     a refactorization of A[free, free]; nothing is allocated, except for its first factor.
+ *  Threads  exclusive use of D.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A,
+                                                      sl_stats *stats);
+
+/** Solves for x in the free rows, for any values of the fixed ones.
+ *
+ *  X     [out]  n x nrhs, column-major, leading dimension ldx elements, rows in the order of A;
+ *               row-major if ldx is SL_ROWS(ld). Fixed rows are g. May be B itself (then ldx =
+ *               ldb). Overwritten also after SL_ERR_INCONSISTENT, _NOT_FINITE and _INACCURATE;
+ *               after other errors untouched.
+ *  B     [in]   n x nrhs, column-major, leading dimension ldb elements, or row-major as X; fixed
+ *               rows are not used. NULL: b = 0.
+ *  G     [in]   count x nrhs, column-major, leading dimension ldg elements, or row-major as X: the
+ *               values, in the order of rows. May be NULL if count = 0.
+ *  nrhs  [in]   number of right-hand sides, 0 or more.
+ *  W     [in,out]  workspace; NULL: allocated for this call.
+ *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: a failed refactorization, or the factor whose
+ *           pins are used has changed; SL_ERR_NOT_FINITE, SL_ERR_INCONSISTENT: as sl_factor_solve;
+ *           SL_ERR_INACCURATE: as sl_pins_solve; SL_ERR_TOO_LARGE; SL_ERR_MEMORY.
+ *  Cost     for each right-hand side a full solve of the free rows, 2 flops per entry of A between
+ *           free and fixed rows, and a pass over X and B. No allocation once W has grown, except
+ *           for pins with row-major blocks.
+ *  Threads  any number at once on one D, each with its own W, whose threads are used.
+ */
+SL_API SL_WARN_UNUSED sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx,
+                                                   const double *B, size_t ldb, const double *G,
+                                                   size_t ldg, sl_int nrhs, sl_work *W);
+
+/** What the object is made of, for local solves on plans and for all other calls on a factor: row k
+ *  of its system is row free_rows[k] of A. Valid until sl_dirichlet_refactor or _free. */
+typedef struct sl_dirichlet_arrays {
+    sl_int n_free, n_fixed;
+    const sl_int *free_rows;     /* n_free: ascending */
+    const sl_int *fixed_rows;    /* n_fixed: rows, in the order of the caller */
+    const sl_symbolic *symbolic; /* of A[free, free]; NULL: pins hold the fixed rows */
+    const sl_factor *factor;     /* the same */
+    sl_csc matrix;               /* A[free, free], one triangle; 0 x 0: not kept */
+} sl_dirichlet_arrays;
+
+SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D);
 
 #if defined(SL_WITH_ACCURACY)
 /* src/public/parts.h: L, D, L' and the permutation applied one by one: half solves, products, samples */
@@ -1716,7 +1842,7 @@ SL_API SL_WARN_UNUSED sl_status sl_inverse_bilinear(const sl_factor *F, double *
  *
  *  out    [out]  the selected inverse, or NULL on error; release with sl_selected_free. It does not
  *                change if F is refactored or released, until sl_selected_refactor.
- *  F      [in]   the factor; its analysis is borrowed and must outlive the object.
+ *  F      [in]   the factor; its analysis is kept by the object.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
  *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
  *                it is not dereferenced.
@@ -1827,9 +1953,8 @@ SL_API void sl_selected_stats(const sl_selected *Z, sl_stats *stats);
  *
  *  out    [out]  the region, or NULL on error; release with sl_region_free. For options.region of
  *                sl_plan_create.
- *  F      [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
- *                is refactored, or a refactorization fails, plans in the region are refused until
- *                sl_region_refactor.
+ *  F      [in]   the factor, whose analysis the object keeps. When F is refactored, or a
+ *                refactorization fails, plans in the region are refused until sl_region_refactor.
  *  set    [in]   count rows of A in 0..n-1, any order, repetitions allowed; NULL (count is
  *                ignored): all n. For an empty set pass a pointer that is not NULL and count = 0;
  *                it is not dereferenced.
@@ -2027,7 +2152,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_scatter(const sl_symbolic *S, double
  *  out           [out]  count factors; release with sl_factor_free. If one fails, it is NULL and
  *                       the others are computed nevertheless: release them. After SL_ERR_ARGUMENT
  *                       with failed = -1 all are NULL.
- *  S             [in]   the analysis; borrowed, must outlive the factors.
+ *  S             [in]   the analysis; kept by the factors.
  *  coefficients  [in]   terms x count finite numbers, column-major, leading dimension terms: one
  *                       column per factor.
  *  values        [in]   terms arrays in the order of S (sl_symbolic_scatter); not kept.
@@ -2431,8 +2556,8 @@ SL_API SL_WARN_UNUSED sl_status sl_factor_refactor_changed(sl_factor *F, const s
  *  check the equalities whose rows are all in their reach.
  *
  *  out  [out]  the set, or NULL on error; release with sl_pins_free.
- *  F    [in]   the factor; it and its analysis are borrowed and must outlive the object. When F
- *              changes, solves are refused until sl_pins_refactor.
+ *  F    [in]   the factor; kept by the object. When F changes, solves are refused until
+ *              sl_pins_refactor.
  *  opt  [in]   allocator; may be NULL.
  *  Returns  SL_OK; SL_ERR_ARGUMENT; SL_ERR_STATE: failed factor; SL_ERR_UNSUPPORTED: pivots of both
  *           signs, or 2x2 pivots; SL_ERR_MEMORY; SL_ERR_TOO_LARGE.
@@ -2552,7 +2677,7 @@ SL_API SL_WARN_UNUSED sl_status sl_pins_solve(const sl_pins *P, const sl_plan *p
  *  factor over S. G has the options and the storage of F, but refuses null pivots by
  *  null_tolerance: a component of a singular Laplacian that is in R as a whole gives SL_ERR_PIVOT.
  *
- *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free after G.
+ *  S      [out]  the analysis, or NULL on error; release with sl_symbolic_free.
  *  G      [out]  the factor, or NULL on error; release with sl_factor_free.
  *  F      [in]   a factor of A.
  *  A      [in]   the matrix that F was computed from. Read only in the columns of R that are
@@ -2628,7 +2753,7 @@ SL_API SL_WARN_UNUSED sl_status sl_symbolic_edit(sl_symbolic **out, const sl_sym
  *  out     [out]  the factor of B, or NULL on error; release with sl_factor_free. It does not
  *                 depend on F.
  *  F       [in]   a factor of A. It stays as it is, and so must its analysis during the call.
- *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; borrowed, must outlive out.
+ *  S       [in]   an analysis of B, such as that of sl_symbolic_edit; kept by out.
  *  B       [in]   n x n, the matrix that S was created from.
  *  new_of  [in]   rows of A: new_of[i] is the row of B that row i of A has become, or -1 if it is
  *                 gone. After several edits, the composition of their maps.
@@ -2745,7 +2870,7 @@ SL_API SL_WARN_UNUSED sl_status sl_complex_rows(sl_int *out, const sl_int *rows,
 
 /** sl_plan_create with sets of complex rows.
  *
- *  S      [in]   analysis of the real matrix, 2n columns; borrowed, must outlive the plan.
+ *  S      [in]   analysis of the real matrix, 2n columns; kept by the plan.
  *  bset, nb, xset, nx  [in]  as in sl_plan_create, in complex rows 0..n-1. B and X of
  *                sl_plan_solve then have 2 nb and 2 nx doubles for each right-hand side.
  *  stats  [out]  as in sl_plan_create; error.row is a complex row.
@@ -3120,6 +3245,9 @@ SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
 SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
   __atomic_store_n(word, value, __ATOMIC_RELEASE);
 }
+SLI_INLINE sli_atomic sli_atomic_add(sli_atomic *word, sli_atomic value) {
+  return __atomic_fetch_add(word, value, __ATOMIC_ACQ_REL);
+}
 #elif defined(_MSC_VER)
 #include <intrin.h>
 #define SLI_ATOMIC 1
@@ -3132,6 +3260,9 @@ SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
 }
 SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
   (void)_InterlockedExchange((volatile long *)word, value);
+}
+SLI_INLINE sli_atomic sli_atomic_add(sli_atomic *word, sli_atomic value) {
+  return _InterlockedExchangeAdd((volatile long *)word, value);
 }
 #else
 typedef int sli_atomic;
@@ -3146,7 +3277,20 @@ SLI_INLINE sli_atomic sli_atomic_read(const sli_atomic *word) {
 SLI_INLINE void sli_atomic_write(sli_atomic *word, sli_atomic value) {
   *word = value;
 }
+SLI_INLINE sli_atomic sli_atomic_add(sli_atomic *word, sli_atomic value) {
+  const sli_atomic old = *word;
+  *word = old + value;
+  return old;
+}
 #endif
+
+SLI_INLINE void sli_borrow(const sli_atomic *borrowers) {
+  (void)sli_atomic_add((sli_atomic *)borrowers, 1);
+}
+
+SLI_INLINE int sli_is_last(sli_atomic *borrowers) {
+  return sli_atomic_add(borrowers, -1) == 0;
+}
 
 SLI_INLINE sl_int sli_shared_read(const sl_int *a) {
 #if defined(SLI_GNU)
@@ -3328,7 +3472,7 @@ static int sli_options_set(const sl_options *opt) {
              opt->regularization != 0.0 || opt->signs != NULL ||
              opt->null_vector != NULL || opt->growth_limit != 0.0 ||
              opt->error_limit != 0.0 || opt->null_vector_count != 0 ||
-             opt->storage != 0;
+             opt->storage != 0 || opt->definite != 0;
   return (opt->isa != 0 ? SLI_READS_ISA : 0) | (opt->triangle != 0 ? SLI_READS_TRIANGLE : 0) |
        (analysis ? SLI_READS_ANALYSIS : 0) | (factor ? SLI_READS_FACTOR : 0) |
        (opt->region != NULL ? SLI_READS_REGION : 0) |
@@ -5242,73 +5386,122 @@ SL_API sl_status sl_csc_residual(const sl_csc *A, double *R, size_t ldr, double 
   return SL_OK;
 }
 
-/* src/impl/matrix/permute.h: permutations: check, inverse, P A P' of a stored matrix */
+/* src/impl/matrix/submatrix.h: lists of rows, and the principal submatrix of a stored matrix that they choose */
 
-static sl_int sli_perm_invert(const sl_int *perm, sl_int n, sl_int *iperm) {
+static sl_int sli_rows_invert(const sl_int *rows, sl_int count, sl_int n, sl_int *where) {
   sl_int k;
   for (k = 0; k < n; k++) {
-    iperm[k] = -1;
+    where[k] = -1;
   }
-  for (k = 0; k < n; k++) {
-    if (perm[k] < 0 || perm[k] >= n || iperm[perm[k]] >= 0) {
+  for (k = 0; k < count; k++) {
+    if (rows[k] < 0 || rows[k] >= n || where[rows[k]] >= 0) {
       return k;
     }
-    iperm[perm[k]] = k;
+    where[rows[k]] = k;
   }
   return -1;
 }
 
-static void sli_permute_entries(const sl_csc *A, const sl_int *iperm, sl_int *row, sl_int *column) {
-  const int both = sli_triangle_scan(A) == SL_TRIANGLE_BOTH;
+typedef struct sli_submatrix {
+  const sl_csc *A;
+  sl_triangle triangle;
+  int is_folded;
+  sl_int count;
+  const sl_int *where;
+} sli_submatrix;
+
+static void sli_submatrix_visit(const sli_submatrix *s, sl_int *position, sl_matrix *M,
+                sl_int *from) {
+  const sl_csc *A = s->A;
   sl_int j, p;
   for (j = 0; j < A->n_cols; j++) {
-    for (p = A->p[j]; p < A->p[j + 1]; p++) {
-      const sl_int k = iperm[A->i[p]], l = iperm[j];
-      row[p] = both ? k : sli_max(k, l);
-      column[p] = both ? l : sli_min(k, l);
+    const sl_int c = s->where[j];
+    for (p = A->p[j]; p < A->p[j + 1] && c >= 0; p++) {
+      const sl_int r = s->where[A->i[p]];
+      const sl_int column = s->is_folded && r < c ? r : c;
+      if (r < 0 || !sli_is_read(s->triangle, A->i[p], j)) {
+        continue;
+      }
+      if (M == NULL) {
+        position[column + 1]++;
+      } else {
+        const sl_int to = position[column]++;
+        M->i[to] = column == c ? r : c;
+        if (M->x != NULL) {
+          M->x[to] = A->x[p];
+        }
+        if (from != NULL) {
+          from[to] = p;
+        }
+      }
     }
   }
 }
 
-SL_API sl_status sl_matrix_permute(sl_matrix **out, const sl_csc *A, const sl_int *perm,
-                   const sl_options *opt) {
+static sl_status sli_submatrix_make(sl_matrix **out, sl_int **from, const sli_submatrix *s,
+                  sl_int *position, const sl_allocator *a) {
+  sl_matrix *M = NULL;
+  sl_status status;
+  sl_int k;
+  memset(position, 0, ((size_t)s->count + 1) * sizeof(sl_int));
+  sli_submatrix_visit(s, position, NULL, NULL);
+  for (k = 0; k < s->count; k++) {
+    position[k + 1] += position[k];
+  }
+  status = sli_matrix_new(&M, s->count, s->count, position[s->count], s->A->x != NULL, a);
+  if (status == SL_OK && from != NULL) {
+    *from = (sl_int *)sli_alloc(a, ((size_t)position[s->count] + 1) * sizeof(sl_int));
+    status = *from == NULL ? SL_ERR_MEMORY : SL_OK;
+  }
+  if (status == SL_OK) {
+    memcpy(M->p, position, ((size_t)s->count + 1) * sizeof(sl_int));
+    sli_submatrix_visit(s, position, M, from == NULL ? NULL : *from);
+    *out = M;
+  } else {
+    sl_matrix_free(M);
+  }
+  return status;
+}
+
+SL_API sl_status sl_matrix_submatrix(sl_matrix **out, const sl_csc *A, const sl_int *rows,
+                   sl_int count, const sl_options *opt, sl_stats *stats) {
   const sl_allocator a = sli_allocator(opt);
   sli_block b = {NULL, 0, 0};
-  sl_int *iperm = NULL, *row = NULL, *column = NULL;
+  sli_submatrix s;
+  sl_int *where = NULL, *position = NULL, bad;
   sl_status status;
+  sli_stats_clear_error(stats);
   if (out == NULL) {
     return SL_ERR_ARGUMENT;
   }
   *out = NULL;
-  status = sl_csc_check(A, NULL);
+  status = sl_csc_check(A, stats);
   if (status != SL_OK) {
     return status;
   }
-  if (A->n_rows != A->n_cols || (A->n_cols > 0 && perm == NULL) ||
+  if (A->n_rows != A->n_cols || count < 0 || (count > 0 && rows == NULL) ||
     !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
     return SL_ERR_ARGUMENT;
   }
   SLI_LAYOUT(&b, &a, status) {
-    iperm = SLI_TAKE(&b, sl_int, A->n_cols);
-    row = SLI_TAKE(&b, sl_int, sli_nnz(A));
-    column = SLI_TAKE(&b, sl_int, sli_nnz(A));
+    where = SLI_TAKE(&b, sl_int, A->n_cols);
+    position = SLI_TAKE(&b, sl_int, (uint64_t)count + 1);
   }
-  if (status == SL_OK) {
-    if (sli_perm_invert(perm, A->n_cols, iperm) >= 0) {
-      status = SL_ERR_ARGUMENT;
-    } else {
-      sli_permute_entries(A, iperm, row, column);
-      sli_triplet_list t;
-      t.n_rows = A->n_rows;
-      t.n_cols = A->n_cols;
-      t.count = sli_nnz(A);
-      t.i = row;
-      t.j = column;
-      t.x = A->x;
-      status = sli_from_triplets(out, &t, &a);
-    }
-    sli_free(&a, b.base);
+  if (status != SL_OK) {
+    return status;
   }
+  bad = sli_rows_invert(rows, count, A->n_cols, where);
+  if (bad >= 0) {
+    status = sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+  } else {
+    s.A = A;
+    s.triangle = SL_TRIANGLE_NONE;
+    s.is_folded = sli_triangle_scan(A) != SL_TRIANGLE_BOTH;
+    s.count = count;
+    s.where = where;
+    status = sli_submatrix_make(out, NULL, &s, position, &a);
+  }
+  sli_free(&a, b.base);
   return status;
 }
 
@@ -9490,7 +9683,7 @@ static sl_status sli_order_given(const sli_order_job *job) {
   if (given == NULL && n > 0) {
     return SL_ERR_ARGUMENT;
   }
-  bad = sli_perm_invert(given, n, job->scratch);
+  bad = sli_rows_invert(given, n, n, job->scratch);
   if (bad >= 0) {
     return sli_fail_at(job->stats, SL_ERR_ARGUMENT, bad, -1, 0.0);
   }
@@ -9685,6 +9878,7 @@ typedef struct sli_backing {
 
 struct sl_symbolic {
   sl_allocator allocator;
+  sli_atomic borrowers;
   sl_stats stats;
   sl_int n;
   sl_int n_supers;
@@ -11282,13 +11476,17 @@ SL_API sl_status sl_symbolic_create(sl_symbolic **out, const sl_csc *A, const sl
 }
 
 SL_API void sl_symbolic_free(sl_symbolic *S) {
-  if (S != NULL) {
+  if (S != NULL && sli_is_last(&S->borrowers)) {
     const sl_allocator a = S->allocator;
     if (S->backing.release != NULL) {
       S->backing.release(S->backing.bytes, S->backing.size);
     }
     sli_free(&a, S);
   }
+}
+
+SLI_INLINE void sli_symbolic_return(const sl_symbolic *S) {
+  sl_symbolic_free((sl_symbolic *)S);
 }
 
 SL_API void sl_symbolic_stats(const sl_symbolic *S, sl_stats *stats) {
@@ -11726,9 +11924,9 @@ typedef struct sli_row_work {
 
 struct sl_factor {
   sl_allocator allocator;
+  sli_atomic borrowers;
   sl_stats stats;
   const sl_symbolic *S;
-  sli_hash analysis;
   const sli_kernels *kernels;
   const sli_storage_type *type;
   const sli_sweeps *sweeps;
@@ -11752,6 +11950,7 @@ struct sl_factor {
   double *divisors;
   sli_extent *extents;
   sli_pivot_rule rule;
+  int is_definite;
   double growth_limit;
   double error_limit;
   sli_null_space null;
@@ -11780,17 +11979,8 @@ SLI_INLINE int sli_numbers_are_of(const sli_numbers *numbers, const sl_factor *F
        sli_hash_equals(numbers->identity, F->identity);
 }
 
-SLI_INLINE int sli_factor_is_over(const sl_factor *F, const sl_symbolic *S, sli_hash identity) {
-  return F->S == S && sli_hash_equals(F->analysis, S->identity) &&
-       sli_hash_equals(identity, S->identity);
-}
-
 SLI_INLINE sl_status sli_inverse_check(const sl_factor *F) {
   return !F->is_valid ? SL_ERR_STATE : F->E != NULL ? SL_ERR_UNSUPPORTED : SL_OK;
-}
-
-SLI_INLINE int sli_factor_may_change(const sl_factor *F) {
-  return !F->is_immutable && sli_factor_is_over(F, F->S, F->analysis);
 }
 
 SLI_INLINE sl_status sli_fail(sli_failure *f, sl_status status, sl_int super, sl_int pivot,
@@ -12050,6 +12240,19 @@ SLI_INLINE void sli_count_pivot(sl_factor_info *info, double d) {
   info->negative += d < 0.0;
   info->pivot_min = size < info->pivot_min ? size : info->pivot_min;
   info->pivot_max = size > info->pivot_max ? size : info->pivot_max;
+}
+
+SLI_COLD static void sli_refuse_negative(const sl_factor *F, sli_failure *failure) {
+  double values[2] = {0.0, 0.0};
+  sl_int k = -1;
+  do {
+    k++;
+    values[0] = values[1] = F->D[k];
+    if (F->E != NULL && F->S->pairs[k] == SLI_PAIR_FIRST) {
+      sli_pair_eigenvalues(F, k, values);
+    }
+  } while (!(values[0] < 0.0) && !(values[1] < 0.0));
+  (void)sli_fail(failure, SL_ERR_PIVOT, F->S->super_of[k], k, -1, fmin(values[0], values[1]));
 }
 
 static void sli_count_pivots(sl_factor *F, sl_int count) {
@@ -14191,6 +14394,8 @@ static int sli_factor_choices_are_valid(const sl_options *opt) {
       opt->growth_limit == opt->growth_limit && opt->error_limit == opt->error_limit &&
       opt->regularization >= 0.0 && sli_is_finite(opt->regularization) &&
       (opt->regularization == 0.0 || opt->null_pivots == SL_NULL_PIVOT_REFUSE) &&
+      (opt->definite == 0 || (opt->definite == 1 && opt->regularization == 0.0 &&
+                  opt->null_pivots == SL_NULL_PIVOT_REFUSE)) &&
       opt->null_vector_count <= SLI_NULL_VECTORS_MAX &&
       (opt->null_vector_count <= 1 || opt->null_vector != NULL));
 }
@@ -14220,6 +14425,7 @@ static void sli_factor_rules(sl_factor *F, const sl_options *opt) {
     opt == NULL || opt->null_vector_count == 0 ? 1 : (sl_int)opt->null_vector_count;
   F->null.consistency = consistency == 0.0 ? 1e-6 : consistency;
   F->null.is_centered = F->null.mode == SL_NULL_PIVOT_SKIP && opt->mass != NULL;
+  F->is_definite = opt != NULL && opt->definite != 0;
   F->growth_limit = sli_limit(opt == NULL ? 0.0 : opt->growth_limit,
                 sli_is_float(F) ? SLI_GROWTH_LIMIT_FLOAT : SLI_GROWTH_LIMIT);
   F->error_limit = sli_limit(opt == NULL ? 0.0 : opt->error_limit, 1e-8);
@@ -14284,10 +14490,11 @@ static sl_method sli_method(const sl_symbolic *S, const sli_storage_type *type,
 }
 
 SL_API void sl_factor_free(sl_factor *F) {
-  if (F != NULL) {
+  if (F != NULL && sli_is_last(&F->borrowers)) {
     const sl_allocator a = F->allocator;
     sli_free(&a, F->work.stack);
     sli_free(&a, F->scratch);
+    sli_symbolic_return(F->S);
     sli_free(&a, F);
   }
 }
@@ -14328,7 +14535,6 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   draft.S = S;
   draft.kernels =
     kernels != NULL ? kernels : sli_kernels_select(opt == NULL ? SL_ISA_AUTO : opt->isa);
-  draft.analysis = S->identity;
   draft.type = sli_storage_type_of(opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
   if (draft.type == NULL) { /* untested: all packs are there */
     return sli_unsupported(stats, sli_storage_needs(opt->storage)); /* untested: the same */
@@ -14350,6 +14556,7 @@ static sl_status sli_factor_new_with(sl_factor **out, const sl_symbolic *S, cons
   if (status == SL_OK) {
     sl_factor *F = (sl_factor *)(void *)b.base;
     *F = draft;
+    sli_borrow(&S->borrowers);
     memset(F->extents, 0, (size_t)S->n_supers * sizeof *F->extents);
     if (F->E != NULL) {
       memset(F->E, 0, (size_t)S->n * sizeof(double));
@@ -14469,8 +14676,7 @@ static sl_status sli_factor_check(const sl_symbolic *S, const sl_csc *A) {
 }
 
 SLI_INLINE sl_status sli_factor_fits(const sl_factor *F, const sl_csc *A) {
-  return F->is_valid && sli_factor_is_over(F, F->S, F->analysis) ? sli_factor_check(F->S, A)
-                                   : SL_ERR_STATE;
+  return F->is_valid ? sli_factor_check(F->S, A) : SL_ERR_STATE;
 }
 
 SLI_COLD static void sli_factor_report_entry(sl_factor *F, const sl_csc *A, const sli_failure *f) {
@@ -14497,6 +14703,9 @@ SLI_COLD static const char *sli_factor_advice(const sl_factor *F, const sli_fail
   }
   if (f->status != SL_ERR_PIVOT || f->pivot < 0) {
     return NULL;
+  }
+  if (F->is_definite && f->value < 0.0 && f->bound == 0.0) {
+    return "options.definite: the pivot is negative, so that A is not positive definite";
   }
   if (f->bound < 0.0) {
     return "there was no memory to judge whether the pivot is null";
@@ -14529,7 +14738,7 @@ SLI_NOINLINE static void sli_factor_report(sl_factor *F, const sl_csc *A, const 
     sli_factor_report_entry(F, A, f);
   }
   sli_count_pivots(F, n_done);
-  F->stats.factor.null += f->status == SL_ERR_PIVOT;
+  F->stats.factor.null += f->status == SL_ERR_PIVOT && !has_pivots;
 }
 
 static void sli_factor_stats_copy(const sl_stats *from, sl_stats *to) {
@@ -14562,6 +14771,14 @@ static void sli_pairs_done(sl_factor *F) {
   }
 }
 
+static void sli_factor_identify_numbers(sl_factor *F) {
+  const sl_int storage = (sl_int)F->type->storage;
+  if (F->type->storage != SL_STORAGE_DOUBLE) {
+    F->identity = sli_hash_ints(F->identity, &storage, 1);
+  }
+  F->identity = sli_hash_words(F->identity, F->D, F->S->n);
+}
+
 static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failure *failure,
                  double started, sl_stats *stats) {
   int has_pivots, suspects;
@@ -14583,14 +14800,15 @@ static sl_status sli_factor_done(sl_factor *F, const sli_source *from, sli_failu
     sli_signs_judge(F, failure) != SL_OK) {
     sli_factor_outcome(F, from->A, failure, 0);
   }
+  if (F->is_definite && has_pivots && F->stats.factor.negative > 0 &&
+    failure->status != SL_ERR_PIVOT) {
+    sli_refuse_negative(F, failure);
+    sli_factor_outcome(F, from->A, failure, 1);
+  }
   F->stats.factor.seconds = sli_seconds() - started;
   F->is_valid = failure->status == SL_OK;
   if (F->is_valid) {
-    const sl_int storage = (sl_int)F->type->storage;
-    if (F->type->storage != SL_STORAGE_DOUBLE) {
-      F->identity = sli_hash_ints(F->identity, &storage, 1);
-    }
-    F->identity = sli_hash_words(F->identity, F->D, F->S->n);
+    sli_factor_identify_numbers(F);
     if (F->E != NULL) {
       sli_pairs_done(F);
     }
@@ -14681,7 +14899,7 @@ SL_API sl_status sl_factor_refactor(sl_factor *F, const sl_csc *A, sl_stats *sta
   if (F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  status = sli_factor_may_change(F) ? sli_factor_check(F->S, A) : SL_ERR_STATE;
+  status = F->is_immutable ? SL_ERR_STATE : sli_factor_check(F->S, A);
   status = status == SL_OK ? sli_factor_prepare(F) : status;
   if (status != SL_OK) {
     return status;
@@ -14954,17 +15172,16 @@ SL_API sl_status sl_work_reserve(sl_work *W, size_t bytes) {
 typedef struct sli_ending {
   const struct sli_ending_calls *calls;
   sl_int rows;
+  sli_atomic borrowers;
 } sli_ending;
 
 typedef struct sli_ending_use {
-  sli_hash identity;
   const unsigned char *b, *x;
   sl_off entries;
 } sli_ending_use;
 
 typedef struct sli_query {
   const sl_symbolic *S;
-  sli_hash analysis;
   sl_int nb, nx;
   int is_shared;
   int b_repeats;
@@ -14985,12 +15202,12 @@ typedef struct sli_ending_calls {
   uint64_t (*vectors)(const sli_ending *e, sl_int lanes);
   size_t (*scratch)(const sli_ending *e, sl_int lanes);
   void (*apply)(const sl_factor *F, const sli_query *q, int kind, const struct sli_vectors *v);
+  void (*give_back)(const sli_ending *e);
 } sli_ending_calls;
 
 static sli_query sli_query_all(const sl_symbolic *S) {
   sli_query q;
   q.S = S;
-  q.analysis = S->identity;
   q.nb = q.nx = S->n;
   q.is_shared = 1;
   q.b_repeats = 0;
@@ -15002,8 +15219,7 @@ static sli_query sli_query_all(const sl_symbolic *S) {
 }
 
 SLI_INLINE int sli_query_fits(const sli_query *q, const sl_factor *F) {
-  return F->is_valid && sli_factor_is_over(F, q->S, q->analysis) &&
-       (q->ending == NULL || q->ending->calls->fits(q, F));
+  return F->is_valid && F->S == q->S && (q->ending == NULL || q->ending->calls->fits(q, F));
 }
 
 SLI_INLINE int sli_lanes_kind(sl_int nrhs) {
@@ -16050,6 +16266,22 @@ static void sli_sweep_tasks_block(void *data, sl_int m, sl_int worker) {
                (unsigned char *)t->memory + (size_t)worker * t->bytes);
 }
 
+static sl_status sli_query_prepare(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
+                   const sli_rhs *rhs, sl_work *W) {
+  sli_sweep_tasks_plan(t, F, q, rhs, &W->threads);
+  return sli_work_grow(W, t->workers > 1 ? t->total
+                       : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
+}
+
+static sl_status sli_query_run(sli_sweep_tasks *t, const sl_factor *F, const sli_query *q,
+                 const sli_rhs *rhs, sl_work *W) {
+  if (t->workers > 1) {
+    sli_sweep_tasks_run(t, &W->threads, W->block, sli_sweep_tasks_block);
+    return SL_OK;
+  }
+  return sli_sweep(F, q, rhs, W->block);
+}
+
 static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const sli_rhs *rhs,
                  sl_work *W) {
   sl_work own;
@@ -16060,14 +16292,8 @@ static sl_status sli_query_solve(const sl_factor *F, const sli_query *q, const s
   }
   own = sli_work_own(&F->allocator);
   W = W == NULL ? &own : W;
-  sli_sweep_tasks_plan(&t, F, q, rhs, &W->threads);
-  status = sli_work_grow(W, t.workers > 1 ? t.total
-                      : sli_vectors_bytes(q, rhs->nrhs, sli_block_most(F)));
-  if (status == SL_OK && t.workers > 1) {
-    sli_sweep_tasks_run(&t, &W->threads, W->block, sli_sweep_tasks_block);
-  } else if (status == SL_OK) {
-    status = sli_sweep(F, q, rhs, W->block);
-  }
+  status = sli_query_prepare(&t, F, q, rhs, W);
+  status = status == SL_OK ? sli_query_run(&t, F, q, rhs, W) : status;
   sli_free(&own.allocator, own.block);
   return status;
 }
@@ -16198,7 +16424,6 @@ static int sli_reach_equal(const sli_reach *a, const sli_reach *b) {
 static void sli_query_fill(sli_query *q, const sl_symbolic *S, const sli_ending *ending, sli_set *b,
                sli_set *x) {
   q->S = S;
-  q->analysis = S->identity;
   q->ending = ending;
   q->nb = b->count;
   q->nx = x->count;
@@ -16256,6 +16481,10 @@ static sl_status sli_plan_make(sl_plan **out, const sl_symbolic *S, const sli_en
     P->allocator = *a;
     P->bytes = kept.used;
     P->query = query;
+    sli_borrow(&S->borrowers);
+    if (ending != NULL) {
+      sli_borrow(&ending->borrowers);
+    }
     *out = P;
   }
   return status;
@@ -16304,6 +16533,10 @@ SL_API sl_status sl_plan_create(sl_plan **out, const sl_symbolic *S, const sl_in
 SL_API void sl_plan_free(sl_plan *P) {
   if (P != NULL) {
     const sl_allocator a = P->allocator;
+    if (P->query.ending != NULL) {
+      P->query.ending->calls->give_back(P->query.ending);
+    }
+    sli_symbolic_return(P->query.S);
     sli_free(&a, P);
   }
 }
@@ -16421,6 +16654,573 @@ SL_API sl_status sl_local_solve(const sl_factor *F, const sl_int *bset, sl_int n
   }
   sli_free(&own.allocator, own.block);
   return status;
+}
+
+/* src/impl/solve/dirichlet_rows.h: free and fixed rows, the entries of A between them, and what is copied of A */
+
+typedef struct sli_dirichlet_ways {
+  sl_status (*take)(sl_dirichlet *D, const sl_factor *F, const sl_csc *A, sl_stats *stats);
+  sl_status (*solve)(const sl_dirichlet *D, const sli_rhs *rhs, const double *G, size_t ldg,
+             sl_work *W);
+  void (*release)(sl_dirichlet *D);
+} sli_dirichlet_ways;
+
+struct sl_dirichlet {
+  sl_allocator allocator;
+  sl_options analysis, factorization;
+  sli_hash pattern;
+  sl_triangle triangle;
+  sl_int n, n_free, n_fixed, n_couplings;
+  sl_int *free_rows;
+  sl_int *fixed_rows;
+  sl_int *coupling_free, *coupling_fixed, *coupling_from;
+  double *couplings;
+  sl_dirichlet_info info;
+
+  sl_matrix *M;
+  sl_int *from;
+  sl_symbolic *S;
+  sl_factor *F;
+  const sli_dirichlet_ways *ways;
+  void *pins;
+};
+
+static sl_int sli_dirichlet_couple(sl_dirichlet *D, const sl_csc *A, sl_triangle triangle,
+                   const sl_int *where) {
+  sl_int j, p, count = 0;
+  for (j = 0; j < A->n_cols; j++) {
+    const sl_int c = where[j];
+    for (p = A->p[j]; p < A->p[j + 1]; p++) {
+      const sl_int r = where[A->i[p]];
+      if ((r ^ c) >= 0 || !sli_is_read(triangle, A->i[p], j)) {
+        continue;
+      }
+      if (D != NULL) {
+        D->coupling_free[count] = sli_max(r, c);
+        D->coupling_fixed[count] = -1 - sli_min(r, c);
+        D->coupling_from[count] = p;
+      }
+      count++;
+    }
+  }
+  return count;
+}
+
+static sl_status sli_dirichlet_check_values(const sl_dirichlet *D, const sl_csc *A,
+                      sl_stats *stats) {
+  sl_int k;
+  for (k = 0; k < D->n_couplings; k++) {
+    const sl_int p = D->coupling_from[k];
+    if (!sli_is_finite(A->x[p])) {
+      return sli_fail_at(stats, SL_ERR_NOT_FINITE, A->i[p], sli_column_of(A, p), A->x[p]);
+    }
+  }
+  return SL_OK;
+}
+
+static void sli_dirichlet_copy_values(sl_dirichlet *D, const sl_csc *A) {
+  sl_int k;
+  for (k = 0; k < D->n_couplings; k++) {
+    D->couplings[k] = A->x[D->coupling_from[k]];
+  }
+  for (k = 0; D->M != NULL && k < D->M->p[D->n_free]; k++) {
+    D->M->x[k] = A->x[D->from[k]];
+  }
+}
+
+static void sli_dirichlet_number(const sl_dirichlet *D, sl_int *where) {
+  sl_int k;
+  for (k = 0; k < D->n_free; k++) {
+    where[D->free_rows[k]] = k;
+  }
+  for (k = 0; k < D->n_fixed; k++) {
+    where[D->fixed_rows[k]] = -1 - k;
+  }
+}
+
+static void sli_dirichlet_report(const sl_dirichlet *D, sl_stats *stats) {
+  if (stats->error.row >= 0) {
+    stats->error.row = D->free_rows[stats->error.row];
+  }
+  if (stats->error.column >= 0) {
+    stats->error.column = D->free_rows[stats->error.column];
+  }
+}
+
+typedef struct sli_dirichlet_arrays {
+  sl_int *perm, *signs;
+  double *mass, *null_vector;
+} sli_dirichlet_arrays;
+
+static void sli_dirichlet_arrays_layout(sli_dirichlet_arrays *r, sli_block *b,
+                    const sl_options *opt, sl_int n) {
+  const uint64_t count = (uint64_t)n;
+  r->perm =
+    opt->ordering != SL_ORDERING_GIVEN || opt->perm == NULL ? NULL : SLI_TAKE(b, sl_int, count);
+  r->signs = opt->signs == NULL ? NULL : SLI_TAKE(b, sl_int, count);
+  r->mass = opt->mass == NULL ? NULL : SLI_TAKE(b, double, count);
+  r->null_vector =
+    opt->null_vector == NULL ? NULL : SLI_TAKE(b, double, count *(opt->null_vector_count + 1));
+}
+
+static sl_status sli_dirichlet_arrays_fill(const sli_dirichlet_arrays *r, const sl_dirichlet *D,
+                       const sl_options *opt, const sl_int *where,
+                       sl_int *scratch, sl_stats *stats) {
+  const sl_int m = D->n_free;
+  const size_t vectors = opt->null_vector_count == 0 ? 1 : opt->null_vector_count;
+  sl_int k, at = 0;
+  size_t v;
+  if (r->perm != NULL) {
+    k = sli_rows_invert(opt->perm, D->n, D->n, scratch);
+    if (k >= 0) {
+      return sli_fail_at(stats, SL_ERR_ARGUMENT, k, -1, 0.0);
+    }
+    for (k = 0; k < D->n; k++) {
+      if (where[opt->perm[k]] >= 0) {
+        r->perm[at++] = where[opt->perm[k]];
+      }
+    }
+  }
+  for (k = 0; k < m; k++) {
+    const sl_int row = D->free_rows[k];
+    if (r->signs != NULL) {
+      r->signs[k] = opt->signs[row];
+    }
+    if (r->mass != NULL) {
+      r->mass[k] = opt->mass[row];
+    }
+    for (v = 0; v < vectors && r->null_vector != NULL; v++) {
+      r->null_vector[v * (size_t)m + (size_t)k] =
+        opt->null_vector[v * (size_t)D->n + (size_t)row];
+    }
+  }
+  return SL_OK;
+}
+
+static int sli_dirichlet_keeps_blocks(const sl_dirichlet *D, sl_int size) {
+  sl_int k;
+  for (k = 0; k < D->n_free && size > 1; k++) {
+    const sl_int first = D->free_rows[k - k % size];
+    if (first % size != 0 || D->free_rows[k] != first + k % size) {
+      return 0;
+    }
+  }
+  return size > 1 && D->n_free % size == 0;
+}
+
+/* src/impl/solve/dirichlet.h: systems with rows fixed at given values: a factor of the free rows, its solves */
+
+static const sli_dirichlet_ways *sli_dirichlet_ways_of(void);
+
+static void sli_dirichlet_clear(sl_dirichlet *D) {
+  if (D->pins != NULL) {
+    D->ways->release(D);
+  }
+  sl_factor_free(D->F);
+  sl_symbolic_free(D->S);
+  sl_matrix_free(D->M);
+  sli_free(&D->allocator, D->from);
+}
+
+SL_API void sl_dirichlet_free(sl_dirichlet *D) {
+  if (D != NULL) {
+    const sl_allocator a = D->allocator;
+    sli_dirichlet_clear(D);
+    sli_free(&a, D);
+  }
+}
+
+static sl_status sli_dirichlet_factor(sl_dirichlet *D, const sl_csc *A,
+                    const sli_dirichlet_arrays *arrays, const sl_int *where,
+                    sl_int *scratch, sl_stats *stats) {
+  sl_options analysis = D->analysis, factorization = D->factorization;
+  sli_submatrix s;
+  sl_csc view;
+  sl_status status;
+  analysis.perm = arrays->perm;
+  analysis.block_size =
+    sli_dirichlet_keeps_blocks(D, analysis.block_size) ? analysis.block_size : 0;
+  factorization.signs = arrays->signs;
+  factorization.mass = arrays->mass;
+  factorization.null_vector = arrays->null_vector;
+  s.A = A;
+  s.triangle = D->triangle;
+  s.is_folded = 1;
+  s.count = D->n_free;
+  s.where = where;
+  status = sli_submatrix_make(&D->M, &D->from, &s, scratch, &D->allocator);
+  if (status == SL_OK) {
+    view = sl_matrix_view(D->M);
+    status = sl_symbolic_create(&D->S, &view, &analysis, stats);
+  }
+  if (status == SL_OK) {
+    status = sl_factor_create(&D->F, D->S, &view, &factorization, stats);
+    if (stats != NULL) {
+      sli_dirichlet_report(D, stats);
+    }
+  }
+  D->info.method = SL_DIRICHLET_SUBMATRIX;
+  return status;
+}
+
+static void sli_dirichlet_options(sl_dirichlet *D, const sl_options *opt) {
+  const sl_options none = sli_options_with(&D->allocator);
+  sl_options *f = &D->factorization, *s = &D->analysis;
+  *f = *s = none;
+  if (opt == NULL) {
+    return;
+  }
+  s->threads = f->threads = opt->threads;
+  s->ordering = opt->ordering;
+  s->relaxation = opt->relaxation;
+  s->metis_options = opt->metis_options;
+  s->block_size = opt->block_size;
+  s->purpose = opt->purpose;
+  f->isa = opt->isa;
+  f->method = opt->method;
+  f->null_pivots = opt->null_pivots;
+  f->null_tolerance = opt->null_tolerance;
+  f->consistency_tolerance = opt->consistency_tolerance;
+  f->regularization = opt->regularization;
+  f->growth_limit = opt->growth_limit;
+  f->error_limit = opt->error_limit;
+  f->null_vector_count = opt->null_vector_count;
+  f->storage = opt->storage;
+  f->definite = opt->definite;
+}
+
+static sl_status sli_dirichlet_check(const sl_csc *A, const sl_int *rows, sl_int count,
+                   const sl_options *opt, sl_stats *stats) {
+  const sl_status status = sl_csc_check(A, stats);
+  if (status != SL_OK) {
+    return status;
+  }
+  if (A->n_rows != A->n_cols || (sli_nnz(A) > 0 && A->x == NULL) || count < 0 ||
+    (count > 0 && rows == NULL) ||
+    !sli_options_are_valid(opt, SLI_READS_ANALYSIS | SLI_READS_TRIANGLE | SLI_READS_FACTOR |
+                    SLI_READS_ISA) ||
+    !sli_factor_choices_are_valid(opt)) {
+    return SL_ERR_ARGUMENT;
+  }
+  return opt != NULL && opt->block_size != 0 &&
+           (opt->block_size < 0 || A->n_cols % opt->block_size != 0)
+         ? SL_ERR_ARGUMENT
+         : SL_OK;
+}
+
+static void sli_dirichlet_layout(sl_dirichlet *D, sli_block *b) {
+  (void)sli_take(b, 1, sizeof(sl_dirichlet));
+  D->free_rows = SLI_TAKE(b, sl_int, D->n_free);
+  D->fixed_rows = SLI_TAKE(b, sl_int, D->n_fixed);
+  D->coupling_free = SLI_TAKE(b, sl_int, D->n_couplings);
+  D->coupling_fixed = SLI_TAKE(b, sl_int, D->n_couplings);
+  D->coupling_from = SLI_TAKE(b, sl_int, D->n_couplings);
+  D->couplings = SLI_TAKE(b, double, D->n_couplings);
+}
+
+static sl_status sli_dirichlet_new(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
+                   sl_dirichlet *draft, sl_int *where, sl_stats *stats) {
+  sli_block b = {NULL, 0, 0};
+  sl_dirichlet *D;
+  sl_status status = SL_OK;
+  sl_int k, free_row = 0;
+  const sl_int bad = sli_rows_invert(rows, draft->n_fixed, draft->n, where);
+  if (bad >= 0) {
+    return sli_fail_at(stats, SL_ERR_ARGUMENT, rows[bad], -1, 0.0);
+  }
+  for (k = 0; k < draft->n; k++) {
+    where[k] = where[k] < 0 ? free_row++ : -1 - where[k];
+  }
+  draft->n_free = free_row;
+  draft->n_couplings = sli_dirichlet_couple(NULL, A, draft->triangle, where);
+  SLI_LAYOUT(&b, &draft->allocator, status) {
+    sli_dirichlet_layout(draft, &b);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  D = (sl_dirichlet *)(void *)b.base;
+  *D = *draft;
+  *out = D;
+  for (k = 0; k < D->n_fixed; k++) {
+    D->fixed_rows[k] = rows[k];
+  }
+  for (k = 0; k < D->n; k++) {
+    if (where[k] >= 0) {
+      D->free_rows[where[k]] = k;
+    }
+  }
+  (void)sli_dirichlet_couple(D, A, D->triangle, where);
+  D->info.n_free = D->n_free;
+  D->info.couplings = D->n_couplings;
+  status = sli_dirichlet_check_values(D, A, stats);
+  if (status == SL_OK) {
+    sli_dirichlet_copy_values(D, A);
+  }
+  return status;
+}
+
+static int sli_dirichlet_may_reuse(const sl_factor *F, const sl_options *opt) {
+  return F != NULL &&
+       (opt == NULL ||
+      ((opt->perm == NULL || opt->ordering != SL_ORDERING_GIVEN) && opt->mass == NULL &&
+       opt->signs == NULL && opt->null_vector == NULL &&
+       opt->null_pivots == SL_NULL_PIVOT_REFUSE && opt->regularization == 0.0)) &&
+       F->type->storage == (opt == NULL ? SL_STORAGE_DOUBLE : opt->storage);
+}
+
+static void sli_dirichlet_done(sl_dirichlet *D, double started, sl_stats *stats) {
+  D->info.seconds = sli_seconds() - started;
+  if (stats != NULL) {
+    stats->dirichlet = D->info;
+  }
+}
+
+static sl_status sli_dirichlet_begin(sl_dirichlet *D, const sl_csc *A, const sl_factor *F,
+                   const sl_options *opt, const sl_int *where, sl_int *scratch,
+                   sl_stats *stats) {
+  static const sl_options sli_no_options;
+  const sl_options *arrays_of = opt == NULL ? &sli_no_options : opt;
+  const sli_dirichlet_ways *ways = sli_dirichlet_ways_of();
+  sli_block b = {NULL, 0, 0};
+  sli_dirichlet_arrays arrays;
+  sl_status status = SL_OK;
+  if (ways != NULL && sli_dirichlet_may_reuse(F, opt)) { /* untested: all packs are there */
+    D->ways = ways;
+    status = ways->take(D, F, A, stats);
+    if (status != SL_OK || D->F != NULL || D->pins != NULL) {
+      return status;
+    }
+  }
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    sli_dirichlet_arrays_layout(&arrays, &b, arrays_of, D->n_free);
+  }
+  if (status == SL_OK) {
+    status = sli_dirichlet_arrays_fill(&arrays, D, arrays_of, where, scratch, stats);
+    status =
+      status == SL_OK ? sli_dirichlet_factor(D, A, &arrays, where, scratch, stats) : status;
+    sli_free(&D->allocator, b.base);
+  }
+  D->analysis.metis_options = NULL;
+  return status;
+}
+
+SL_API sl_status sl_dirichlet_create(sl_dirichlet **out, const sl_csc *A, const sl_int *rows,
+                   sl_int count, const sl_factor *F, const sl_options *opt,
+                   sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sli_block b = {NULL, 0, 0};
+  sl_dirichlet draft, *D = NULL;
+  sl_int *where = NULL, *scratch = NULL;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (out == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  *out = NULL;
+  status = sli_dirichlet_check(A, rows, count, opt, stats);
+  if (status != SL_OK) {
+    return status;
+  }
+  memset(&draft, 0, sizeof draft);
+  draft.allocator = sli_allocator(opt);
+  draft.n = A->n_cols;
+  draft.n_fixed = count;
+  (void)sli_pattern_hash(A, &draft.pattern);
+  sli_dirichlet_options(&draft, opt);
+  status = sli_csc_triangle(A, sli_triangle_scan(A), &draft.triangle, opt, stats);
+  SLI_LAYOUT(&b, &draft.allocator, status) {
+    where = SLI_TAKE(&b, sl_int, draft.n);
+    scratch = SLI_TAKE(&b, sl_int, (uint64_t)draft.n + 1);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  status = sli_dirichlet_new(&D, A, rows, &draft, where, stats);
+  status = status == SL_OK ? sli_dirichlet_begin(D, A, F, opt, where, scratch, stats) : status;
+  sli_free(&draft.allocator, b.base);
+  if (status == SL_OK) {
+    sli_dirichlet_done(D, started, stats);
+    *out = D;
+  } else {
+    sl_dirichlet_free(D);
+  }
+  return status;
+}
+
+static sl_status sli_dirichlet_replace(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+  const sli_dirichlet_arrays none = {NULL, NULL, NULL, NULL};
+  sl_dirichlet own = *D;
+  sli_block b = {NULL, 0, 0};
+  sl_int *where = NULL, *scratch = NULL;
+  sl_status status = SL_OK;
+  own.M = NULL;
+  own.from = NULL;
+  own.S = NULL;
+  own.F = NULL;
+  own.ways = NULL;
+  own.pins = NULL;
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    where = SLI_TAKE(&b, sl_int, D->n);
+    scratch = SLI_TAKE(&b, sl_int, (uint64_t)D->n + 1);
+  }
+  if (status == SL_OK) {
+    sli_dirichlet_number(D, where);
+    status = sli_dirichlet_factor(&own, A, &none, where, scratch, stats);
+    sli_free(&D->allocator, b.base);
+  }
+  sli_dirichlet_clear(status == SL_OK ? D : &own);
+  if (status == SL_OK) {
+    *D = own;
+    sli_dirichlet_copy_values(D, A);
+  }
+  return status;
+}
+
+SL_API sl_status sl_dirichlet_refactor(sl_dirichlet *D, const sl_csc *A, sl_stats *stats) {
+  const double started = stats == NULL ? 0.0 : sli_seconds();
+  sli_hash pattern;
+  sl_status status;
+  sli_stats_clear_error(stats);
+  if (D == NULL || !sli_csc_has_pattern(A)) {
+    return SL_ERR_ARGUMENT;
+  }
+  if (A->n_rows != D->n || A->n_cols != D->n || !sli_pattern_hash(A, &pattern) ||
+    !sli_hash_equals(pattern, D->pattern)) {
+    return SL_ERR_PATTERN;
+  }
+  if (sli_nnz(A) > 0 && A->x == NULL) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_dirichlet_check_values(D, A, stats);
+  if (status == SL_OK && D->M == NULL) {
+    status = sli_dirichlet_replace(D, A, stats);
+  } else if (status == SL_OK) {
+    const sl_csc view = sl_matrix_view(D->M);
+    sli_dirichlet_copy_values(D, A);
+    status = sl_factor_refactor(D->F, &view, stats);
+    if (stats != NULL) {
+      sli_dirichlet_report(D, stats);
+    }
+  }
+  if (status == SL_OK) {
+    sli_dirichlet_done(D, started, stats);
+  }
+  return status;
+}
+
+static void sli_dirichlet_gather(const sl_dirichlet *D, const sli_rhs *rhs) {
+  const sli_dense x = sli_dense_of(rhs->ldx), b = sli_dense_of(rhs->ldb);
+  const sl_int by_rows = x.column == 1;
+  const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
+  sl_int i, j;
+  for (i = 0; i < outer; i++) {
+    for (j = 0; j < inner; j++) {
+      const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
+      rhs->X[k * x.row + r * x.column] =
+        rhs->B == NULL ? 0.0 : rhs->B[(size_t)D->free_rows[k] * b.row + r * b.column];
+    }
+  }
+}
+
+static void sli_dirichlet_subtract(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                   size_t ldg) {
+  const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
+  sl_int k, r;
+  for (k = 0; k < D->n_couplings; k++) {
+    double *to = rhs->X + (size_t)D->coupling_free[k] * x.row;
+    const double *from = G + (size_t)D->coupling_fixed[k] * g.row, a = D->couplings[k];
+    for (r = 0; r < rhs->nrhs; r++) {
+      to[(size_t)r * x.column] -= a * from[(size_t)r * g.column];
+    }
+  }
+}
+
+static void sli_dirichlet_scatter(const sl_dirichlet *D, const sli_rhs *rhs) {
+  const sli_dense x = sli_dense_of(rhs->ldx);
+  const sl_int by_rows = x.column == 1;
+  const sl_int outer = by_rows ? D->n_free : rhs->nrhs, inner = by_rows ? rhs->nrhs : D->n_free;
+  sl_int i, j;
+  for (i = outer - 1; i >= 0; i--) {
+    for (j = inner - 1; j >= 0; j--) {
+      const size_t k = (size_t)(by_rows ? i : j), r = (size_t)(by_rows ? j : i);
+      rhs->X[(size_t)D->free_rows[k] * x.row + r * x.column] =
+        rhs->X[k * x.row + r * x.column];
+    }
+  }
+}
+
+static int sli_dirichlet_set_fixed(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                   size_t ldg) {
+  const sli_dense x = sli_dense_of(rhs->ldx), g = sli_dense_of(ldg);
+  sl_int k, r;
+  int is_finite = 1;
+  for (r = 0; r < rhs->nrhs; r++) {
+    for (k = 0; k < D->n_fixed; k++) {
+      const double value = G[(size_t)k * g.row + (size_t)r * g.column];
+      rhs->X[(size_t)D->fixed_rows[k] * x.row + (size_t)r * x.column] = value;
+      is_finite &= sli_is_finite(value);
+    }
+  }
+  return is_finite;
+}
+
+static sl_status sli_dirichlet_run(const sl_dirichlet *D, const sli_rhs *rhs, const double *G,
+                   size_t ldg, sl_work *W) {
+  const sli_rhs in_place = sli_rhs_of(rhs->X, rhs->ldx, rhs->X, rhs->ldx, rhs->nrhs);
+  const sli_query q = sli_query_all(D->S);
+  sli_sweep_tasks t;
+  sl_status status = sli_query_prepare(&t, D->F, &q, &in_place, W);
+  if (status == SL_OK) {
+    sli_dirichlet_gather(D, rhs);
+    sli_dirichlet_subtract(D, rhs, G, ldg);
+    status = D->n_free > 0 ? sli_query_run(&t, D->F, &q, &in_place, W) : SL_OK;
+    sli_dirichlet_scatter(D, rhs);
+  }
+  return status;
+}
+
+SL_API sl_status sl_dirichlet_solve(const sl_dirichlet *D, double *X, size_t ldx, const double *B,
+                  size_t ldb, const double *G, size_t ldg, sl_int nrhs,
+                  sl_work *W) {
+  sli_rhs rhs = sli_rhs_of(X, ldx, B, ldb, nrhs);
+  sl_work own;
+  sl_status status;
+  if (D == NULL ||
+    (nrhs > 0 && D->n_fixed > 0 && (G == NULL || !sli_dense_spans(ldg, D->n_fixed, nrhs)))) {
+    return SL_ERR_ARGUMENT;
+  }
+  status = sli_rhs_check(&rhs, D->n, B == NULL ? 0 : D->n);
+  if (status != SL_OK || nrhs == 0 || D->n == 0) {
+    return status;
+  }
+  if (D->pins == NULL && !D->F->is_valid) {
+    return SL_ERR_STATE;
+  }
+  own = sli_work_own(&D->allocator);
+  W = W == NULL ? &own : W;
+  status = D->pins != NULL ? D->ways->solve(D, &rhs, G, ldg, W)
+               : sli_dirichlet_run(D, &rhs, G, ldg, W);
+  sli_free(&own.allocator, own.block);
+  if (status == SL_OK && !sli_dirichlet_set_fixed(D, &rhs, G, ldg)) {
+    status = SL_ERR_NOT_FINITE;
+  }
+  return status;
+}
+
+SL_API sl_dirichlet_arrays sl_dirichlet_view(const sl_dirichlet *D) {
+  sl_dirichlet_arrays v;
+  memset(&v, 0, sizeof v);
+  if (D != NULL) {
+    v.n_free = D->n_free;
+    v.n_fixed = D->n_fixed;
+    v.free_rows = D->free_rows;
+    v.fixed_rows = D->fixed_rows;
+    v.symbolic = D->S;
+    v.factor = D->F;
+    v.matrix = sl_matrix_view(D->M);
+  }
+  return v;
 }
 
 /* accuracy: refinement, condition, defects, half solves, bounds of errors */
@@ -16573,7 +17373,7 @@ static sl_status sli_parts_check(const sl_factor *F, unsigned parts) {
   if (parts >= 2u * SL_PART_PT || (parts & both) == both) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+  if (!F->is_valid) {
     return SL_ERR_STATE;
   }
   if (parts & SL_PART_SQRT_D && F->stats.factor.negative > 0) {
@@ -16649,7 +17449,7 @@ SL_API sl_status sl_plan_solve_part(const sl_plan *P, const sl_factor *F, unsign
   if (P == NULL || F == NULL || (!is_forward && ends != (SL_PART_LT | SL_PART_PT))) {
     return SL_ERR_ARGUMENT;
   }
-  if (!sli_factor_is_over(F, P->query.S, P->query.analysis)) {
+  if (F->S != P->query.S) {
     return SL_ERR_STATE;
   }
   if (P->query.ending != NULL) {
@@ -19722,6 +20522,13 @@ SLI_INLINE const sli_costs *sli_costs_of(sl_isa isa) {
 #define SLI_PINS_COPY 0.6e-9
 #define SLI_PINS_MEMORY 1.2e-9
 
+#define SLI_DIRICHLET_ANALYSIS 280e-9
+#define SLI_DIRICHLET_ROW 120e-9
+#define SLI_DIRICHLET_COPY 1.2e-9
+#define SLI_DIRICHLET_PROBE 2e-9
+#define SLI_DIRICHLET_PINS 3.0
+#define SLI_DIRICHLET_LOST 1000.0
+
 /* src/impl/inverse/unit_vectors.h: forward sweeps of unit vectors, in blocks of up to 8 of similar reach */
 
 #define SLI_LANES_MAX 8
@@ -20864,7 +21671,6 @@ SL_API sl_status sl_inverse_block(const sl_factor *F, double *Z, size_t ldz, con
 struct sl_selected {
   sl_allocator allocator;
   sl_threads threads;
-  sli_hash analysis;
   sli_numbers numbers;
   sli_traversal traversal;
   sl_off *begin;
@@ -20903,6 +21709,7 @@ static sl_status sli_selected_plan(sl_selected **out, sl_selected *draft, const 
     }
     *out = (sl_selected *)(void *)kept.base;
     **out = *draft;
+    sli_borrow(&S->borrowers);
   } else {
     sli_free(&draft->allocator, kept.base);
   }
@@ -20920,7 +21727,6 @@ static sl_status sli_selected_new(sl_selected **out, const sl_factor *F, const s
   sl_int supers = S->n_supers;
   memset(&draft, 0, sizeof draft);
   draft.allocator = sli_allocator(opt);
-  draft.analysis = S->identity;
   draft.threads = opt == NULL || opt->threads.count == 0 ? F->threads : opt->threads;
   if (set != NULL) {
     SLI_LAYOUT(&b, &draft.allocator, status) {
@@ -21143,7 +21949,7 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
   if (Z == NULL || F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid || !sli_factor_is_over(F, Z->traversal.S, Z->analysis) || Z->is_immutable) {
+  if (!F->is_valid || F->S != Z->traversal.S || Z->is_immutable) {
     return SL_ERR_STATE;
   }
   return sli_selected_fill(Z, F, W);
@@ -21152,6 +21958,7 @@ SL_API sl_status sl_selected_refactor(sl_selected *Z, const sl_factor *F, sl_wor
 SL_API void sl_selected_free(sl_selected *Z) {
   if (Z != NULL) {
     const sl_allocator a = Z->allocator;
+    sli_symbolic_return(Z->traversal.S);
     sli_free(&a, Z->is_mapped ? NULL : Z->Z);
     sli_free(&a, Z);
   }
@@ -21256,8 +22063,6 @@ struct sl_region {
   sli_ending ending;
   sl_allocator allocator;
   const sl_symbolic *S;
-  sli_hash analysis;
-  sli_hash identity;
   sli_numbers numbers;
   sli_region_extent extent;
   sl_int *roots, *rows;
@@ -21586,7 +22391,7 @@ SLI_INLINE const sl_region *sli_region_of(const sli_ending *e) {
 
 static int sli_region_belongs(const sli_ending *e, const sl_symbolic *S) {
   const sl_region *R = sli_region_of(e);
-  return R->S == S && sli_hash_equals(R->analysis, S->identity);
+  return R->S == S;
 }
 
 static int sli_set_is_within(const sl_symbolic *S, const sli_set *set,
@@ -21658,15 +22463,13 @@ static void sli_region_finish(const sli_ending *e, sli_query *q, sli_set *b, sli
   const sl_region *R = sli_region_of(e);
   sli_set_mark(b, &q->forward);
   sli_set_mark(x, &q->backward);
-  q->used.identity = R->identity;
   q->used.b = b->marks;
   q->used.x = x->marks;
   q->used.entries = sli_boundary_entries(R, b, x);
 }
 
 static int sli_region_holds(const sli_query *q, const sl_factor *F) {
-  const sl_region *R = sli_region_of(q->ending);
-  return sli_hash_equals(q->used.identity, R->identity) && sli_region_fits(R, F);
+  return sli_region_fits(sli_region_of(q->ending), F);
 }
 
 static uint64_t sli_region_vectors_of(const sli_ending *e, sl_int lanes) {
@@ -21686,9 +22489,13 @@ static void sli_region_cross(const sl_factor *F, const sli_query *q, int kind,
   sli_region_apply(sli_region_of(q->ending), &q->used, F->kernels, kind, &boundary);
 }
 
+static void sli_region_give_back(const sli_ending *e) {
+  sl_region_free((sl_region *)(void *)e);
+}
+
 static const sli_ending_calls sli_region_calls = {
   sli_region_belongs,    sli_region_place,      sli_region_finish, sli_region_holds,
-  sli_region_vectors_of, sli_region_scratch_of, sli_region_cross};
+  sli_region_vectors_of, sli_region_scratch_of, sli_region_cross,  sli_region_give_back};
 
 SLI_INLINE void sli_region_begin(sl_region *R) {
   R->ending.calls = &sli_region_calls;
@@ -21704,9 +22511,6 @@ static void sli_region_index(sl_region *R) {
   sli_region_begin(R);
   R->extent.roots = R->roots;
   R->extent.rows = R->rows;
-  R->analysis = S->identity;
-  R->identity = sli_hash_ints(R->analysis, R->roots, R->extent.n_roots);
-  R->identity = sli_hash_ints(R->identity, R->rows, n);
   R->begin[0] = 0;
   for (k = 0; k < n; k++) {
     R->requested[k] = S->perm[R->rows[k]];
@@ -21780,6 +22584,7 @@ static sl_status sli_region_new(sl_region **out, const sli_choice *start, const 
     sli_region_from_choice(&draft, &c);
     *out = (sl_region *)(void *)kept.base;
     **out = draft;
+    sli_borrow(&S->borrowers);
   }
   sli_free(a, rest.base);
   sli_free(a, seeds.base);
@@ -21931,7 +22736,7 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
   if (R == NULL || F == NULL) {
     return SL_ERR_ARGUMENT;
   }
-  if (!sli_factor_is_over(F, R->S, R->analysis) || R->is_immutable) {
+  if (F->S != R->S || R->is_immutable) {
     return SL_ERR_STATE;
   }
   status = sli_region_check_factor(F, Z);
@@ -21942,8 +22747,9 @@ SL_API sl_status sl_region_refactor(sl_region *R, const sl_factor *F, const sl_s
 }
 
 SL_API void sl_region_free(sl_region *R) {
-  if (R != NULL) {
+  if (R != NULL && sli_is_last(&R->ending.borrowers)) {
     const sl_allocator a = R->allocator;
+    sli_symbolic_return(R->S);
     sli_free(&a, R);
   }
 }
@@ -22993,7 +23799,7 @@ static int sli_rank_is_suited(const sl_factor *F) {
 }
 
 static sl_status sli_rank_check(const sl_factor *F) {
-  if (!F->is_valid || !sli_factor_may_change(F)) {
+  if (!F->is_valid || F->is_immutable) {
     return SL_ERR_STATE;
   }
   return sli_rank_is_suited(F) ? SL_OK : SL_ERR_UNSUPPORTED;
@@ -23814,7 +24620,7 @@ SL_API sl_status sl_factor_change(sl_factor *F, const sl_csc *A, const sl_int *r
   sl_status status;
   sli_stats_clear_error(stats);
   status = sli_edges_check(F, rows, columns, deltas, count, stats);
-  status = status == SL_OK && !sli_factor_may_change(F) ? SL_ERR_STATE : status;
+  status = status == SL_OK && F->is_immutable ? SL_ERR_STATE : status;
   status = status == SL_OK ? sli_factor_check_size(F->S, A) : status;
   if (status != SL_OK) {
     return status;
@@ -25355,6 +26161,7 @@ SL_API sl_status sl_pins_create(sl_pins **out, const sl_factor *F, const sl_opti
   memset(P, 0, sizeof *P);
   P->allocator = a;
   P->F = P->base = F;
+  sli_borrow(&F->borrowers);
   P->reason = SL_PINS_NO_MATRIX;
   status = sli_pins_take(P);
   if (status == SL_OK) {
@@ -25370,6 +26177,7 @@ SL_API void sl_pins_free(sl_pins *P) {
     const sl_allocator a = P->allocator;
     sli_pins_release(P);
     sl_factor_free(P->G);
+    sl_factor_free((sl_factor *)P->F);
     sli_free(&a, P->values);
     sli_free(&a, P);
   }
@@ -26827,7 +27635,7 @@ static sl_status sli_restrict_arguments(const sl_factor *F, const sl_csc *A, con
     !sli_options_are_valid(opt, SLI_READS_NOTHING)) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+  if (!F->is_valid) {
     return SL_ERR_STATE;
   }
   if (F->E != NULL || F->S->nnz_input < 0) {
@@ -26891,6 +27699,211 @@ SL_API sl_status sl_factor_restrict(sl_symbolic **S, sl_factor **G, const sl_fac
   sli_restriction_free(&r, &a);
   return status;
 }
+
+/* src/impl/change/dirichlet_reuse.h: rows fixed at given values, by a factor of all rows: restriction or pins */
+
+static int sli_dirichlet_is_factor_of(const sl_factor *F, const sl_csc *A) {
+  sl_factor as;
+  if (sli_factor_fits(F, A) != SL_OK || F->E != NULL) {
+    return 0;
+  }
+  as = *F;
+  as.identity = sli_hash_words(F->S->identity, A->x, sli_nnz(A));
+  sli_factor_identify_numbers(&as);
+  return sli_hash_equals(as.identity, F->identity);
+}
+
+typedef struct sli_dirichlet_choice {
+  const sl_factor *F;
+  uint64_t *seeds, *scratch;
+  sl_int *uses;
+} sli_dirichlet_choice;
+
+static void sli_dirichlet_count(const sli_dirichlet_choice *c, sl_dirichlet *D) {
+  const sl_factor *F = c->F;
+  const sl_symbolic *S = F->S;
+  const double flop = sli_costs_of(F->kernels->isa)->flop, whole = sli_choose_refactor(F);
+  const double share = (double)D->n_free / (S->n > 0 ? S->n : 1);
+  const double entries = (double)S->scatter_begin[S->n_supers];
+  double computed = 0.0, kept = 0.0, pins;
+  sl_int kept_columns = 0, s, k;
+  for (k = 0; k < D->n_fixed; k++) {
+    c->seeds[k] = sli_keyed(S->iperm[D->fixed_rows[k]], 0);
+  }
+  sli_sort(c->seeds, D->n_fixed, c->scratch);
+  memset(c->uses, 0, (size_t)S->n_supers * sizeof(sl_int));
+  pins = SLI_DIRICHLET_PINS * sli_pins_capacitance_cost(S, c->seeds, D->n_fixed, 0, c->uses) +
+       SLI_DIRICHLET_PROBE * ((double)S->panel_begin[S->n_supers] + entries);
+  for (s = 0, k = 0; s < S->n_supers; s++) {
+    const sl_int up = S->super_parent[s], width = S->steps[s].width;
+    sl_int free_columns = width;
+    for (; k < D->n_fixed && sli_key(c->seeds[k]) < S->super_first[s + 1]; k++) {
+      c->uses[s]++;
+      free_columns--;
+    }
+    if (up != -1) {
+      c->uses[up] += c->uses[s];
+    }
+    if (c->uses[s] == 0) {
+      kept += SLI_DIRICHLET_COPY * (double)(S->panel_begin[s + 1] - S->panel_begin[s]);
+      kept_columns += width;
+    } else if (free_columns > 0) {
+      computed += (flop * sli_choose_front(S, s) + SLI_CHANGE_FRONT(flop)) * free_columns /
+            (double)width;
+    }
+  }
+  D->info.seconds_submatrix = share * (whole + SLI_DIRICHLET_ANALYSIS * entries);
+  D->info.seconds_restriction =
+    SLI_DIRICHLET_ROW * D->n_free +
+    (kept_columns < 0.4 * D->n_free ? share * whole : kept + computed);
+  D->info.seconds_pins = sli_pins_check(F) == SL_OK && F->null.vectors == 1 ? pins : 0.0;
+}
+
+static sl_status sli_dirichlet_probe(const sl_dirichlet *D, const sl_csc *A, const sl_pins *P,
+                   int *is_good) {
+  const size_t n = (size_t)D->n;
+  uint64_t random = 1;
+  sli_block b = {NULL, 0, 0};
+  double *x = NULL, *r = NULL, *sums = NULL, *zeros = NULL, size, error = 0.0;
+  sl_status status = SL_OK;
+  sl_int k;
+  *is_good = 0;
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    x = SLI_TAKE(&b, double, n);
+    r = SLI_TAKE(&b, double, n);
+    sums = SLI_TAKE(&b, double, n);
+    zeros = SLI_TAKE(&b, double, D->n_fixed);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  for (k = 0; k < D->n; k++) {
+    random = random * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    r[k] = 0.5 + (double)(random >> 40) / 33554432.0;
+  }
+  memset(zeros, 0, (size_t)D->n_fixed * sizeof(double));
+  status = sl_pins_solve(P, NULL, x, n, r, n, zeros, (size_t)D->n_fixed, 1, NULL);
+  if (status == SL_OK) {
+    size = sli_csc_norm(A, D->triangle, sums) * sli_largest(x, D->n) + 1.0;
+    sli_add_product(A, D->triangle, -1.0, r, x);
+    for (k = 0; k < D->n_free; k++) {
+      error = fmax(error, fabs(r[D->free_rows[k]]));
+    }
+    *is_good = error <= SLI_DIRICHLET_LOST * P->F->rule.epsilon * size;
+  }
+  sli_free(&D->allocator, b.base);
+  return status;
+}
+
+static sl_status sli_dirichlet_pin(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                   sl_stats *stats) {
+  const sl_options only_memory = sli_options_with(&D->allocator);
+  sl_pins *P = NULL;
+  int is_good = 0;
+  sl_status status = sl_pins_create(&P, F, &only_memory);
+  status = status == SL_OK ? sl_pins_add(P, D->fixed_rows, D->n_fixed, stats) : status;
+  if (status == SL_OK && P->n_used == F->null.count) {
+    status = sli_dirichlet_probe(D, A, P, &is_good);
+  }
+  if (is_good) {
+    D->pins = P;
+    D->info.method = SL_DIRICHLET_PINS;
+  } else {
+    sl_pins_free(P);
+  }
+  return status;
+}
+
+static sl_status sli_dirichlet_restrict(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                    sl_stats *stats) {
+  const sl_options only_memory = sli_options_with(&D->allocator);
+  D->info.method = SL_DIRICHLET_RESTRICTION;
+  return sl_factor_restrict(&D->S, &D->F, F, A, D->free_rows, D->n_free, &only_memory, stats);
+}
+
+SLI_INLINE int sli_dirichlet_is_over(sl_status status) {
+  return status == SL_ERR_MEMORY || status == SL_ERR_TOO_LARGE;
+}
+
+static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const sl_csc *A,
+                  sl_stats *stats) {
+  sli_dirichlet_choice c;
+  sli_block b = {NULL, 0, 0};
+  sl_status status = SL_OK;
+  if (!sli_dirichlet_is_factor_of(F, A)) {
+    return SL_OK;
+  }
+  c.F = F;
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
+    c.scratch = SLI_TAKE(&b, uint64_t, D->n_fixed);
+    c.uses = SLI_TAKE(&b, sl_int, F->S->n_supers);
+  }
+  if (status != SL_OK) {
+    return status;
+  }
+  sli_dirichlet_count(&c, D);
+  sli_free(&D->allocator, b.base);
+  if (D->info.seconds_pins > 0.0 &&
+    D->info.seconds_pins <= fmin(D->info.seconds_restriction, D->info.seconds_submatrix)) {
+    status = sli_dirichlet_pin(D, F, A, stats);
+  }
+  if (!sli_dirichlet_is_over(status) && D->pins == NULL &&
+    D->info.seconds_restriction <= D->info.seconds_submatrix) {
+    status = sli_dirichlet_restrict(D, F, A, stats);
+  }
+  return sli_dirichlet_is_over(status) ? status : SL_OK;
+}
+
+static void sli_dirichlet_copy(double *to, sli_dense t, const double *from, sli_dense f,
+                 sl_int rows, sl_int columns) {
+  sl_int k, r;
+  for (k = 0; k < rows; k++) {
+    for (r = 0; r < columns; r++) {
+      to[(size_t)k * t.row + (size_t)r * t.column] =
+        from == NULL ? 0.0 : from[(size_t)k * f.row + (size_t)r * f.column];
+    }
+  }
+}
+
+static sl_status sli_dirichlet_solve_pins(const sl_dirichlet *D, const sli_rhs *rhs,
+                      const double *G, size_t ldg, sl_work *W) {
+  const sl_pins *P = (const sl_pins *)D->pins;
+  const size_t n = (size_t)D->n, m = (size_t)D->n_fixed;
+  sli_block b = {NULL, 0, 0};
+  double *X = NULL, *held = NULL;
+  sl_status status = SL_OK;
+  sl_int r, count;
+  if (rhs->B != NULL && ((rhs->ldx | rhs->ldb | ldg) & SL_ROW_MAJOR) == 0) {
+    return sl_pins_solve(P, NULL, rhs->X, rhs->ldx, rhs->B, rhs->ldb, G, ldg, rhs->nrhs, W);
+  }
+  SLI_LAYOUT(&b, &D->allocator, status) {
+    X = SLI_TAKE(&b, double, 8 * (uint64_t)n);
+    held = SLI_TAKE(&b, double, 8 * (uint64_t)m);
+  }
+  for (r = 0; r < rhs->nrhs && status == SL_OK; r += count) {
+    const sli_dense x = sli_dense_by_columns(n), h = sli_dense_by_columns(m);
+    const sli_dense g = sli_dense_of(ldg);
+    sli_rhs part;
+    count = sli_min(8, rhs->nrhs - r);
+    part = sli_rhs_part(rhs, r, count);
+    sli_dirichlet_copy(X, x, part.B, sli_dense_of(part.ldb), D->n, count);
+    sli_dirichlet_copy(held, h, m == 0 ? NULL : G + (size_t)r * g.column, g, D->n_fixed, count);
+    status = sl_pins_solve(P, NULL, X, n, X, n, held, m, count, W);
+    if (status == SL_OK) {
+      sli_dirichlet_copy(part.X, sli_dense_of(part.ldx), X, x, D->n, count);
+    }
+  }
+  sli_free(&D->allocator, b.base);
+  return status;
+}
+
+static void sli_dirichlet_release(sl_dirichlet *D) {
+  sl_pins_free((sl_pins *)D->pins);
+}
+
+static const sli_dirichlet_ways sli_dirichlet_reuse = {sli_dirichlet_take, sli_dirichlet_solve_pins,
+                             sli_dirichlet_release};
 
 /* src/impl/change/edit_match.h: which rows of an edited matrix have other neighbors than before */
 
@@ -28584,7 +29597,7 @@ SL_API sl_status sl_factor_edit(sl_factor **out, const sl_factor *F, const sl_sy
   if (F == NULL || S == NULL || !sli_factor_options_are_valid(opt)) {
     return SL_ERR_ARGUMENT;
   }
-  if (!F->is_valid || !sli_factor_is_over(F, F->S, F->analysis)) {
+  if (!F->is_valid) {
     return SL_ERR_STATE;
   }
   if (F->S->n > 0 && new_of == NULL) {
@@ -29936,7 +30949,6 @@ static int sli_decode_factor(const sli_saved_factor *g, const sl_symbolic *S, sl
     return 0;
   }
   F->S = S;
-  F->analysis = S->identity;
   F->method = (sl_method)g->method;
   F->type = sli_storage_type_of((sl_storage)g->storage);
   if (F->type == NULL) { /* untested: all storages are there */
@@ -30469,14 +31481,14 @@ static sl_status sli_save_check(const sl_saved_set *set) {
       return SL_ERR_ARGUMENT;
     }
   }
-  if (S->is_partial || (F != NULL && (!F->is_valid || !sli_factor_is_over(F, S, S->identity))) ||
-    (Z != NULL && (Z->traversal.S != S || !sli_hash_equals(Z->analysis, S->identity) ||
-             (F != NULL && !sli_numbers_are_of(&Z->numbers, F))))) {
+  if (S->is_partial || (F != NULL && (!F->is_valid || F->S != S)) ||
+    (Z != NULL &&
+     (Z->traversal.S != S || (F != NULL && !sli_numbers_are_of(&Z->numbers, F))))) {
     return SL_ERR_STATE;
   }
   for (k = 0; k < set->n_regions; k++) {
     const sl_region *R = set->regions[k];
-    if (R->S != S || !sli_hash_equals(R->analysis, S->identity) || !sli_region_fits(R, F)) {
+    if (R->S != S || !sli_region_fits(R, F)) {
       return SL_ERR_STATE;
     }
   }
@@ -30865,6 +31877,7 @@ static sl_status sli_read_factor(sli_reading *r, const sl_symbolic *S, sl_factor
   }
   *out = (sl_factor *)(void *)m.block;
   **out = *F;
+  sli_borrow(&S->borrowers);
   return SL_OK;
 }
 
@@ -30940,6 +31953,7 @@ static sl_status sli_selected_of_memory(sl_selected **out, sl_selected *draft, s
     return SL_ERR_MEMORY;
   }
   **out = *draft;
+  sli_borrow(&draft->traversal.S->borrowers);
   return SL_OK;
 }
 
@@ -30987,7 +32001,6 @@ static sl_status sli_read_selected(sli_reading *r, const sl_symbolic *S, const s
   }
   memset(&draft, 0, sizeof draft);
   draft.allocator = r->allocator;
-  draft.analysis = S->identity;
   draft.is_immutable = r->is_mapped || S->is_partial;
   if (r->opt != NULL) {
     draft.threads = r->opt->threads;
@@ -31093,6 +32106,7 @@ static sl_status sli_region_of_lists(const sli_reading *r, const sl_factor *F,
     sli_region_index(&draft);
     *out = (sl_region *)(void *)b.base;
     **out = draft;
+    sli_borrow(&F->S->borrowers);
   }
   return status;
 }
@@ -31956,8 +32970,7 @@ static sl_status sli_factor_batch_check(sl_factor *const *factors, sl_int count,
         return SL_ERR_ARGUMENT;
       }
     }
-    if (!sli_factor_is_over(factors[k], factors[0]->S, factors[0]->analysis) ||
-      factors[k]->is_immutable) {
+    if (factors[k]->S != factors[0]->S || factors[k]->is_immutable) {
       return SL_ERR_STATE;
     }
   }
@@ -32053,7 +33066,7 @@ static sl_status sli_diagonal_batch_check(const sli_diagonal_batch *d, sl_int *a
     if (F == NULL) {
       return SL_ERR_ARGUMENT;
     }
-    if (!F->is_valid || !sli_factor_is_over(F, d->factors[0]->S, d->factors[0]->analysis)) {
+    if (!F->is_valid || F->S != d->factors[0]->S) {
       return SL_ERR_STATE;
     }
     if (F->E != NULL) {
@@ -32764,6 +33777,20 @@ static const char *sli_storage_needs(sl_storage storage) {
                      : "options.storage needs SL_WITH_FLOAT";
 }
 
+/* src/impl/packs/dirichlet_ways.h: the ways to fix rows that are compiled in beside a factor of the free rows */
+
+#if defined(SL_WITH_CHANGE)
+#else
+#endif
+
+static const sli_dirichlet_ways *sli_dirichlet_ways_of(void) {
+#if defined(SL_WITH_CHANGE)
+  return &sli_dirichlet_reuse;
+#else
+  return NULL;
+#endif
+}
+
 /* last: undefine every internal macro */
 /* src/impl/base/undef.h: undefines every internal macro */
 #undef SLI_METIS
@@ -33046,6 +34073,12 @@ static const char *sli_storage_needs(sl_storage storage) {
 #undef SLI_PINS_MAP
 #undef SLI_PINS_COPY
 #undef SLI_PINS_MEMORY
+#undef SLI_DIRICHLET_ANALYSIS
+#undef SLI_DIRICHLET_ROW
+#undef SLI_DIRICHLET_COPY
+#undef SLI_DIRICHLET_PROBE
+#undef SLI_DIRICHLET_PINS
+#undef SLI_DIRICHLET_LOST
 #undef SLI_PINS_LOST
 #undef SLI_PINS_OTHER
 #undef SLI_PINS_OTHER_FLOAT

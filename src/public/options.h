@@ -132,9 +132,9 @@ typedef struct sl_options {
      * SL_STORAGE_COMPLEX keeps half of L, in full accuracy (complex.h) */
     sl_storage storage;
 
-    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, as where
-     * M - t L stands for M + t L; stats.factor counts the others. Not with regularization or
-     * SL_NULL_PIVOT_SKIP, which refuses negative pivots in any case. Not saved in files */
+    /* 1: A is positive definite. A negative pivot is refused with SL_ERR_PIVOT and its row, for
+     * example where the sign of t is wrong in M + t L; stats.factor counts the others. Not allowed
+     * with regularization or SL_NULL_PIVOT_SKIP, which has its own check. Not saved in files */
     size_t definite;
 
     /* must be NULL; new options take its place, so that the size of the struct never changes */
