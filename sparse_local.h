@@ -1,5 +1,5 @@
 /* sparse_local.h 0.1.0, generated: edit src/, run make header
- * FNV-1a of the lines after this comment, without the license: dec473d1da9975e4
+ * FNV-1a of the lines after this comment, without the license: e02e633cc3eca19b
  * The comments of the implementation are in src/impl.
  *
  * Contents
@@ -46,16 +46,16 @@
  *  19401 impl/ float: L and fronts in single precision
  *  19848 impl/ inverse: entries of the inverse, regions
  *  22790 impl/ change: a factor that follows changes of its matrix
- *  29632 impl/ io: files that are replaced only when they are complete
- *  29844 impl/ files: Matrix Market files, 64-bit indices
- *  30440 impl/ save: factors in files
- *  32367 impl/ batch: many solves and factorizations by one call, sums of matrices
- *  33031 impl/ batch: diagonals of many inverses
- *  33171 impl/ complex: complex Hermitian systems over real factors
- *  33697 impl/ complex: entries of the inverse
- *  33749 impl/ packs: the tables through which the core calls packs
- *  33795 impl/ last: undefine every internal macro
- *  34117 impl/ templates: the header includes them from itself, once for each instruction set
+ *  29633 impl/ io: files that are replaced only when they are complete
+ *  29845 impl/ files: Matrix Market files, 64-bit indices
+ *  30441 impl/ save: factors in files
+ *  32368 impl/ batch: many solves and factorizations by one call, sums of matrices
+ *  33032 impl/ batch: diagonals of many inverses
+ *  33172 impl/ complex: complex Hermitian systems over real factors
+ *  33698 impl/ complex: entries of the inverse
+ *  33750 impl/ packs: the tables through which the core calls packs
+ *  33796 impl/ last: undefine every internal macro
+ *  34118 impl/ templates: the header includes them from itself, once for each instruction set
  */
 /* ---- what a user reads ---- */
 #ifndef SPARSE_LOCAL_H
@@ -27833,6 +27833,7 @@ static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const s
   if (!sli_dirichlet_is_factor_of(F, A)) {
     return SL_OK;
   }
+  memset(&c, 0, sizeof c);
   c.F = F;
   SLI_LAYOUT(&b, &D->allocator, status) {
     c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);

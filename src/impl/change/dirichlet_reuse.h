@@ -147,6 +147,7 @@ static sl_status sli_dirichlet_take(sl_dirichlet *D, const sl_factor *F, const s
     if (!sli_dirichlet_is_factor_of(F, A)) {
         return SL_OK;
     }
+    memset(&c, 0, sizeof c);
     c.F = F;
     SLI_LAYOUT(&b, &D->allocator, status) {
         c.seeds = SLI_TAKE(&b, uint64_t, D->n_fixed);
